@@ -1,0 +1,46 @@
+#include "elements/joint_coordinates.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace condyle {
+namespace {
+
+Eigen::Matrix3d about(const Eigen::Vector3d& axis, double angle) {
+  return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+}
+
+}  // namespace
+
+JointCoordinates joint_coordinates(const JointFrames& frames, const RigidTransform& X_BA) {
+  // Both anatomical frames in the ground frame; columns of F are I, J, K and of T are i, j, k.
+  const RigidTransform F = frames.tibia_moves ? frames.X_F : X_BA * frames.X_F;
+  const RigidTransform T = frames.tibia_moves ? X_BA * frames.X_T : frames.X_T;
+  const Eigen::Vector3d e1 = F.R.col(0), e3 = T.R.col(2), n = e3.cross(e1), H = T.p - F.p;
+  const double cosine = std::max(n.norm(), 1e-12);
+  const double s = frames.side;
+  JointCoordinates q;
+  q.flexion = std::atan2(e3.dot(F.R.col(1)), e3.dot(F.R.col(2)));
+  q.adduction = s * std::atan2(e3.dot(e1), n.norm());
+  q.internal_rotation = s * std::atan2(-e1.dot(T.R.col(1)), e1.dot(T.R.col(0)));
+  q.lateral_shift = s * H.dot(e1);
+  q.anterior_drawer = H.dot(n) / cosine;
+  q.distraction = -H.dot(e3);
+  return q;
+}
+
+Eigen::Matrix3d rotation_from_joint_angles(const JointFrames& frames,
+                                           double flexion,
+                                           double adduction,
+                                           double internal_rotation) {
+  // Tibial triad in the femoral one: about I by -flexion, about the floating axis, then about k.
+  const Eigen::Matrix3d R_FT = about(Eigen::Vector3d::UnitX(), -flexion) *
+                               about(Eigen::Vector3d::UnitY(), frames.side * adduction) *
+                               about(Eigen::Vector3d::UnitZ(), frames.side * internal_rotation);
+  if (frames.tibia_moves) return frames.X_F.R * R_FT * frames.X_T.R.transpose();
+  return frames.X_T.R * R_FT.transpose() * frames.X_F.R.transpose();
+}
+
+}  // namespace condyle

@@ -1,0 +1,19 @@
+#pragma once
+
+/// The only place that turns a described scene into a Model.
+
+#include <vector>
+
+#include "equilibrium/model.h"
+#include "scene/fit_surfaces.h"
+#include "scene/scene.h"
+
+namespace condyle {
+
+/// `surfaces` as from fit_surfaces: one per Scene::surfaces.
+[[nodiscard]] Model build_model(const Scene& scene, const std::vector<FittedSurface>& surfaces);
+
+/// The frames of the joint coordinates, right-handed for either side.
+[[nodiscard]] JointFrames joint_frames(const Scene& scene);
+
+}  // namespace condyle

@@ -1,0 +1,241 @@
+#include "equilibrium/contact_search.h"
+
+#include <Eigen/Geometry>
+#include <nanoflann.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "elements/contact.h"
+
+namespace condyle {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kLeafSize = 8;
+constexpr double kDeepest = 12;  // overlap that is still taken for one, in sample spacings
+
+struct PointCloud {
+  const std::vector<Eigen::Vector3d>& points;
+  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
+  [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+    return points[i][static_cast<Eigen::Index>(axis)];
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const { return false; }
+};
+
+}  // namespace
+
+bool refine_minimum(const Surface& on_B,
+                    Place& place_B,
+                    const Surface& on_A,
+                    Place& place_A,
+                    const RigidTransform& X_BA,
+                    double reach) {
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    const ContactLinearization contact = linearize_contact(on_B, place_B, on_A, place_A, X_BA);
+    if (iteration == 0) start = contact.B.c;
+    if (!contact.g.allFinite() || (contact.B.c - start).norm() > reach) return false;
+    // At a finite gap only the tangential part of g is an error.
+    const Eigen::Vector3d along = contact.gap() * contact.B.n;
+    const double slide = (contact.g - along).norm() + contact.h.norm() / 0.05;
+    if (slide < 1e-11) return contact.relative_curvature[0] > 0;
+    Eigen::Vector3d dc = contact.D0;
+    Eigen::Vector3d dc_A = dc - (contact.g - along);
+    const double longest = std::max(dc.norm(), dc_A.norm());
+    if (longest > reach) {
+      dc *= reach / longest;
+      dc_A *= reach / longest;
+    }
+    place_B = on_B.moved(place_B, contact.B, dc);
+    place_A = on_A.moved(place_A, contact.A, X_BA.R.transpose() * dc_A);
+  }
+  return false;
+}
+
+ContactSearch::ContactSearch(const ContactPair& pair, double spacing)
+    : on_B_(pair.on_B.get()), on_A_(pair.on_A.get()), spacing_(spacing) {
+  const std::vector<Place> on_A = on_A_->samples(spacing), on_B = on_B_->samples(spacing);
+  sampled_on_A_ = !on_A.empty() && (on_B.empty() || on_A.size() <= on_B.size());
+  places_ = sampled_on_A_ ? on_A : on_B;
+  const Surface& sampled = sampled_on_A_ ? *on_A_ : *on_B_;
+  for (const Place& place : places_) points_.push_back(sampled.evaluate(place).c);
+  const std::size_t n = places_.size();
+  feet_.resize(n);
+  has_foot_.assign(n, 0);
+  gap_.assign(n, kInfinity);
+  stamp_.assign(n, -1);
+  order_.resize(n);
+  near_.reserve(n);
+  std::iota(order_.begin(), order_.end(), 0);
+  link_neighbours(1.6 * spacing);
+  if (n > 0) build(0, static_cast<int>(n));
+}
+
+void ContactSearch::link_neighbours(double radius) {
+  neighbours_.resize(points_.size());
+  for (auto& list : neighbours_) list.fill(-1);
+  if (points_.empty()) return;
+  const PointCloud cloud{points_};
+  const nanoflann::
+      KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>, PointCloud, 3>
+          tree(3, cloud);
+  std::array<unsigned int, 9> index;
+  std::array<double, 9> square;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const std::size_t found = tree.knnSearch(points_[i].data(), 9, index.data(), square.data());
+    int k = 0;
+    for (std::size_t j = 0; j < found && k < 8; ++j)
+      if (index[j] != static_cast<unsigned int>(i) && square[j] < radius * radius) neighbours_[i][k++] = static_cast<int>(index[j]);
+  }
+}
+
+int ContactSearch::build(int first, int last) {
+  Eigen::AlignedBox3d box;
+  for (int k = first; k < last; ++k) box.extend(points_[order_[k]]);
+  const Eigen::Vector3d middle = box.center();
+  Cluster cluster{order_[first], 0, first, last, {-1, -1}};
+  for (int k = first; k < last; ++k)
+    if ((points_[order_[k]] - middle).squaredNorm() < (points_[cluster.center] - middle).squaredNorm())
+      cluster.center = order_[k];
+  for (int k = first; k < last; ++k)
+    cluster.radius = std::max(cluster.radius, (points_[order_[k]] - points_[cluster.center]).norm());
+  const int index = static_cast<int>(clusters_.size());
+  clusters_.push_back(cluster);
+  if (last - first > kLeafSize) {
+    Eigen::Index axis;
+    box.sizes().maxCoeff(&axis);
+    const int half = (first + last) / 2;
+    std::nth_element(order_.begin() + first, order_.begin() + half, order_.begin() + last,
+                     [&](int a, int b) { return points_[a][axis] < points_[b][axis]; });
+    const int low = build(first, half), high = build(half, last);
+    clusters_[index].child[0] = low;
+    clusters_[index].child[1] = high;
+  }
+  return index;
+}
+
+double ContactSearch::gap_of(int sample, const RigidTransform& X_from_to) {
+  if (stamp_[sample] == now_) return gap_[sample];
+  stamp_[sample] = now_;
+  const Surface& other = sampled_on_A_ ? *on_B_ : *on_A_;
+  const Eigen::Vector3d p = X_from_to * points_[sample];
+  Place& foot = feet_[sample];
+  bool fresh = !has_foot_[sample];
+  double gap = kInfinity;
+  for (int attempt = 0; attempt < 2; ++attempt, fresh = true) {
+    if (fresh) foot = other.seed(p);
+    SurfacePoint at = other.evaluate(foot);
+    Eigen::Vector3d to_p = p - at.c;
+    gap = to_p.dot(at.n);
+    double slide = (to_p - gap * at.n).norm();
+    for (int step = 0; step < 4 && slide > 0.2 * spacing_; ++step) {
+      foot = other.moved(foot, at, to_p - gap * at.n);
+      at = other.evaluate(foot);
+      to_p = p - at.c;
+      gap = to_p.dot(at.n);
+      slide = (to_p - gap * at.n).norm();
+    }
+    has_foot_[sample] = slide < spacing_;
+    if (!has_foot_[sample]) continue;
+    // What a perfect foot would add, to second order: -K points towards the solid on a convex one.
+    const Eigen::Vector3d t = to_p - gap * at.n;
+    gap -= 0.5 * t.dot(at.K * t);
+    break;
+  }
+  if (!has_foot_[sample]) {
+    foot = other.closest(p, other.seed(p));
+    const SurfacePoint at = other.evaluate(foot);
+    gap = std::copysign((p - at.c).norm(), (p - at.c).dot(at.n));
+    has_foot_[sample] = 1;
+  }
+  gap_[sample] = gap;
+  return gap;
+}
+
+void ContactSearch::visit(int index, const RigidTransform& X_from_to, double cutoff) {
+  const Cluster& cluster = clusters_[index];
+  const double gap = gap_of(cluster.center, X_from_to);
+  // Far behind an open patch is not inside the solid.
+  if (gap - cluster.radius > cutoff || gap + cluster.radius < -kDeepest * spacing_) return;
+  if (cluster.child[0] >= 0) {
+    visit(cluster.child[0], X_from_to, cutoff);
+    visit(cluster.child[1], X_from_to, cutoff);
+    return;
+  }
+  for (int k = cluster.first; k < cluster.last; ++k) {
+    const int sample = order_[k];
+    const double sample_gap = gap_of(sample, X_from_to);
+    if (sample_gap < cutoff && sample_gap > -kDeepest * spacing_) near_.push_back(sample);
+  }
+}
+
+bool ContactSearch::is_lowest_of_neighbours(int sample) const {
+  for (const int other : neighbours_[sample]) {
+    if (other < 0 || stamp_[other] != now_) continue;
+    if (gap_[other] < gap_[sample] || (gap_[other] == gap_[sample] && other < sample)) return false;
+  }
+  return true;
+}
+
+GapMinimum ContactSearch::refine(int sample, const RigidTransform& X_BA) const {
+  GapMinimum minimum;
+  minimum.on_A = sampled_on_A_ ? places_[sample] : feet_[sample];
+  minimum.on_B = sampled_on_A_ ? feet_[sample] : places_[sample];
+  Place refined_B = minimum.on_B, refined_A = minimum.on_A;
+  minimum.refined = refine_minimum(*on_B_, refined_B, *on_A_, refined_A, X_BA, 4 * spacing_);
+  if (minimum.refined) {
+    minimum.on_B = refined_B;
+    minimum.on_A = refined_A;
+  } else if (sampled_on_A_) {
+    minimum.on_B = on_B_->closest(X_BA * points_[sample], minimum.on_B);
+  } else {
+    minimum.on_A = on_A_->closest(X_BA.inverse() * points_[sample], minimum.on_A);
+  }
+  const SurfacePoint B = on_B_->evaluate(minimum.on_B);
+  const SurfacePoint A = on_A_->evaluate(minimum.on_A);
+  minimum.point_B = B.c;
+  minimum.n = B.n;
+  minimum.s = X_BA.R * A.c;
+  minimum.gap = B.n.dot(X_BA.p + minimum.s - B.c);
+  minimum.edge = std::min(on_B_->edge_distance(minimum.on_B), on_A_->edge_distance(minimum.on_A));
+  return minimum;
+}
+
+void ContactSearch::find(const RigidTransform& X_BA,
+                         double cutoff,
+                         std::vector<GapMinimum>& minima,
+                         double merge) {
+  minima.clear();
+  lowest_ = kInfinity;
+  near_.clear();
+  ++now_;
+  if (places_.empty()) return;
+  const RigidTransform X_from_to = sampled_on_A_ ? X_BA : X_BA.inverse();
+  const Surface& other = sampled_on_A_ ? *on_B_ : *on_A_;
+  // A minimum between samples lies lower than both: look a little higher, keep what the refinement says.
+  visit(0, X_from_to, cutoff + 0.15 * spacing_);
+  for (const int sample : near_) {
+    if (other.edge_distance(feet_[sample]) < 0) continue;
+    lowest_ = std::min(lowest_, gap_[sample]);
+    if (!is_lowest_of_neighbours(sample)) continue;
+    const GapMinimum minimum = refine(sample, X_BA);
+    if (minimum.gap < cutoff && minimum.edge > -spacing_) minima.push_back(minimum);
+  }
+  std::sort(minima.begin(), minima.end(),
+            [](const GapMinimum& a, const GapMinimum& b) { return a.gap < b.gap; });
+  std::size_t kept = 0;
+  for (const GapMinimum& minimum : minima) {
+    bool isolated = true;
+    for (std::size_t k = 0; k < kept && isolated; ++k)
+      isolated = (minima[k].point_B - minimum.point_B).norm() > merge;
+    if (isolated) minima[kept++] = minimum;
+  }
+  minima.resize(kept);
+}
+
+}  // namespace condyle

@@ -1,0 +1,357 @@
+#include "equilibrium/descent.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/rotation.h"
+
+namespace condyle {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+constexpr std::size_t kMemorySize = 24;
+constexpr std::size_t kMostMinima = 12;     // of one pair
+constexpr double kCompliance = 1e-8;        // of the constraints, relative
+constexpr double kNewtonReach = 0.05;       // a step shorter than this [L] is worth an attempt of Newton
+
+double weight(const Model& model, std::size_t condition) {
+  return is_angle(model.conditions[condition].kind) ? model.length : 1;
+}
+
+/// X moved by a step in scaled components (da, L dπ).
+RigidTransform moved(const RigidTransform& X, const Vector6& step, double L) {
+  return {exp_rotation(step.tail<3>() / L) * X.R, X.p + step.head<3>()};
+}
+
+/// The step that leads from one pose to another.
+Vector6 step_between(const RigidTransform& from, const RigidTransform& to, double L) {
+  Vector6 step;
+  step << to.p - from.p, L * log_rotation(to.R * from.R.transpose());
+  return step;
+}
+
+/// Symmetric part of -∂wrench in scaled components [N/mm].
+Matrix6 stiffness(const Wrench& w, double L) {
+  Matrix6 K;
+  K << w.F1, w.F2 / L, w.M1 / L, w.M2 / (L * L);
+  return -0.5 * (K + K.transpose());
+}
+
+Vector6 scaled(const Wrench& wrench, double L) {
+  Vector6 w;
+  w << wrench.f, wrench.m / L;
+  return w;
+}
+
+}  // namespace
+
+Descent::Descent(const Model& model,
+                 std::vector<ContactSearch>& searches,
+                 Newton& newton,
+                 DescentOptions options)
+    : model_(model), searches_(searches), newton_(newton), options_(options) {}
+
+DescentReport Descent::solve(EquilibriumState& state, const Accept& accept) {
+  DescentReport report;
+  const Eigen::Vector3d origin = state.X.p;
+  start(state.X);
+  while (report.steps < options_.max_steps && iterate(accept, report)) {
+    report.ran_away = (X_.p - origin).norm() > 50 * model_.length;
+    if (report.ran_away) break;
+  }
+  state.X = X_;
+  if (report.converged) state = result_;
+  return report;
+}
+
+void Descent::start(const RigidTransform& X) {
+  X_ = X;
+  memory_.clear();
+  reach_ = options_.longest_step * model_.length;
+  shift_ = penalty_ = 0;
+  patience_ = 0;
+  gather(X_, constraints_);
+}
+
+/// One quadratic programme and its step; false when there is nothing more to gain.
+bool Descent::iterate(const Accept& accept, DescentReport& report) {
+  ++report.steps;
+  ++report.iterations;
+  Programme programme;
+  set_forces(programme);
+  set_rows(programme);
+  SmallQpSolution solution = solve_qp(programme.qp);
+  add_contact_curvature(programme, solution);
+  solution = solve_qp(programme.qp);
+  Vector6 step = solution.x;
+  if (!step.allFinite()) return false;
+  const Multipliers forces = multipliers(programme, solution);
+
+  const double L = model_.length;
+  if (step.norm() < kNewtonReach * L && patience_-- <= 0) {
+    if (try_newton(forces, constraints_, accept, report)) return false;
+    patience_ = 2;
+  }
+  if (step.norm() < 1e-11 * L) return false;
+  if (step.norm() > reach_) step *= reach_ / step.norm();
+
+  remember(constraints_);
+  penalty_ = std::max(0.7 * penalty_, 1.5 * std::max(forces.largest, 0.1 * programme.force_scale));
+  const std::vector<Constraint> carrying = constraints_;
+  gather(X_, constraints_);  // with what was just remembered
+  if (take_step(programme, step, penalty_, report)) return true;
+
+  if (try_newton(forces, carrying, accept, report)) return false;
+  reach_ = std::max(reach_, 1e-4 * L);
+  if (memory_.empty() || report.steps > options_.max_steps / 2) return false;
+  memory_.clear();  // material points that are kept too long spoil the convergence
+  gather(X_, constraints_);
+  return true;
+}
+
+Descent::Constraint Descent::constrain(int pair,
+                                       const Place& on_B,
+                                       const Place& on_A,
+                                       const RigidTransform& X) const {
+  const SurfacePoint B = model_.pairs[pair].on_B->evaluate(on_B);
+  const Eigen::Vector3d s = X.R * model_.pairs[pair].on_A->evaluate(on_A).c;
+  Constraint constraint{pair, on_B, on_A, B.n.dot(X.p + s - B.c), Vector6(), false, false};
+  constraint.row << B.n, s.cross(B.n) / model_.length;
+  return constraint;
+}
+
+void Descent::gather(const RigidTransform& X, std::vector<Constraint>& constraints) {
+  constraints.clear();
+  const double L = model_.length;
+  for (int p = 0; p < static_cast<int>(model_.pairs.size()); ++p) {
+    const ContactMode mode = model_.pairs[p].mode;
+    if (mode == ContactMode::kOpen) continue;
+    const bool held = mode == ContactMode::kClosed;
+    searches_[p].find(X, held ? 20 * L : 2 * options_.longest_step * L, minima_, 0.003 * L);
+    minima_.resize(std::min(minima_.size(), held ? 1 : kMostMinima));
+    const std::size_t first = constraints.size();
+    for (const GapMinimum& minimum : minima_) {
+      constraints.push_back(constrain(p, minimum.on_B, minimum.on_A, X));
+      constraints.back().refined = minimum.refined;
+      constraints.back().bilateral = held;
+    }
+    if (!held) add_memory(p, first, X, constraints);
+  }
+}
+
+void Descent::add_memory(int pair,
+                         std::size_t first,
+                         const RigidTransform& X,
+                         std::vector<Constraint>& constraints) {
+  const Surface& on_A = *model_.pairs[pair].on_A;
+  const Surface& on_B = *model_.pairs[pair].on_B;
+  for (const auto& [owner, place] : memory_) {
+    if (owner != pair) continue;
+    const Eigen::Vector3d point = X * on_A.evaluate(place).c;
+    const Place foot = on_B.closest(point, on_B.seed(point));
+    if (on_B.edge_distance(foot) < 0) continue;
+    const bool isolated = std::all_of(
+        constraints.begin() + static_cast<std::ptrdiff_t>(first), constraints.end(), [&](const Constraint& c) {
+          return (X * on_A.evaluate(c.on_A).c - point).norm() > 0.01 * model_.length;
+        });
+    if (isolated) constraints.push_back(constrain(pair, foot, place, X));
+  }
+}
+
+void Descent::remember(const std::vector<Constraint>& constraints) {
+  for (const Constraint& constraint : constraints) {
+    if (constraint.bilateral || !constraint.refined || constraint.gap > 0.02 * model_.length) continue;
+    const Surface& on_A = *model_.pairs[constraint.pair].on_A;
+    const Eigen::Vector3d c = on_A.evaluate(constraint.on_A).c;
+    const bool known = std::any_of(memory_.begin(), memory_.end(), [&](const auto& entry) {
+      return entry.first == constraint.pair &&
+             (on_A.evaluate(entry.second).c - c).norm() < 0.02 * model_.length;
+    });
+    if (known) continue;
+    if (memory_.size() == kMemorySize) memory_.erase(memory_.begin());
+    memory_.emplace_back(constraint.pair, constraint.on_A);
+  }
+}
+
+void Descent::set_forces(Programme& programme) const {
+  const double L = model_.length;
+  Wrench wrench;
+  programme.force_scale = 1e-12;
+  for (const LineElement& element : model_.elements)
+    programme.force_scale += std::abs(add_line_element(element, X_, wrench).force);
+  for (const Load& load : model_.loads) {
+    const Vector6 before = scaled(wrench, L);
+    add_load(load, X_, wrench);
+    programme.force_scale += (scaled(wrench, L) - before).norm();
+  }
+  SmallQp& qp = programme.qp;
+  qp.H = stiffness(wrench, L);
+  qp.g = -scaled(wrench, L);
+  programme.stiffness_scale = std::max(qp.H.cwiseAbs().maxCoeff(), programme.force_scale / (3 * L));
+  qp.floor = std::max(1e-4 * programme.stiffness_scale, shift_);
+  qp.compliance = kCompliance;
+}
+
+void Descent::set_rows(Programme& programme) const {
+  for (std::size_t k = 0; k < constraints_.size(); ++k)
+    (constraints_[k].bilateral ? programme.two_sided : programme.one_sided).push_back(k);
+  const auto m = static_cast<Eigen::Index>(model_.conditions.size());
+  SmallQp& qp = programme.qp;
+  qp.C.resize(m + static_cast<Eigen::Index>(programme.two_sided.size()), 6);
+  qp.b.resize(qp.C.rows());
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const auto condition = static_cast<std::size_t>(i);
+    const ConditionDerivatives k = evaluate(model_.conditions[condition], X_);
+    const double w = weight(model_, condition);
+    qp.C.row(i) << w * k.alpha.transpose(), w * k.eta.transpose() / model_.length;
+    qp.b[i] = -w * k.k;
+  }
+  Eigen::Index row = m;
+  for (const std::size_t k : programme.two_sided) {
+    qp.C.row(row) = constraints_[k].row.transpose();
+    qp.b[row++] = -constraints_[k].gap;
+  }
+  qp.A.resize(static_cast<Eigen::Index>(programme.one_sided.size()), 6);
+  qp.d.resize(qp.A.rows());
+  row = 0;
+  for (const std::size_t k : programme.one_sided) {
+    qp.A.row(row) = constraints_[k].row.transpose();
+    qp.d[row++] = -constraints_[k].gap;
+  }
+}
+
+/// -p times the second derivative of each gap that carries: how a curved contact yields when the pose tilts.
+void Descent::add_contact_curvature(Programme& programme, const SmallQpSolution& solution) const {
+  for (std::size_t j = 0; j < programme.one_sided.size(); ++j) {
+    const Constraint& constraint = constraints_[programme.one_sided[j]];
+    const double p = solution.lambda[static_cast<Eigen::Index>(j)];
+    if (p <= 0 || !constraint.refined) continue;
+    const ContactPair& pair = model_.pairs[constraint.pair];
+    Wrench of_contact;
+    add_contact_force(
+        linearize_contact(*pair.on_B, constraint.on_B, *pair.on_A, constraint.on_A, X_), p, of_contact);
+    const Matrix6 K = stiffness(of_contact, model_.length);
+    if (K.allFinite()) programme.qp.H += K;
+  }
+}
+
+Descent::Multipliers Descent::multipliers(const Programme& programme, const SmallQpSolution& solution) const {
+  Multipliers forces;
+  forces.p.assign(constraints_.size(), 0);
+  for (std::size_t j = 0; j < programme.one_sided.size(); ++j)
+    forces.p[programme.one_sided[j]] = solution.lambda[static_cast<Eigen::Index>(j)];
+  const std::size_t m = model_.conditions.size();
+  for (std::size_t j = 0; j < programme.two_sided.size(); ++j)
+    forces.p[programme.two_sided[j]] = solution.nu[static_cast<Eigen::Index>(m + j)];
+  for (std::size_t i = 0; i < m; ++i) {
+    const double nu = solution.nu[static_cast<Eigen::Index>(i)];
+    forces.sigma.push_back(-nu * weight(model_, i));
+    forces.largest = std::max(forces.largest, std::abs(nu));
+  }
+  for (const double p : forces.p) forces.largest = std::max(forces.largest, std::abs(p));
+  return forces;
+}
+
+double Descent::violation(const std::vector<Constraint>& constraints, const RigidTransform& X) const {
+  double sum = 0;
+  for (const Constraint& constraint : constraints)
+    sum += constraint.bilateral ? std::abs(constraint.gap) : std::max(0.0, -constraint.gap);
+  for (std::size_t i = 0; i < model_.conditions.size(); ++i)
+    sum += weight(model_, i) * std::abs(evaluate(model_.conditions[i], X).k);
+  return sum;
+}
+
+double Descent::energy_change(const RigidTransform& from, const RigidTransform& to) const {
+  double change = 0;
+  for (const LineElement& element : model_.elements)
+    change += line_element_state(element, to).energy - line_element_state(element, from).energy;
+  Wrench before, after;
+  for (const Load& load : model_.loads) {
+    add_load(load, from, before);
+    add_load(load, to, after);
+  }
+  const Vector6 mean = 0.5 * (scaled(before, model_.length) + scaled(after, model_.length));
+  return change - mean.dot(step_between(from, to, model_.length));
+}
+
+/// Second-order correction: the same programme with the rows and gaps found at the end of the step.
+Vector6 Descent::corrected_step(const Programme& programme,
+                                const Vector6& step,
+                                const RigidTransform& to,
+                                const std::vector<Constraint>& there) const {
+  SmallQp qp = programme.qp;
+  for (std::size_t i = 0; i < model_.conditions.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    qp.b[row] = qp.C.row(row).dot(step) - weight(model_, i) * evaluate(model_.conditions[i], to).k;
+  }
+  qp.A.resize(static_cast<Eigen::Index>(there.size()), 6);
+  qp.d.resize(qp.A.rows());
+  for (std::size_t k = 0; k < there.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    qp.A.row(row) = there[k].row.transpose();
+    qp.d[row] = there[k].row.dot(step) - there[k].gap;
+  }
+  return solve_qp(qp).x;
+}
+
+bool Descent::take_step(const Programme& programme, Vector6 step, double penalty, DescentReport& report) {
+  constexpr int kAttempts = 12;
+  const double L = model_.length;
+  const double violation_before = violation(constraints_, X_);
+  const auto improves = [&](const RigidTransform& to, double tolerance) {
+    gather(to, trial_);
+    return energy_change(X_, to) + penalty * (violation(trial_, to) - violation_before) < tolerance;
+  };
+  const auto accept = [&](const RigidTransform& to, double length) {
+    X_ = to;
+    constraints_.swap(trial_);
+    report.step = length;
+    return true;
+  };
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const RigidTransform to = moved(X_, step, L);
+    if (improves(to, 1e-10 * programme.force_scale * step.norm())) {
+      if (attempt == 0) {
+        reach_ = std::min(2 * reach_, options_.longest_step * L);
+        shift_ *= 0.25;
+      }
+      return accept(to, step.norm());
+    }
+    if (attempt == 0) {
+      const Vector6 second = corrected_step(programme, step, to, trial_);
+      if (second.allFinite() && second.norm() < 2 * step.norm()) {
+        const RigidTransform corrected = moved(X_, second, L);
+        if (improves(corrected, 0)) return accept(corrected, second.norm());
+      }
+    }
+    step *= 0.5;
+    reach_ = step.norm();
+    shift_ = std::max(2 * shift_, 1e-2 * programme.stiffness_scale);
+  }
+  return false;
+}
+
+bool Descent::try_newton(const Multipliers& multipliers,
+                         const std::vector<Constraint>& constraints,
+                         const Accept& accept,
+                         DescentReport& report) {
+  EquilibriumState trial;
+  trial.X = X_;
+  trial.sigma = multipliers.sigma;
+  for (std::size_t k = 0; k < constraints.size(); ++k) {
+    if (!constraints[k].bilateral && multipliers.p[k] <= 1e-9 * multipliers.largest) continue;
+    trial.contacts.push_back({constraints[k].pair, constraints[k].on_B, constraints[k].on_A, multipliers.p[k]});
+  }
+  if (trial.contacts.size() + trial.sigma.size() > kMaxConstraints) return false;
+  report.newton = newton_.solve(trial);
+  report.iterations += report.newton.iterations;
+  report.converged = report.newton.outcome == NewtonOutcome::kConverged && accept(trial);
+  if (report.converged) result_ = trial;
+  return report.converged;
+}
+
+}  // namespace condyle

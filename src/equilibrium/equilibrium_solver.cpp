@@ -1,0 +1,233 @@
+#include "equilibrium/equilibrium_solver.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "equilibrium/stability.h"
+#include "math/rotation.h"
+
+namespace condyle {
+namespace {
+
+constexpr double kSpacing = 0.04;  // of contact samples, in units of L (1.2 mm for a knee)
+constexpr double kMerge = 0.01;    // minima nearer than this are one contact, in units of L
+
+std::vector<ContactSearch> make_searches(const Model& model) {
+  std::vector<ContactSearch> searches;
+  for (const ContactPair& pair : model.pairs) searches.emplace_back(pair, kSpacing * model.length);
+  return searches;
+}
+
+}  // namespace
+
+EquilibriumSolver::EquilibriumSolver(Model model, EquilibriumOptions options)
+    : model_(std::make_unique<Model>(std::move(model))),
+      options_(options),
+      searches_(make_searches(*model_)),
+      newton_(*model_, options_.newton),
+      descent_(*model_, searches_, newton_, options_.descent) {
+  state_.contacts.reserve(kMaxConstraints);
+  state_.sigma.assign(model_->conditions.size(), 0);
+  state_.X = model_->start;
+}
+
+void EquilibriumSolver::set_state(const EquilibriumState& state) {
+  state_ = state;
+  has_state_ = true;
+}
+
+bool EquilibriumSolver::release_pulling(EquilibriumState& state) const {
+  int worst = -1;
+  double lowest = -1e-12 * newton_.system().force_scale();
+  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+    const ClosedContact& contact = state.contacts[k];
+    if (model_->pairs[contact.pair].mode == ContactMode::kClosed || contact.p >= lowest) continue;
+    worst = static_cast<int>(k);
+    lowest = contact.p;
+  }
+  if (worst >= 0) state.contacts.erase(state.contacts.begin() + worst);
+  return worst >= 0;
+}
+
+bool EquilibriumSolver::add_overlaps(EquilibriumState& state, bool& too_many) {
+  bool added = false;
+  const double L = model_->length;
+  for (std::size_t p = 0; p < searches_.size(); ++p) {
+    if (model_->pairs[p].mode != ContactMode::kAuto) continue;
+    searches_[p].find(state.X, 0.0, minima_, kMerge * L);
+    for (const GapMinimum& minimum : minima_) {
+      if (minimum.gap > -options_.overlap * L / 30) continue;
+      const bool known = std::any_of(state.contacts.begin(), state.contacts.end(), [&](const ClosedContact& c) {
+        return c.pair == static_cast<int>(p) &&
+               (model_->pairs[p].on_B->evaluate(c.on_B).c - minimum.point_B).norm() < kMerge * L;
+      });
+      if (known && minimum.gap > -1e-3 * kMerge * L) continue;
+      if (state.contacts.size() + state.sigma.size() >= kMaxConstraints) {
+        too_many = true;
+        return added;
+      }
+      state.contacts.push_back({static_cast<int>(p), minimum.on_B, minimum.on_A, 0});
+      added = true;
+    }
+  }
+  return added;
+}
+
+bool EquilibriumSolver::on_minima(const EquilibriumState& state) const {
+  const std::vector<ContactLinearization>& contacts = newton_.system().contacts();
+  for (std::size_t k = 0; k < state.contacts.size(); ++k)
+    if (model_->pairs[state.contacts[k].pair].mode == ContactMode::kAuto &&
+        contacts[k].relative_curvature[0] < -1e-7)
+      return false;
+  return true;
+}
+
+bool EquilibriumSolver::carries_and_clear(EquilibriumState& state) {
+  bool too_many = false;
+  EquilibriumState copy = state;
+  return on_minima(state) && !release_pulling(copy) && !add_overlaps(copy, too_many) && !too_many;
+}
+
+bool EquilibriumSolver::settle(EquilibriumState& state, NewtonReport& report, int& iterations) {
+  constexpr int kRounds = 8;
+  for (int round = 0; round < kRounds; ++round) {
+    report = newton_.solve(state);
+    iterations += report.iterations;
+    if (report.outcome != NewtonOutcome::kConverged) return false;
+    if (release_pulling(state)) continue;
+    bool too_many = false;
+    if (add_overlaps(state, too_many)) continue;
+    return !too_many && on_minima(state);
+  }
+  return false;
+}
+
+PoseResult EquilibriumSolver::solve() {
+  const auto begin = std::chrono::steady_clock::now();
+  PoseResult result;
+  EquilibriumState state = state_;
+  state.X.R = orthonormalized(state.X.R);
+  NewtonReport newton;
+  bool solved = has_state_ && settle(state, newton, result.iterations);
+  DescentReport descent;
+  if (!solved) {
+    state = state_;
+    state.X.R = orthonormalized(state.X.R);
+    descent = descent_.solve(state, [this](EquilibriumState& s) { return carries_and_clear(s); });
+    result.iterations += descent.iterations;
+    newton = descent.newton;
+    solved = descent.converged;
+  }
+  result.residual = newton.residual;
+  if (solved) {
+    result.status = PoseStatus::kConverged;
+    newton_.system().assemble(state);
+    fill(result, state);
+    judge(result);
+    state_ = state;  // beyond the patch as well: the next pose may come back
+    has_state_ = true;
+  } else {
+    explain_failure(result, descent);
+  }
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+void EquilibriumSolver::fill(PoseResult& result, const EquilibriumState& state) {
+  const NewtonSystem& system = newton_.system();
+  result.X_BA = state.X;
+  result.residual = system.out_of_balance();
+  if (model_->joint) result.joint = joint_coordinates(*model_->joint, state.X);
+  for (const LineElement& element : model_->elements) {
+    const LineElementState now = line_element_state(element, state.X);
+    const double slack = slack_length(element.law);
+    result.ligaments.push_back({now.length, slack > 0 ? now.length / slack - 1 : 0, now.force});
+  }
+  for (std::size_t i = 0; i < model_->conditions.size(); ++i)
+    result.conditions.push_back({system.conditions()[i].coordinate, state.sigma[i]});
+  fill_contacts(result, state);
+  if (options_.stability) {
+    result.lowest_stiffness = stability(*model_, system).lowest_stiffness;
+    result.stability = result.lowest_stiffness > 0 ? 1 : 0;
+  }
+}
+
+void EquilibriumSolver::fill_contacts(PoseResult& result, const EquilibriumState& state) {
+  result.contacts.resize(model_->pairs.size());
+  const auto edge = [&](const ContactPair& pair, const Place& on_B, const Place& on_A) {
+    return std::min(pair.on_B->edge_distance(on_B), pair.on_A->edge_distance(on_A));
+  };
+  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+    const ClosedContact& closed = state.contacts[k];
+    const ContactLinearization& at = newton_.system().contacts()[k];
+    ContactResult& contact = result.contacts[closed.pair];
+    ContactPointResult point;
+    point.force = closed.p;
+    point.point_ground = at.B.c;
+    point.point_moving = at.A.c;
+    point.normal_ground = at.B.n;
+    point.gap = at.gap();
+    point.relative_curvature = at.relative_curvature;
+    point.edge_distance = edge(model_->pairs[closed.pair], closed.on_B, closed.on_A);
+    point.on_edge = point.edge_distance < options_.edge_margin;
+    contact.closed = true;
+    contact.force += closed.p;
+    contact.points.push_back(point);
+  }
+  for (std::size_t p = 0; p < model_->pairs.size(); ++p) {
+    ContactResult& contact = result.contacts[p];
+    if (contact.closed) continue;
+    searches_[p].find(state.X, 2 * model_->length, minima_, kMerge * model_->length);
+    if (minima_.empty()) continue;
+    const GapMinimum& lowest = minima_.front();
+    const ContactPair& pair = model_->pairs[p];
+    const ContactLinearization at =
+        linearize_contact(*pair.on_B, lowest.on_B, *pair.on_A, lowest.on_A, state.X);
+    ContactPointResult point;
+    point.point_ground = at.B.c;
+    point.point_moving = at.A.c;
+    point.normal_ground = at.B.n;
+    point.gap = at.gap();
+    point.relative_curvature = at.relative_curvature;
+    point.edge_distance = lowest.edge;
+    point.on_edge = lowest.edge < options_.edge_margin;
+    contact.points.push_back(point);
+  }
+}
+
+void EquilibriumSolver::judge(PoseResult& result) const {
+  for (std::size_t p = 0; p < result.contacts.size(); ++p) {
+    if (!result.contacts[p].closed) continue;
+    for (const ContactPointResult& point : result.contacts[p].points) {
+      if (point.edge_distance >= 0) continue;
+      result.status = PoseStatus::kLeftPatch;
+      result.reason = "contact \"" + model_->pairs[p].name + "\" lies beyond the known part of its surface";
+    }
+  }
+}
+
+void EquilibriumSolver::explain_failure(PoseResult& result, const DescentReport& report) const {
+  const NewtonReport& newton = report.newton;
+  if (report.ran_away) {
+    result.status = PoseStatus::kNoEquilibrium;
+    result.reason = "the body runs away: nothing carries the load";
+  } else if (newton.outcome == NewtonOutcome::kZeroLength) {
+    result.status = PoseStatus::kZeroLength;
+    result.reason = "line element \"" + model_->element_names[newton.zero_element] + "\" has no length";
+  } else if (newton.outcome == NewtonOutcome::kSingular) {
+    result.status = PoseStatus::kSingular;
+    result.reason = "conditions and contacts depend on each other, or nothing resists a motion";
+  } else if (newton.outcome == NewtonOutcome::kConverged) {
+    result.status = PoseStatus::kOverlap;
+    result.reason = "no set of contacts was found that carries without overlap or pull";
+  } else if (newton.outcome == NewtonOutcome::kDiverged) {
+    result.status = PoseStatus::kDiverged;
+    result.reason = "Newton's method diverged";
+  } else {
+    result.status = PoseStatus::kIterationLimit;
+    result.reason = "no equilibrium within the iteration limit; last step " + std::to_string(report.step) + " mm";
+  }
+}
+
+}  // namespace condyle

@@ -1,0 +1,66 @@
+#pragma once
+
+/// Positions of equilibrium of one model, one after the other.
+///
+/// Newton on the contacts of the pose before comes first; then contacts that pull are released, overlaps that the
+/// search finds become contacts, and Newton goes on, until forces and gaps agree (Dortmans repeats the increment
+/// likewise [1986, 4.6], but cannot find a new contact). Where this does not settle, the descent finds the way.
+/// A pose is converged only when no part of the known surfaces overlaps by more than `overlap`.
+
+#include <memory>
+#include <vector>
+
+#include "equilibrium/contact_search.h"
+#include "equilibrium/descent.h"
+#include "equilibrium/newton.h"
+#include "equilibrium/pose_result.h"
+
+namespace condyle {
+
+struct EquilibriumOptions {
+  NewtonOptions newton;
+  DescentOptions descent;
+  double overlap = 5e-7;       ///< largest overlap of a converged pose [mm], and relative to L/30 mm
+  double edge_margin = 3;      ///< a contact nearer than this to the edge of its patch is flagged [mm]
+  bool stability = true;
+};
+
+class EquilibriumSolver {
+ public:
+  explicit EquilibriumSolver(Model model, EquilibriumOptions options = {});
+  EquilibriumSolver(const EquilibriumSolver&) = delete;
+  EquilibriumSolver& operator=(const EquilibriumSolver&) = delete;
+
+  /// Values of conditions and scales of loads may change between poses; nothing else may.
+  [[nodiscard]] Model& model() { return *model_; }
+
+  /// Solves from the last converged state, or from the model's start when there is none. The state is kept when
+  /// the pose converges.
+  PoseResult solve();
+
+  /// The last converged state; set_state restores one.
+  [[nodiscard]] const EquilibriumState& state() const { return state_; }
+  void set_state(const EquilibriumState& state);
+
+ private:
+  bool settle(EquilibriumState& state, NewtonReport& report, int& iterations);
+  bool release_pulling(EquilibriumState& state) const;
+  bool add_overlaps(EquilibriumState& state, bool& too_many);
+  [[nodiscard]] bool carries_and_clear(EquilibriumState& state);
+  [[nodiscard]] bool on_minima(const EquilibriumState& state) const;
+  void fill(PoseResult& result, const EquilibriumState& state);
+  void fill_contacts(PoseResult& result, const EquilibriumState& state);
+  void judge(PoseResult& result) const;
+  void explain_failure(PoseResult& result, const DescentReport& report) const;
+
+  std::unique_ptr<Model> model_;
+  EquilibriumOptions options_;
+  std::vector<ContactSearch> searches_;
+  Newton newton_;
+  Descent descent_;
+  EquilibriumState state_;
+  bool has_state_ = false;
+  std::vector<GapMinimum> minima_;
+};
+
+}  // namespace condyle

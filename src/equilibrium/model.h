@@ -1,0 +1,49 @@
+#pragma once
+
+/// The scene as the solver wants it: every point on the body that carries it, bodies reduced to B (fixed, ground
+/// frame) and A (moving). Constant while poses are solved, but for the swept value.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "elements/joint_coordinates.h"
+#include "elements/kinematic_condition.h"
+#include "elements/line_element.h"
+#include "elements/load.h"
+#include "surface/surface.h"
+
+namespace condyle {
+
+/// Whether a contact opens and closes by itself, is held closed (it may pull), or is left out.
+enum class ContactMode { kAuto, kClosed, kOpen };
+
+struct ContactPair {
+  std::string name;
+  std::shared_ptr<const Surface> on_B, on_A;
+  ContactMode mode = ContactMode::kAuto;
+  std::vector<Eigen::Vector3d> start;  ///< first estimates of contact points, ground frame [mm]
+};
+
+struct Model {
+  std::vector<LineElement> elements;
+  std::vector<std::string> element_names;
+  std::vector<KinematicCondition> conditions;
+  std::vector<std::string> condition_names;
+  std::vector<Load> loads;
+  std::vector<std::string> load_names;
+  std::vector<ContactPair> pairs;
+  std::optional<JointFrames> joint;
+  RigidTransform start;  ///< first estimate of X_BA
+  double length = 30;    ///< L [mm]: lever arms of the model; makes rotations L dπ and moments m/L comparable
+};
+
+/// Most contacts plus conditions at once: with six the pose is a mechanism and the loads follow
+/// [Dortmans 1986 stops at five].
+inline constexpr int kMaxConstraints = 6;
+
+/// Root mean square lever arm about O_A of everything fixed to A, at least 1e-6 mm.
+[[nodiscard]] double characteristic_length(const Model& model);
+
+}  // namespace condyle

@@ -1,0 +1,89 @@
+#pragma once
+
+/// What the equilibrium solver says about one pose, and a sweep about all: plain data for results and pictures.
+/// Units inside: mm, N, N mm, rad. B is the fixed body (ground frame), A the moving one.
+
+#include <Eigen/Core>
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "elements/joint_coordinates.h"
+#include "math/rigid_transform.h"
+
+namespace condyle {
+
+/// The values are those of /sweep/status.
+enum class PoseStatus {
+  kConverged = 0,
+  kIterationLimit = 1,   ///< the iteration did not settle
+  kDiverged = 2,         ///< the pose ran away or a number overflowed
+  kSingular = 3,         ///< dependent conditions or contacts, or a motion that nothing resists (named in `reason`)
+  kLeftPatch = 4,        ///< a closed contact lies beyond the known part of its surface
+  kNoEquilibrium = 5,    ///< a load that nothing carries
+  kZeroLength = 6,       ///< a line element of zero length
+  kOverlap = 7,          ///< the surfaces overlap elsewhere and no admissible set of contacts was found
+  kNotComputed = 8
+};
+inline constexpr int kPoseStatusCount = 9;
+
+/// A short name: "converged", "iteration limit", ...
+[[nodiscard]] const char* name(PoseStatus status);
+
+/// One point of contact.
+struct ContactPointResult {
+  double force = 0;                     ///< p [N], > 0 pushes apart
+  Eigen::Vector3d point_ground;         ///< [mm]
+  Eigen::Vector3d point_moving;         ///< the same point in A's frame [mm]
+  Eigen::Vector3d normal_ground;        ///< unit, out of the fixed body's solid
+  double gap = 0;                       ///< [mm]
+  std::array<double, 2> relative_curvature;  ///< principal values of -(K + Kr) [1/mm], ascending; > 0 isolated
+  double edge_distance = std::numeric_limits<double>::infinity();  ///< to the edge of the known surfaces [mm]
+  bool on_edge = false;                 ///< within the margin of a patch's known region
+};
+
+/// A pair of surfaces. Closed with one or more points; open, it tells where the gap is smallest.
+struct ContactResult {
+  bool closed = false;
+  double force = 0;                          ///< sum over the points [N]
+  std::vector<ContactPointResult> points;    ///< closed: those that carry; open: the nearest one, force 0
+};
+
+struct LigamentResult {
+  double length = 0, strain = 0, force = 0;  ///< [mm], [-] (0 where the law has no slack length), [N]
+};
+
+struct ConditionResult {
+  double value = 0;       ///< [rad] or [mm]
+  double multiplier = 0;  ///< σ: [N mm] for angles, [N] for lengths; its load on A is -σ dk
+};
+
+struct PoseResult {
+  double value = 0;  ///< of what is swept [rad], [mm] or [-]
+  PoseStatus status = PoseStatus::kNotComputed;
+  std::string reason;  ///< one line where the status is not converged
+  RigidTransform X_BA;
+  JointCoordinates joint;
+  std::vector<ContactResult> contacts;      ///< as in Scene::contacts
+  std::vector<LigamentResult> ligaments;    ///< as in Scene::ligaments
+  std::vector<ConditionResult> conditions;  ///< as in Scene::conditions
+  int stability = -1;                       ///< 1 stable, 0 neutral or unstable, -1 not computed
+  double lowest_stiffness = std::numeric_limits<double>::quiet_NaN();  ///< of the reduced stiffness [N/mm]
+  int iterations = 0;      ///< Newton iterations
+  double residual = 0;     ///< largest out-of-balance force [N], moments divided by the model's length
+  double seconds = 0;
+  [[nodiscard]] bool converged() const { return status == PoseStatus::kConverged; }
+};
+
+struct SweepResult {
+  std::vector<PoseResult> poses;
+  [[nodiscard]] int count_converged() const {
+    int n = 0;
+    for (const PoseResult& pose : poses) n += pose.converged() ? 1 : 0;
+    return n;
+  }
+};
+
+}  // namespace condyle

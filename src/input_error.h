@@ -1,0 +1,20 @@
+#pragma once
+
+/// Bad input: the one exception this library throws.
+///
+/// What the user gave (a file, a mesh, a value in a scene) cannot be used. `what()` is one clear line with
+/// file, place, key, value and what was expected, for example
+///     knee.toml:41: ligament "aACL": slack_length = -2, expected a length > 0
+/// A computation that does not succeed never throws: it reports a status.
+
+#include <stdexcept>
+#include <string>
+
+namespace condyle {
+
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(const std::string& message) : std::runtime_error(message) {}
+};
+
+}  // namespace condyle

@@ -1,0 +1,40 @@
+#pragma once
+
+/// Normals, areas and edges of a triangle mesh.
+
+#include <array>
+#include <vector>
+
+#include "mesh/triangle_mesh.h"
+
+namespace condyle {
+
+/// Vector area of each triangle [mm²]: half the cross product of two edges, along its normal.
+[[nodiscard]] std::vector<Eigen::Vector3d> triangle_areas(const TriangleMesh& mesh);
+
+/// Unit normal at each vertex: of the vector areas around it; zero where no triangle has an area.
+[[nodiscard]] std::vector<Eigen::Vector3d> vertex_normals(const TriangleMesh& mesh);
+
+/// A third of the area of the triangles around each vertex [mm²].
+[[nodiscard]] std::vector<double> vertex_areas(const TriangleMesh& mesh);
+
+/// One edge, once, and the triangles that share it.
+struct MeshEdge {
+  int a = 0, b = 0;                       ///< vertices, a < b
+  int count = 0;                          ///< triangles that share it: 1 on a boundary, 2 on a manifold
+  std::array<int, 2> triangle = {-1, -1}; ///< the first two of them
+  std::array<bool, 2> forward = {};       ///< whether the triangle runs from a to b
+};
+[[nodiscard]] std::vector<MeshEdge> mesh_edges(const TriangleMesh& mesh);
+
+/// Mean length of the edges [mm]; 0 for a mesh without triangles.
+[[nodiscard]] double mean_edge_length(const TriangleMesh& mesh);
+
+/// The triangles `keep`, with only the vertices they need; `old_index[i]` tells where vertex i was.
+struct SubMesh {
+  TriangleMesh mesh;
+  std::vector<int> old_index;
+};
+[[nodiscard]] SubMesh sub_mesh(const TriangleMesh& mesh, const std::vector<bool>& keep);
+
+}  // namespace condyle

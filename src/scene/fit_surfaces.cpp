@@ -1,0 +1,206 @@
+#include "scene/fit_surfaces.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <exception>
+#include <map>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "input_error.h"
+#include "mesh/clean_mesh.h"
+#include "mesh/load_mesh.h"
+#include "mesh/mesh_measures.h"
+#include "surface/exact_surfaces.h"
+#include "surface/fit_patch.h"
+#include "surface/patch.h"
+
+namespace condyle {
+namespace {
+
+/// A mesh that patches of one body are cut from, with what all of them need to know about it.
+struct Source {
+  MeshFile file;
+  int body = -1;
+  std::vector<int> surfaces;  ///< indices into Scene::surfaces
+  CleanMesh mesh;
+  std::optional<CondylarAxis> axis;
+  std::vector<std::string> notes;
+};
+
+std::string place_of(const Scene& scene, const SurfaceDescription& surface) {
+  return fmt::format("{}: surface \"{}\"", scene.file.string(), surface.name);
+}
+
+std::unique_ptr<Surface> make_exact(const SurfaceDescription& s) {
+  switch (s.kind) {
+    case SurfaceKind::kPlane: return make_plane(s.point, s.direction);
+    case SurfaceKind::kSphere: return make_sphere(s.point, s.radius, s.solid_inside);
+    case SurfaceKind::kCylinder: return make_cylinder(s.point, s.direction, s.radius, s.solid_inside);
+    case SurfaceKind::kEllipsoid: return make_ellipsoid(s.point, s.axes, s.semi_axes, s.solid_inside);
+    case SurfaceKind::kTorus: return make_torus(s.point, s.direction, s.radius, s.minor_radius, s.solid_inside);
+    case SurfaceKind::kPolynomial: return make_polynomial(s.point, s.axes, s.terms, s.solid_inside);
+    case SurfaceKind::kPatch: break;
+  }
+  assert(false);
+  return nullptr;
+}
+
+MeshFile mesh_of(const Scene& scene, const SurfaceDescription& surface) {
+  if (surface.patch.mesh) return *surface.patch.mesh;
+  const BodyDescription& body = scene.bodies[surface.body];
+  if (body.mesh) return *body.mesh;
+  throw InputError(fmt::format("{}: kind = \"patch\" needs a mesh: neither the surface nor its body \"{}\" names one",
+                               place_of(scene, surface), body.name));
+}
+
+void check_patch(const Scene& scene, const SurfaceDescription& surface) {
+  const std::string place = place_of(scene, surface);
+  if (surface.patch.region_box) return;
+  if (!surface.patch.compartment)
+    throw InputError(fmt::format("{}: a patch needs compartment = \"medial\" or \"lateral\", or region = {{ box = ... }}", place));
+  if (!scene.joint) throw InputError(fmt::format("{}: compartment is found from [joint], which is missing", place));
+  if (surface.body != scene.joint->femur.body && surface.body != scene.joint->tibia.body)
+    throw InputError(fmt::format("{}: body \"{}\" is neither the femur nor the tibia of [joint]", place,
+                                 scene.bodies[surface.body].name));
+}
+
+/// Patches by mesh, so that each file is read once per body.
+std::vector<Source> collect_sources(const Scene& scene) {
+  std::vector<Source> sources;
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+    const SurfaceDescription& surface = scene.surfaces[i];
+    if (surface.kind != SurfaceKind::kPatch) continue;
+    check_patch(scene, surface);
+    const MeshFile file = mesh_of(scene, surface);
+    auto source = std::find_if(sources.begin(), sources.end(), [&](const Source& s) {
+      return s.body == surface.body && s.file.path == file.path && s.file.to_mm == file.to_mm;
+    });
+    if (source == sources.end()) {
+      sources.push_back({.file = file, .body = surface.body, .surfaces = {}, .mesh = {}, .axis = {}, .notes = {}});
+      source = sources.end() - 1;
+    }
+    source->surfaces.push_back(static_cast<int>(i));
+  }
+  return sources;
+}
+
+BoneFrame bone_frame(const AnatomicalFrame& frame) {
+  return {.origin = frame.origin, .lateral = frame.lateral, .anterior = frame.anterior, .proximal = frame.proximal};
+}
+
+bool is_femur(const Scene& scene, const Source& source) { return scene.joint && source.body == scene.joint->femur.body; }
+bool is_tibia(const Scene& scene, const Source& source) { return scene.joint && source.body == scene.joint->tibia.body; }
+
+bool needs_axis(const Scene& scene, const Source& source) {
+  return is_femur(scene, source) && std::any_of(source.surfaces.begin(), source.surfaces.end(), [&](int i) {
+           return !scene.surfaces[i].patch.region_box;
+         });
+}
+
+void load_source(const Scene& scene, Source& source) {
+  source.mesh = clean_mesh(load_mesh(source.file.path, source.file.to_mm));
+  source.notes = describe(source.mesh.report);
+  int turned = 0;
+  if (is_femur(scene, source)) turned = face_out_of_femur(source.mesh);
+  if (is_tibia(scene, source)) turned = face_out_of_tibia(source.mesh, bone_frame(scene.joint->tibia));
+  if (turned > 0) source.notes.push_back(fmt::format("{} of {} sheets faced into the bone and were turned", turned, source.mesh.closed.size()));
+  if (!needs_axis(scene, source)) return;
+  try {
+    const TriangleMesh& mesh = source.mesh.mesh;
+    source.axis = fit_condylar_axis(mesh, vertex_normals(mesh), bone_frame(scene.joint->femur));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", source.file.path.string(), error.what()));
+  }
+}
+
+ArticularRegion find_region(const Scene& scene, const Source& source, const PatchDescription& patch) {
+  const TriangleMesh& mesh = source.mesh.mesh;
+  if (patch.region_box) return box_region(mesh, *patch.region_box);
+  const Half half = *patch.compartment == Compartment::kMedial ? Half::kMedial : Half::kLateral;
+  if (source.axis) return femoral_region(mesh, *source.axis, half);
+  return tibial_region(mesh, bone_frame(scene.joint->tibia), half);
+}
+
+FitReport report_of(const std::string& name, const ArticularRegion& region, const PatchFit& fit) {
+  const FitFigures figures = measure_fit(region, fit);
+  FitReport report;
+  report.surface = name;
+  report.mesh_vertices = static_cast<int>(region.mesh.vertices.size());
+  report.control_points = {fit.patch.nu, fit.patch.nv};
+  report.smoothing_length = fit.smoothing_length;
+  report.rms = figures.rms;
+  report.p95 = figures.p95;
+  report.max = figures.max;
+  report.core_rms = figures.core_rms;
+  report.core_max = figures.core_max;
+  report.normal_rms = figures.core_normal_rms;
+  report.curvature_range = figures.curvature_range;
+  return report;
+}
+
+FittedSurface fit_one(const Scene& scene, const Source& source, const SurfaceDescription& surface) {
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    const ArticularRegion region = find_region(scene, source, surface.patch);
+    FitOptions options;
+    options.control_points = surface.patch.control_points;
+    options.smoothing_length = surface.patch.smoothing;
+    options.degree = surface.patch.degree;
+    PatchFit fit = fit_patch(region, options);
+    FitReport report = report_of(surface.name, region, fit);
+    for (const std::vector<std::string>& notes : {source.notes, region.notes, fit.notes})
+      report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return {std::make_shared<const Patch>(std::move(fit.patch)), std::move(report)};
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {} ({})", place_of(scene, surface), error.what(), source.file.path.string()));
+  }
+}
+
+void fit_source(const Scene& scene, Source& source, std::vector<FittedSurface>& surfaces) {
+  load_source(scene, source);
+  for (const int i : source.surfaces) surfaces[i] = fit_one(scene, source, scene.surfaces[i]);
+}
+
+/// Work for all sources on two threads, the first error rethrown: sources share nothing but their own places in
+/// `surfaces`.
+void fit_sources(const Scene& scene, std::vector<Source>& sources, std::vector<FittedSurface>& surfaces) {
+  std::vector<std::exception_ptr> errors(sources.size());
+  const auto work = [&](std::size_t first, std::size_t step) {
+    for (std::size_t k = first; k < sources.size(); k += step) {
+      try {
+        fit_source(scene, sources[k], surfaces);
+      } catch (...) {
+        errors[k] = std::current_exception();
+      }
+    }
+  };
+  std::thread other(work, 1, 2);
+  work(0, 2);
+  other.join();
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+}
+
+}  // namespace
+
+std::vector<FittedSurface> fit_surfaces(const Scene& scene) {
+  std::vector<Source> sources = collect_sources(scene);
+  std::vector<FittedSurface> surfaces(scene.surfaces.size());
+  fit_sources(scene, sources, surfaces);
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    if (scene.surfaces[i].kind != SurfaceKind::kPatch) surfaces[i].surface = make_exact(scene.surfaces[i]);
+  return surfaces;
+}
+
+TriangleMesh load_body_mesh(const BodyDescription& body) {
+  if (!body.mesh) return {};
+  return clean_mesh(load_mesh(body.mesh->path, body.mesh->to_mm)).mesh;
+}
+
+}  // namespace condyle
