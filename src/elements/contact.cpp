@@ -9,7 +9,8 @@
 namespace condyle {
 namespace {
 
-/// Two unit vectors that make a right-handed triad with n, without a singular direction [Duff et al. 2017].
+/// Two unit vectors that make a right-handed triad with n, without a singular direction [Duff et
+/// al. 2017].
 Eigen::Matrix<double, 3, 2> tangents(const Eigen::Vector3d& n) {
   const double sign = std::copysign(1.0, n.z());
   const double a = -1 / (sign + n.z());
@@ -62,7 +63,8 @@ ContactLinearization linearize_contact(const Surface& on_B,
     Q_inverse << q11 * d, -q01 * d, -q01 * d, q00 * d;
   } else {
     Eigen::Vector2d e(q01, high - q00);
-    if (e.squaredNorm() < 1e-30 * (1 + high * high)) e = q00 >= q11 ? Eigen::Vector2d(1, 0) : Eigen::Vector2d(0, 1);
+    if (e.squaredNorm() < 1e-30 * (1 + high * high))
+      e = q00 >= q11 ? Eigen::Vector2d(1, 0) : Eigen::Vector2d(0, 1);
     e.normalize();
     const Eigen::Vector2d f(-e.y(), e.x());
     Q_inverse = e * e.transpose() / away_from_zero(high) + f * f.transpose() / away_from_zero(low);

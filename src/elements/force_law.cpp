@@ -1,9 +1,10 @@
 #include "elements/force_law.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <utility>
 
 #include "input_error.h"
@@ -75,16 +76,17 @@ Tension continued_from(double force, double slope, double energy, double x) {
 
 Tension tension_of(const TableLaw& law, double length) {
   const std::vector<double>&l = law.lengths, &f = law.forces, &m = law.slopes, &E = law.energies;
-  if (length <= l.front()) return continued_from(f.front(), m.front(), E.front(), length - l.front());
+  if (length <= l.front())
+    return continued_from(f.front(), m.front(), E.front(), length - l.front());
   if (length >= l.back()) return continued_from(f.back(), m.back(), E.back(), length - l.back());
-  const std::size_t i = static_cast<std::size_t>(std::upper_bound(l.begin(), l.end(), length) - l.begin()) - 1;
+  const std::size_t i =
+      static_cast<std::size_t>(std::upper_bound(l.begin(), l.end(), length) - l.begin()) - 1;
   // Cubic Hermite on [l_i, l_i+1] in powers of x = L - l_i.
   const double h = l[i + 1] - l[i], x = length - l[i];
   const double secant = (f[i + 1] - f[i]) / h;
   const double c2 = (3 * secant - 2 * m[i] - m[i + 1]) / h;
   const double c3 = (m[i] + m[i + 1] - 2 * secant) / (h * h);
-  return {f[i] + x * (m[i] + x * (c2 + x * c3)),
-          m[i] + x * (2 * c2 + x * 3 * c3),
+  return {f[i] + x * (m[i] + x * (c2 + x * c3)), m[i] + x * (2 * c2 + x * 3 * c3),
           E[i] + x * (f[i] + x * (m[i] / 2 + x * (c2 / 3 + x * c3 / 4)))};
 }
 
@@ -92,26 +94,29 @@ Tension tension_of(const CustomLaw& law, double length) { return law.tension(len
 
 void check_table(const std::vector<double>& lengths, const std::vector<double>& forces) {
   if (lengths.size() != forces.size()) {
-    throw InputError("law \"table\": " + std::to_string(lengths.size()) + " lengths and " +
-                     std::to_string(forces.size()) + " forces, expected as many of each");
+    throw InputError(
+        fmt::format("law \"table\": {} lengths and {} forces, expected as many of each",
+                    lengths.size(), forces.size()));
   }
   if (lengths.size() < 2) {
-    throw InputError("law \"table\": " + std::to_string(lengths.size()) + " entries, expected at least 2");
+    throw InputError(fmt::format("law \"table\": {} entries, expected at least 2", lengths.size()));
   }
   for (std::size_t i = 0; i < lengths.size(); ++i) {
-    const std::string place = "[" + std::to_string(i) + "] = ";
     if (!std::isfinite(forces[i])) {
-      throw InputError("law \"table\": forces" + place + std::to_string(forces[i]) + ", expected a number");
+      throw InputError(
+          fmt::format("law \"table\": forces[{}] = {}, expected a number", i, forces[i]));
     }
     if (!std::isfinite(lengths[i]) || (i > 0 && lengths[i] <= lengths[i - 1])) {
-      throw InputError("law \"table\": lengths" + place + std::to_string(lengths[i]) +
-                       ", expected lengths that increase from entry to entry");
+      throw InputError(fmt::format(
+          "law \"table\": lengths[{}] = {}, expected lengths that increase from entry to entry", i,
+          lengths[i]));
     }
   }
 }
 
 /// Slopes of the parabolas through three neighbours.
-std::vector<double> parabolic_slopes(const std::vector<double>& h, const std::vector<double>& secant) {
+std::vector<double> parabolic_slopes(const std::vector<double>& h,
+                                     const std::vector<double>& secant) {
   const std::size_t last = h.size();
   std::vector<double> m(last + 1, secant.front());
   if (last == 1) return m;
@@ -123,7 +128,8 @@ std::vector<double> parabolic_slopes(const std::vector<double>& h, const std::ve
   return m;
 }
 
-/// Keeps each cubic monotone: slopes of the secant's sign, (m_i, m_i+1)/secant within a circle of radius 3.
+/// Keeps each cubic monotone: slopes of the secant's sign, (m_i, m_i+1)/secant within a circle of
+/// radius 3.
 void limit_slopes(const std::vector<double>& secant, std::vector<double>& m) {
   for (std::size_t i = 0; i < secant.size(); ++i) {
     if (m[i] * secant[i] <= 0) m[i] = 0;
@@ -151,7 +157,8 @@ TableLaw make_table_law(std::vector<double> lengths, std::vector<double> forces)
   limit_slopes(secant, m);
   std::vector<double> energies(intervals + 1, 0.0);
   for (std::size_t i = 0; i < intervals; ++i) {
-    energies[i + 1] = energies[i] + h[i] * (forces[i] + forces[i + 1]) / 2 + h[i] * h[i] * (m[i] - m[i + 1]) / 12;
+    energies[i + 1] =
+        energies[i] + h[i] * (forces[i] + forces[i + 1]) / 2 + h[i] * h[i] * (m[i] - m[i + 1]) / 12;
   }
   return {std::move(lengths), std::move(forces), std::move(m), std::move(energies)};
 }

@@ -23,15 +23,20 @@ double wrapped(double angle) {
   return r <= -pi ? pi : r;
 }
 
-/// Every rotation of the joint is described by an axis b fixed to B and an axis m fixed to A: A spins about b, about
-/// the node v/c (v = m x b, c = |v|) and about m. With s = m.b these have ∂s/∂π = v, ∂v/∂π = m bᵀ - s I = V and
-/// ∂m/∂π = -[m]x; the gradients below are the basis dual to (b, v/c, m).
+/// Every rotation of the joint is described by an axis b fixed to B and an axis m fixed to A: A
+/// spins about b, about the node v/c (v = m x b, c = |v|) and about m. With s = m.b these have
+/// ∂s/∂π = v, ∂v/∂π = m bᵀ - s I = V and ∂m/∂π = -[m]x; the gradients below are the basis dual to
+/// (b, v/c, m).
 struct AxisPair {
   Vector3d b, m, v;
   double s, c;
 
   AxisPair(const Vector3d& fixed, const Vector3d& moving)
-      : b(fixed), m(moving), v(moving.cross(fixed)), s(moving.dot(fixed)), c(std::max(v.norm(), kSmallest)) {}
+      : b(fixed),
+        m(moving),
+        v(moving.cross(fixed)),
+        s(moving.dot(fixed)),
+        c(std::max(v.norm(), kSmallest)) {}
 
   [[nodiscard]] Matrix3d V() const {
     Matrix3d result = m * b.transpose();
@@ -63,16 +68,18 @@ void spin_about_moving(const AxisPair& p, double sign, ConditionDerivatives& out
   out.D4 -= skew(sign * w2 * p.m);
 }
 
-/// Angle of spin about the node, asin(s): η = v/c.
+/// Angle of spin about the node, asin s: η = v/c.
 void spin_about_node(const AxisPair& p, double sign, ConditionDerivatives& out) {
   const double w = 1 / p.c;
   out.eta = sign * w * p.v;
   out.D4.noalias() = sign * w * p.V();
-  out.D4.noalias() += (p.s * w * w * out.eta) * p.v.transpose() * w;
+  out.D4.noalias() += (p.s * w * w * out.eta) * p.v.transpose();
 }
 
 /// Cardan angles of R = Rz(φ) Rx'(ψ) Ry''(ω): b = e_z, m = R e_y; ω is the spin about m, φ about b.
-void cardan_angle(const KinematicCondition& condition, const Matrix3d& R, ConditionDerivatives& out) {
+void cardan_angle(const KinematicCondition& condition,
+                  const Matrix3d& R,
+                  ConditionDerivatives& out) {
   const AxisPair p(Vector3d::UnitZ(), R.col(1));
   switch (condition.cardan_axis) {
     case 0:
@@ -95,7 +102,11 @@ struct JointPose {
   Vector3d e1, e3;
 
   JointPose(const JointFrames& joint, const RigidTransform& X)
-      : frames(joint), X_BA(X), sigma(joint.tibia_moves ? 1 : -1), e1(femur_axis(0)), e3(tibia_axis(2)) {}
+      : frames(joint),
+        X_BA(X),
+        sigma(joint.tibia_moves ? 1 : -1),
+        e1(femur_axis(0)),
+        e3(tibia_axis(2)) {}
 
   [[nodiscard]] Vector3d femur_axis(int i) const {
     if (frames.tibia_moves) return frames.X_F.R.col(i);
@@ -105,12 +116,17 @@ struct JointPose {
     if (frames.tibia_moves) return X_BA.R * frames.X_T.R.col(i);
     return frames.X_T.R.col(i);
   }
-  [[nodiscard]] AxisPair axes() const { return frames.tibia_moves ? AxisPair(e1, e3) : AxisPair(e3, e1); }
+  [[nodiscard]] AxisPair axes() const {
+    return frames.tibia_moves ? AxisPair(e1, e3) : AxisPair(e3, e1);
+  }
 };
 
-/// The tibia turns by -flexion about e1, adduction about the node, internal rotation about e3; turning the femur
-/// by dπ undoes what turning the tibia does, so fixed and moving axis and the signs change places.
-void joint_angle(const KinematicCondition& condition, const RigidTransform& X_BA, ConditionDerivatives& out) {
+/// The tibia turns by -flexion about e1, adduction about the node, internal rotation about e3;
+/// turning the femur by dπ undoes what turning the tibia does, so fixed and moving axis and the
+/// signs change places.
+void joint_angle(const KinematicCondition& condition,
+                 const RigidTransform& X_BA,
+                 ConditionDerivatives& out) {
   const JointPose pose(condition.frames, X_BA);
   const AxisPair axes = pose.axes();
   const double side = condition.frames.side, sigma = pose.sigma;
@@ -121,7 +137,8 @@ void joint_angle(const KinematicCondition& condition, const RigidTransform& X_BA
   }
   const bool flexion = condition.kind == ConditionKind::kFlexion;
   if (flexion) {
-    set_angle(std::atan2(pose.e3.dot(pose.femur_axis(1)), pose.e3.dot(pose.femur_axis(2))), condition.value, out);
+    set_angle(std::atan2(pose.e3.dot(pose.femur_axis(1)), pose.e3.dot(pose.femur_axis(2))),
+              condition.value, out);
   } else {
     const double y = -pose.e1.dot(pose.tibia_axis(1)), x = pose.e1.dot(pose.tibia_axis(0));
     set_angle(side * std::atan2(y, x), condition.value, out);
@@ -131,19 +148,25 @@ void joint_angle(const KinematicCondition& condition, const RigidTransform& X_BA
   return spin_about_moving(axes, sign, out);
 }
 
-/// H from the femoral to the tibial origin: dH = σ (da + dπ x q), q the arm of the moving origin about O_A.
+/// H from the femoral to the tibial origin: dH = σ (da + dπ x q), q the arm of the moving origin
+/// about O_A.
 struct OriginDistance {
   Vector3d q, H;
   double sigma;
 
-  OriginDistance(const JointFrames& frames, const RigidTransform& X_BA) : sigma(frames.tibia_moves ? 1 : -1) {
+  OriginDistance(const JointFrames& frames, const RigidTransform& X_BA)
+      : sigma(frames.tibia_moves ? 1 : -1) {
     q = X_BA.R * (frames.tibia_moves ? frames.X_T.p : frames.X_F.p);
-    H = frames.tibia_moves ? Vector3d(X_BA.p + q - frames.X_F.p) : Vector3d(frames.X_T.p - X_BA.p - q);
+    H = frames.tibia_moves ? Vector3d(X_BA.p + q - frames.X_F.p)
+                           : Vector3d(frames.X_T.p - X_BA.p - q);
   }
 };
 
 /// H.e with e fixed to B or turning with A, ∂e/∂π = E:  α = σ e,  η = σ q x e + EᵀH.
-void along_body_axis(const OriginDistance& h, const Vector3d& e, bool moving, double sign,
+void along_body_axis(const OriginDistance& h,
+                     const Vector3d& e,
+                     bool moving,
+                     double sign,
                      ConditionDerivatives& out) {
   const Matrix3d Q = skew(h.q);
   out.coordinate = sign * h.H.dot(e);
@@ -161,7 +184,8 @@ void along_body_axis(const OriginDistance& h, const Vector3d& e, bool moving, do
   out.D4 *= sign;
 }
 
-/// H.e2 = σ H.v/c: the quotient of y = σ H.v, with n = σ v and ∂n/∂π = N = σ V, and c, with 1/c = w.
+/// H.e2 = σ H.v/c: the quotient of y = σ H.v, with n = σ v and ∂n/∂π = N = σ V, and c, with 1/c =
+/// w.
 void along_node(const OriginDistance& h, const AxisPair& p, ConditionDerivatives& out) {
   const double w = 1 / p.c, sigma = h.sigma;
   const Matrix3d Q = skew(h.q), V = p.V();
@@ -169,11 +193,12 @@ void along_node(const OriginDistance& h, const AxisPair& p, ConditionDerivatives
   const double y = h.H.dot(n);
   const Vector3d eta_y = sigma * (h.q.cross(n) + V.transpose() * h.H);
   // ∂(VᵀH)/∂π with VᵀH = b (m.H) - s H
-  const Matrix3d D_VH = p.b * (p.m.cross(h.H) + sigma * h.q.cross(p.m)).transpose() - h.H * p.v.transpose() +
-                        sigma * p.s * Q;
+  const Matrix3d D_VH = p.b * (p.m.cross(h.H) + sigma * h.q.cross(p.m)).transpose() -
+                        h.H * p.v.transpose() + sigma * p.s * Q;
   Matrix3d D4_y = sigma * (h.q * n.transpose() + sigma * Q * V + D_VH);
   D4_y.diagonal().array() -= sigma * h.q.dot(n);
-  const Matrix3d G_w = w * w * w * (p.v * p.v.transpose() + p.s * V) + 3 * p.s * w * w * p.v * g_w.transpose();
+  const Matrix3d G_w =
+      w * w * w * (p.v * p.v.transpose() + p.s * V) + 3 * p.s * w * w * p.v * g_w.transpose();
 
   out.coordinate = y * w;
   out.alpha = w * sigma * n;
@@ -183,7 +208,9 @@ void along_node(const OriginDistance& h, const AxisPair& p, ConditionDerivatives
   out.D4 = w * D4_y + eta_y * g_w.transpose() + g_w * eta_y.transpose() + y * G_w;
 }
 
-void joint_translation(const KinematicCondition& condition, const RigidTransform& X_BA, ConditionDerivatives& out) {
+void joint_translation(const KinematicCondition& condition,
+                       const RigidTransform& X_BA,
+                       ConditionDerivatives& out) {
   const JointPose pose(condition.frames, X_BA);
   const OriginDistance h(condition.frames, X_BA);
   const bool tibia_moves = condition.frames.tibia_moves;
@@ -197,14 +224,18 @@ void joint_translation(const KinematicCondition& condition, const RigidTransform
   out.k = out.coordinate - condition.value;
 }
 
-void translation(const KinematicCondition& condition, const RigidTransform& X_BA, ConditionDerivatives& out) {
+void translation(const KinematicCondition& condition,
+                 const RigidTransform& X_BA,
+                 ConditionDerivatives& out) {
   out.coordinate = condition.axis.dot(X_BA.p);
   out.k = out.coordinate - condition.value;
   out.alpha = condition.axis;
 }
 
 /// |d|, d = a + q - x_C: α = e = d/L, η = q x e, ∂e/∂a = P = (I - eeᵀ)/L.
-void distance(const KinematicCondition& condition, const RigidTransform& X_BA, ConditionDerivatives& out) {
+void distance(const KinematicCondition& condition,
+              const RigidTransform& X_BA,
+              ConditionDerivatives& out) {
   const Vector3d q = X_BA.R * condition.s_D;
   const Vector3d d = X_BA.p + q - condition.x_C;
   out.coordinate = d.norm();
@@ -230,13 +261,23 @@ ConditionDerivatives evaluate(const KinematicCondition& condition, const RigidTr
   switch (condition.kind) {
     case ConditionKind::kFlexion:
     case ConditionKind::kAdduction:
-    case ConditionKind::kInternalRotation: joint_angle(condition, X_BA, out); break;
+    case ConditionKind::kInternalRotation:
+      joint_angle(condition, X_BA, out);
+      break;
     case ConditionKind::kLateralShift:
     case ConditionKind::kAnteriorDrawer:
-    case ConditionKind::kDistraction: joint_translation(condition, X_BA, out); break;
-    case ConditionKind::kTranslation: translation(condition, X_BA, out); break;
-    case ConditionKind::kRotation: cardan_angle(condition, X_BA.R, out); break;
-    case ConditionKind::kDistance: distance(condition, X_BA, out); break;
+    case ConditionKind::kDistraction:
+      joint_translation(condition, X_BA, out);
+      break;
+    case ConditionKind::kTranslation:
+      translation(condition, X_BA, out);
+      break;
+    case ConditionKind::kRotation:
+      cardan_angle(condition, X_BA.R, out);
+      break;
+    case ConditionKind::kDistance:
+      distance(condition, X_BA, out);
+      break;
   }
   return out;
 }

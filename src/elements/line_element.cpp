@@ -19,32 +19,34 @@ void add_derivatives(const Eigen::Vector3d& q,
                      double beta,
                      Wrench& wrench) {
   const Eigen::Vector3d u = q.cross(e), alpha_e = alpha * e, alpha_u = alpha * u;
-  const Eigen::Vector3d beta_q = beta * q, turning = F + beta_q;
-  const double diagonal = q.dot(turning);
-  Eigen::Matrix3d cross = -e * alpha_u.transpose();
+  const Eigen::Vector3d b = beta * q, turning = F + b;
+  Eigen::Matrix3d V = -e * alpha_e.transpose();
+  V.diagonal().array() -= beta;
+  Eigen::Matrix3d F2 = -e * alpha_u.transpose();
   // clang-format off
-                            cross(0, 1) -= beta_q.z();  cross(0, 2) += beta_q.y();
-  cross(1, 0) += beta_q.z();                            cross(1, 2) -= beta_q.x();
-  cross(2, 0) -= beta_q.y();  cross(2, 1) += beta_q.x();
+                      F2(0, 1) -= b.z();  F2(0, 2) += b.y();
+  F2(1, 0) += b.z();                      F2(1, 2) -= b.x();
+  F2(2, 0) -= b.y();  F2(2, 1) += b.x();
   // clang-format on
-  for (int j = 0; j < 3; ++j) {
-    wrench.F1.col(j) -= alpha_e[j] * e;
-    wrench.F1(j, j) -= beta;
-    wrench.M2.col(j) += turning[j] * q - alpha_u[j] * u;
-    wrench.M2(j, j) -= diagonal;
-  }
-  wrench.F2 += cross;
-  wrench.M1 += cross.transpose();
+  Eigen::Matrix3d M2 = q * turning.transpose() - u * alpha_u.transpose();
+  M2.diagonal().array() -= q.dot(turning);
+  wrench.F1 += V;
+  wrench.F2 += F2;
+  wrench.M1 += F2.transpose();
+  wrench.M2 += M2;
 }
 
 Tension tension_of_element(const LineElement& element, double length) {
-  if (const auto* toe_linear = std::get_if<ToeLinearLaw>(&element.law)) return tension(*toe_linear, length);
+  if (const auto* toe_linear = std::get_if<ToeLinearLaw>(&element.law))
+    return tension(*toe_linear, length);
   return tension(element.law, length);
 }
 
 }  // namespace
 
-LineElementState add_line_element(const LineElement& element, const RigidTransform& X_BA, Wrench& wrench) {
+LineElementState add_line_element(const LineElement& element,
+                                  const RigidTransform& X_BA,
+                                  Wrench& wrench) {
   const Eigen::Vector3d q = X_BA.R * element.s_D;
   const Eigen::Vector3d d = X_BA.p + q - element.x_C;
   const double L = d.norm();

@@ -23,7 +23,7 @@ struct LineElementState {
 };
 
 /// Below this length [mm] the direction of the element is not defined: it then adds nothing and says so by its
-/// length, and the solver reports PoseStatus::kLeastLength.
+/// length, and the solver reports PoseStatus::kZeroLength.
 inline constexpr double kLeastLength = 1e-12;
 
 /// Adds the element's wrench on A and its derivatives to `wrench`. Allocates nothing.

@@ -23,7 +23,10 @@ void add_moment(const Eigen::Vector3d& m, bool follows_body, Wrench& wrench) {
   if (follows_body) wrench.M2 -= skew(m);  // dm = dπ x m
 }
 
-void add_force(const Eigen::Vector3d& f, const Eigen::Vector3d& q, bool follows_body, Wrench& wrench) {
+void add_force(const Eigen::Vector3d& f,
+               const Eigen::Vector3d& q,
+               bool follows_body,
+               Wrench& wrench) {
   wrench.f += f;
   add_moment(q.cross(f), follows_body, wrench);
   if (follows_body) {

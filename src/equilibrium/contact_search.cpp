@@ -63,11 +63,18 @@ ContactSearch::ContactSearch(const ContactPair& pair, double spacing)
   sampled_on_A_ = !on_A.empty() && (on_B.empty() || on_A.size() <= on_B.size());
   places_ = sampled_on_A_ ? on_A : on_B;
   const Surface& sampled = sampled_on_A_ ? *on_A_ : *on_B_;
-  for (const Place& place : places_) points_.push_back(sampled.evaluate(place).c);
+  for (const Place& place : places_) {
+    const SurfacePoint point = sampled.evaluate(place);
+    points_.push_back(point.c);
+    normals_.push_back(point.n);
+    curvatures_.push_back(point.K);
+  }
   const std::size_t n = places_.size();
   feet_.resize(n);
+  at_feet_.resize(n);
   has_foot_.assign(n, 0);
   gap_.assign(n, kInfinity);
+  slope_.assign(n, 1);
   stamp_.assign(n, -1);
   order_.resize(n);
   near_.reserve(n);
@@ -98,12 +105,14 @@ int ContactSearch::build(int first, int last) {
   Eigen::AlignedBox3d box;
   for (int k = first; k < last; ++k) box.extend(points_[order_[k]]);
   const Eigen::Vector3d middle = box.center();
-  Cluster cluster{order_[first], 0, first, last, {-1, -1}};
+  Cluster cluster{order_[first], 0, 0, first, last, {-1, -1}};
   for (int k = first; k < last; ++k)
     if ((points_[order_[k]] - middle).squaredNorm() < (points_[cluster.center] - middle).squaredNorm())
       cluster.center = order_[k];
-  for (int k = first; k < last; ++k)
+  for (int k = first; k < last; ++k) {
     cluster.radius = std::max(cluster.radius, (points_[order_[k]] - points_[cluster.center]).norm());
+    cluster.spread = std::max(cluster.spread, (curvatures_[order_[k]] - curvatures_[cluster.center]).norm());
+  }
   const int index = static_cast<int>(clusters_.size());
   clusters_.push_back(cluster);
   if (last - first > kLeafSize) {
@@ -125,43 +134,60 @@ double ContactSearch::gap_of(int sample, const RigidTransform& X_from_to) {
   const Surface& other = sampled_on_A_ ? *on_B_ : *on_A_;
   const Eigen::Vector3d p = X_from_to * points_[sample];
   Place& foot = feet_[sample];
-  bool fresh = !has_foot_[sample];
-  double gap = kInfinity;
-  for (int attempt = 0; attempt < 2; ++attempt, fresh = true) {
-    if (fresh) foot = other.seed(p);
-    SurfacePoint at = other.evaluate(foot);
-    Eigen::Vector3d to_p = p - at.c;
-    gap = to_p.dot(at.n);
-    double slide = (to_p - gap * at.n).norm();
-    for (int step = 0; step < 4 && slide > 0.2 * spacing_; ++step) {
-      foot = other.moved(foot, at, to_p - gap * at.n);
-      at = other.evaluate(foot);
-      to_p = p - at.c;
+  SurfacePoint& at = at_feet_[sample];
+  const double close = 0.2 * spacing_;
+  double gap = kInfinity, slide = kInfinity;
+  // From the foot of the pose before, or else from a seed: tangent steps towards the point.
+  for (int attempt = has_foot_[sample] ? 0 : 1; attempt < 2 && slide > close; ++attempt) {
+    if (attempt == 1) {
+      foot = other.seed(p);
+      at = other.evaluate_frame(foot);
+    }
+    for (int step = 0; step < 5 && slide > close; ++step) {
+      const Eigen::Vector3d to_foot = p - at.c;
+      const Eigen::Vector3d tangential = to_foot - to_foot.dot(at.n) * at.n;
+      if (tangential.squaredNorm() > 1e-4 * close * close) {
+        foot = other.moved(foot, at, tangential);
+        at = other.evaluate_frame(foot);
+      }
+      const Eigen::Vector3d to_p = p - at.c;
       gap = to_p.dot(at.n);
       slide = (to_p - gap * at.n).norm();
     }
-    has_foot_[sample] = slide < spacing_;
-    if (!has_foot_[sample]) continue;
-    // What a perfect foot would add, to second order: -K points towards the solid on a convex one.
-    const Eigen::Vector3d t = to_p - gap * at.n;
-    gap -= 0.5 * t.dot(at.K * t);
-    break;
   }
-  if (!has_foot_[sample]) {
+  if (slide > close) {
     foot = other.closest(p, other.seed(p));
-    const SurfacePoint at = other.evaluate(foot);
+    at = other.evaluate_frame(foot);
     gap = std::copysign((p - at.c).norm(), (p - at.c).dot(at.n));
-    has_foot_[sample] = 1;
   }
+  has_foot_[sample] = 1;
+  slope_[sample] = at.n.cross(X_from_to.R * normals_[sample]).norm();
   gap_[sample] = gap;
   return gap;
+}
+
+/// Below the gap at the centre by the slope over the radius, and by the relative curvature there with an allowance for
+/// how it varies within the cluster; never by more than the radius, since a distance is 1-Lipschitz.
+double ContactSearch::lowest_possible(const Cluster& cluster, const RigidTransform& X_from_to) const {
+  const Surface& other = sampled_on_A_ ? *on_B_ : *on_A_;
+  const double r = cluster.radius;
+  double lowest = gap_[cluster.center] - r;
+  if (slope_[cluster.center] > 0.7 || r == 0) return lowest;
+  const Eigen::Matrix3d K_other = other.evaluate(feet_[cluster.center]).K;
+  const Eigen::Matrix3d K = K_other + X_from_to.R * curvatures_[cluster.center] * X_from_to.R.transpose();
+  // The greater of the two eigenvalues of K off the normal: where it is positive the gap closes sideways.
+  const double trace = K.trace(), square = K.squaredNorm();
+  const double closing = 0.5 * (trace + std::sqrt(std::max(0.0, 2 * square - trace * trace)));
+  const double allowance = cluster.spread + 0.5 * K_other.norm();
+  return std::max(lowest, gap_[cluster.center] - slope_[cluster.center] * r -
+                              0.5 * std::max(0.0, closing + allowance) * r * r);
 }
 
 void ContactSearch::visit(int index, const RigidTransform& X_from_to, double cutoff) {
   const Cluster& cluster = clusters_[index];
   const double gap = gap_of(cluster.center, X_from_to);
   // Far behind an open patch is not inside the solid.
-  if (gap - cluster.radius > cutoff || gap + cluster.radius < -kDeepest * spacing_) return;
+  if (gap - cluster.radius > cutoff || lowest_possible(cluster, X_from_to) > cutoff || gap + cluster.radius < -kDeepest * spacing_) return;
   if (cluster.child[0] >= 0) {
     visit(cluster.child[0], X_from_to, cutoff);
     visit(cluster.child[1], X_from_to, cutoff);
@@ -218,7 +244,7 @@ void ContactSearch::find(const RigidTransform& X_BA,
   const RigidTransform X_from_to = sampled_on_A_ ? X_BA : X_BA.inverse();
   const Surface& other = sampled_on_A_ ? *on_B_ : *on_A_;
   // A minimum between samples lies lower than both: look a little higher, keep what the refinement says.
-  visit(0, X_from_to, cutoff + 0.15 * spacing_);
+  visit(0, X_from_to, cutoff + 0.06 * spacing_);
   for (const int sample : near_) {
     if (other.edge_distance(feet_[sample]) < 0) continue;
     lowest_ = std::min(lowest_, gap_[sample]);

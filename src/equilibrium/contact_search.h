@@ -3,8 +3,8 @@
 /// Where two surfaces come near each other: all local minima of the gap between them at a given pose.
 ///
 /// One surface of the pair is covered with samples; each keeps its foot (closest place) on the other one from the
-/// pose before. The signed distance is 1-Lipschitz in the point, so clusters of samples whose centre is farther
-/// than their radius plus the cutoff are passed over. Samples that are nearer than all their neighbours are refined
+/// pose before. Clusters of samples are passed over where the gap at their centre, less what slope and curvature
+/// can take away within their radius, stays above the cutoff. Samples that are nearer than all their neighbours are refined
 /// by Newton on the contact conditions at a fixed pose. No pose is trusted that this search has not seen.
 
 #include <array>
@@ -40,6 +40,7 @@ class ContactSearch {
   struct Cluster {
     int center;        ///< a sample
     double radius;     ///< of all samples below it, about that sample [mm]
+    double spread;     ///< of the curvature tensors of those samples about the centre's [1/mm]
     int first, last;   ///< range in order_
     int child[2];      ///< -1: leaf
   };
@@ -47,6 +48,7 @@ class ContactSearch {
   void link_neighbours(double radius);
   void visit(int cluster, const RigidTransform& X_from_to, double cutoff);
   double gap_of(int sample, const RigidTransform& X_from_to);
+  [[nodiscard]] double lowest_possible(const Cluster& cluster, const RigidTransform& X_from_to) const;
   [[nodiscard]] bool is_lowest_of_neighbours(int sample) const;
   [[nodiscard]] GapMinimum refine(int sample, const RigidTransform& X_BA) const;
 
@@ -57,8 +59,12 @@ class ContactSearch {
   std::vector<Place> places_;             ///< samples on the sampled surface
   std::vector<Eigen::Vector3d> points_;   ///< their points, in the frame of their body
   std::vector<Place> feet_;               ///< on the other surface, kept from pose to pose
+  std::vector<SurfacePoint> at_feet_;     ///< the other surface there, without curvature
   std::vector<char> has_foot_;
+  std::vector<Eigen::Vector3d> normals_;  ///< at the samples, in the frame of their body
+  std::vector<Eigen::Matrix3d> curvatures_;  ///< curvature tensors at the samples
   std::vector<double> gap_;               ///< of the present pose
+  std::vector<double> slope_;             ///< sine of the angle between the two surfaces there
   std::vector<int> stamp_;                ///< pose at which gap_ was computed
   std::vector<std::array<int, 8>> neighbours_;
   std::vector<int> order_;

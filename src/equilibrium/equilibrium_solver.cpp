@@ -15,6 +15,7 @@ constexpr double kMerge = 0.01;    // minima nearer than this are one contact, i
 
 std::vector<ContactSearch> make_searches(const Model& model) {
   std::vector<ContactSearch> searches;
+  searches.reserve(model.pairs.size());
   for (const ContactPair& pair : model.pairs) searches.emplace_back(pair, kSpacing * model.length);
   return searches;
 }
@@ -74,12 +75,18 @@ bool EquilibriumSolver::add_overlaps(EquilibriumState& state, bool& too_many) {
   return added;
 }
 
+/// Contacts that Newton may have led astray: to a place where the solids interpenetrate beside the point, or far
+/// beyond the known part of a patch.
 bool EquilibriumSolver::on_minima(const EquilibriumState& state) const {
   const std::vector<ContactLinearization>& contacts = newton_.system().contacts();
-  for (std::size_t k = 0; k < state.contacts.size(); ++k)
-    if (model_->pairs[state.contacts[k].pair].mode == ContactMode::kAuto &&
-        contacts[k].relative_curvature[0] < -1e-7)
-      return false;
+  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+    const ClosedContact& contact = state.contacts[k];
+    const ContactPair& pair = model_->pairs[contact.pair];
+    if (pair.mode == ContactMode::kAuto && contacts[k].relative_curvature[0] < -1e-7) return false;
+    const double edge =
+        std::min(pair.on_B->edge_distance(contact.on_B), pair.on_A->edge_distance(contact.on_A));
+    if (edge < -0.1 * model_->length) return false;
+  }
   return true;
 }
 

@@ -58,8 +58,8 @@ void drop_strays(TriangleMesh& mesh, double fraction, CleaningReport& report) {
   for (std::size_t t = 0; t < areas.size(); ++t) area[component[t]] += areas[t].norm();
   std::vector<bool> keep(mesh.triangles.size());
   for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = area[component[t]] >= fraction * area[0];
-  report.stray_components =
-      static_cast<int>(std::count_if(area.begin(), area.end(), [&](double a) { return a < fraction * area[0]; }));
+  report.stray_components = static_cast<int>(
+      std::count_if(area.begin(), area.end(), [&](double a) { return a < fraction * area[0]; }));
   report.stray_triangles = static_cast<int>(std::count(keep.begin(), keep.end(), false));
   keep_triangles(mesh, keep);
 }

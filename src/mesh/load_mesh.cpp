@@ -1,12 +1,15 @@
 #include "mesh/load_mesh.h"
 
-#include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <assimp/Importer.hpp>
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
+#include <exception>
 #include <string>
 
 #include <fmt/format.h>
@@ -55,7 +58,8 @@ std::string suspected_unit(double extent_in_file) {
   constexpr std::array<Unit, 3> kUnits = {{{"mm", 1}, {"cm", 10}, {"m", 1000}}};
   for (const Unit& unit : kUnits) {
     const double extent = extent_in_file * unit.to_mm;
-    if (extent > 20 && extent < 600) return fmt::format("; its numbers look like {}: check mesh_units", unit.name);
+    if (extent > 20 && extent < 600)
+      return fmt::format("; its numbers look like {}: check mesh_units", unit.name);
   }
   return "; check mesh_units";
 }
@@ -74,7 +78,8 @@ void check_size(const std::filesystem::path& file, const TriangleMesh& mesh, dou
   const double extent = box.sizes().maxCoeff();
   if (extent <= kLargest && extent >= kSmallest) return;
   throw InputError(fmt::format("{}: a knee of {}? expected a mesh of {} to {} mm{}", file.string(),
-                               readable_length(extent), kSmallest, kLargest, suspected_unit(extent / to_mm)));
+                               readable_length(extent), kSmallest, kLargest,
+                               suspected_unit(extent / to_mm)));
 }
 
 }  // namespace
@@ -85,7 +90,10 @@ TriangleMesh load_mesh(const std::filesystem::path& file, double to_mm) {
   try {
     mesh = import(file, to_mm);
   } catch (const std::exception& error) {
-    throw InputError(fmt::format("{}: mesh cannot be read: {}", file.string(), error.what()));
+    std::string reason = error.what();
+    std::replace_if(
+        reason.begin(), reason.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+    throw InputError(fmt::format("{}: mesh cannot be read: {}", file.string(), reason));
   }
   if (mesh.triangles.empty()) throw InputError(fmt::format("{}: mesh has no faces", file.string()));
   if (promised.faces && static_cast<long>(mesh.triangles.size()) < *promised.faces)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -27,7 +28,8 @@ using std::string_view;
 std::string read_whole(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) fail(file, "mesh file not found");
-  if (!std::filesystem::is_regular_file(file, error)) fail(file, "expected a mesh file, found something else");
+  if (!std::filesystem::is_regular_file(file, error))
+    fail(file, "expected a mesh file, found something else");
   std::ifstream stream(file, std::ios::binary);
   std::string bytes;
   const auto size = std::filesystem::file_size(file, error);
@@ -64,25 +66,39 @@ std::optional<long> to_integer(string_view word) {
   return value;
 }
 
+/// The three coordinates that follow the keyword of a vertex line.
+void check_coordinates(const std::filesystem::path& file, Scanner& line, long line_number) {
+  for (int k = 0; k < 3; ++k) {
+    const string_view word = line.word();
+    if (word.empty()) fail(file, fmt::format("line {}: vertex lacks a coordinate", line_number));
+    const string_view digits = word.substr(word.front() == '+' ? 1 : 0);
+    double value = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
+      fail(file,
+           fmt::format("line {}: vertex coordinate \"{}\", expected a finite number", line_number, word));
+  }
+}
+
 MeshFileCounts check_ascii_stl(const std::filesystem::path& file, string_view text) {
-  long facets = 0, vertices = 0, closed = 0;
+  long facets = 0, vertices = 0, closed = 0, line_number = 0;
   bool ended = false;
   for (Scanner scan{text}; !scan.rest.empty();) {
     Scanner line{scan.line()};
+    ++line_number;
     const string_view key = line.word();
     if (key == "facet") ++facets;
     if (key == "vertex") {
       ++vertices;
-      line.word(), line.word();
-      if (line.word().empty()) fail(file, fmt::format("ASCII STL: vertex {} lacks a coordinate", vertices));
+      check_coordinates(file, line, line_number);
     }
     if (key == "endfacet") ++closed;
     if (key == "endsolid") ended = true;
   }
   if (facets == 0 && ended) fail(file, "mesh has no faces");
   if (!ended || facets != closed || vertices != 3 * facets)
-    fail(file, fmt::format("ASCII STL is cut short: {} facets begun, {} ended, {} vertices{}", facets, closed,
-                           vertices, ended ? "" : ", no endsolid"));
+    fail(file, fmt::format("ASCII STL is cut short: {} facets begun, {} ended, {} vertices{}", facets,
+                           closed, vertices, ended ? "" : ", no endsolid"));
   return {.vertices = std::nullopt, .faces = facets};
 }
 
@@ -104,9 +120,13 @@ MeshFileCounts check_stl(const std::filesystem::path& file, const std::string& b
 }
 
 /// Index of an OBJ face corner, "7", "7/1/3", "-1": 1-based, negative counts from the end.
-void check_obj_corner(const std::filesystem::path& file, string_view corner, long vertices, long line_number) {
+void check_obj_corner(const std::filesystem::path& file,
+                      string_view corner,
+                      long vertices,
+                      long line_number) {
   const std::optional<long> index = to_integer(corner);
-  const bool known = index && ((*index >= 1 && *index <= vertices) || (*index <= -1 && *index >= -vertices));
+  const bool known =
+      index && ((*index >= 1 && *index <= vertices) || (*index <= -1 && *index >= -vertices));
   if (!known)
     fail(file, fmt::format("line {}: face refers to vertex \"{}\", expected 1 to {}", line_number, corner,
                            vertices));
@@ -121,8 +141,8 @@ MeshFileCounts check_obj(const std::filesystem::path& file, const std::string& b
     Scanner line{scan.line()};
     ++line_number;
     if (line.rest.substr(0, 2) == "v ") {
-      line.word(), line.word(), line.word();
-      if (line.word().empty()) fail(file, fmt::format("line {}: vertex lacks a coordinate", line_number));
+      line.word();
+      check_coordinates(file, line, line_number);
     }
     if (line.rest.substr(0, 2) != "f ") continue;
     line.word();
@@ -146,9 +166,9 @@ struct PlyElement {
 
 std::size_t ply_size(string_view type) {
   static const std::map<string_view, std::size_t> kSizes = {
-      {"char", 1},  {"uchar", 1},  {"int8", 1},  {"uint8", 1},   {"short", 2},  {"ushort", 2}, {"int16", 2}, {"uint16", 2},
-      {"int", 4},   {"uint", 4},   {"int32", 4}, {"uint32", 4},  {"float", 4},  {"float32", 4},
-      {"double", 8}, {"float64", 8}};
+      {"char", 1},  {"uchar", 1},   {"int8", 1},   {"uint8", 1},  {"short", 2}, {"ushort", 2},
+      {"int16", 2}, {"uint16", 2},  {"int", 4},    {"uint", 4},   {"int32", 4}, {"uint32", 4},
+      {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
   const auto found = kSizes.find(type);
   return found == kSizes.end() ? 0 : found->second;
 }
@@ -207,15 +227,16 @@ MeshFileCounts check_ply(const std::filesystem::path& file, const std::string& b
   if (counts.vertices.value_or(0) == 0) fail(file, "mesh has no vertices");
   if (counts.faces.value_or(0) == 0) fail(file, "mesh has no faces");
   if (header.binary && header.body.size() < smallest)
-    fail(file, fmt::format("binary PLY is cut short: its header asks for at least {} bytes, the file holds {}",
-                           smallest, header.body.size()));
+    fail(file,
+         fmt::format("binary PLY is cut short: its header asks for at least {} bytes, the file holds {}",
+                     smallest, header.body.size()));
   if (!header.binary) {
     long lines = 0;
     for (Scanner scan{header.body}; !scan.rest.empty();)
       if (!Scanner{scan.line()}.word().empty()) ++lines;
     if (lines < entries)
-      fail(file, fmt::format("ASCII PLY is cut short: its header asks for {} lines, the file holds {}", entries,
-                             lines));
+      fail(file, fmt::format("ASCII PLY is cut short: its header asks for {} lines, the file holds {}",
+                             entries, lines));
   }
   return counts;
 }
@@ -243,17 +264,19 @@ MeshFileCounts check_off(const std::filesystem::path& file, const std::string& b
   if (vertices == 0) fail(file, "mesh has no vertices");
   if (faces == 0) fail(file, "mesh has no faces");
   if (static_cast<long>(lines.size() - next) < vertices + faces)
-    fail(file, fmt::format("OFF is cut short: it states {} vertices and {} faces, but {} lines follow", vertices,
-                           faces, lines.size() - next));
+    fail(file, fmt::format("OFF is cut short: it states {} vertices and {} faces, but {} lines follow",
+                           vertices, faces, lines.size() - next));
   for (long i = 0; i < faces; ++i) {
     Scanner line{lines[next + static_cast<std::size_t>(vertices + i)]};
     const long corners = to_integer(line.word()).value_or(0);
-    if (corners < 3) fail(file, fmt::format("OFF: face {} has {} corners, expected at least 3", i, corners));
+    if (corners < 3)
+      fail(file, fmt::format("OFF: face {} has {} corners, expected at least 3", i, corners));
     for (long c = 0; c < corners; ++c) {
       const string_view index = line.word();
       const long k = to_integer(index).value_or(-1);
       if (k < 0 || k >= vertices)
-        fail(file, fmt::format("OFF: face {} refers to vertex \"{}\", expected 0 to {}", i, index, vertices - 1));
+        fail(file,
+             fmt::format("OFF: face {} refers to vertex \"{}\", expected 0 to {}", i, index, vertices - 1));
     }
   }
   return {.vertices = vertices, .faces = faces};

@@ -21,7 +21,8 @@ struct Neighbour {
   bool agrees;  ///< the two run through their common edge in opposite directions
 };
 
-std::vector<std::vector<Neighbour>> neighbours(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges) {
+std::vector<std::vector<Neighbour>> neighbours(const TriangleMesh& mesh,
+                                               const std::vector<MeshEdge>& edges) {
   std::vector<std::vector<Neighbour>> result(mesh.triangles.size());
   for (const MeshEdge& e : edges) {
     if (e.count != 2) continue;
@@ -53,9 +54,12 @@ std::vector<int> make_consistent(const std::vector<std::vector<Neighbour>>& link
 }
 
 /// Six times the volume that the triangles enclose as they will be turned, about their own centre.
-double enclosed_volume(const TriangleMesh& mesh, const std::vector<int>& members, const std::vector<bool>& turned) {
+double enclosed_volume(const TriangleMesh& mesh,
+                       const std::vector<int>& members,
+                       const std::vector<bool>& turned) {
   Vector3d center = Vector3d::Zero();
-  for (const int t : members) center += mesh.vertices[mesh.triangles[t][0]] / static_cast<double>(members.size());
+  for (const int t : members)
+    center += mesh.vertices[mesh.triangles[t][0]] / static_cast<double>(members.size());
   double volume = 0;
   for (const int t : members) {
     const auto& [a, b, c] = mesh.triangles[t];

@@ -1,6 +1,7 @@
 #pragma once
 
-/// A triangle mesh as plain data. Vertices in mm, in the frame of the body (or cartilage) that the file describes.
+/// A triangle mesh as plain data. Vertices in mm, in the frame of the body (or cartilage) that the file
+/// describes.
 
 #include <Eigen/Core>
 

@@ -16,6 +16,7 @@
 #include "mesh/load_mesh.h"
 #include "mesh/mesh_measures.h"
 #include "surface/exact_surfaces.h"
+#include "surface/fit_figures.h"
 #include "surface/fit_patch.h"
 #include "surface/patch.h"
 
@@ -38,13 +39,20 @@ std::string place_of(const Scene& scene, const SurfaceDescription& surface) {
 
 std::unique_ptr<Surface> make_exact(const SurfaceDescription& s) {
   switch (s.kind) {
-    case SurfaceKind::kPlane: return make_plane(s.point, s.direction);
-    case SurfaceKind::kSphere: return make_sphere(s.point, s.radius, s.solid_inside);
-    case SurfaceKind::kCylinder: return make_cylinder(s.point, s.direction, s.radius, s.solid_inside);
-    case SurfaceKind::kEllipsoid: return make_ellipsoid(s.point, s.axes, s.semi_axes, s.solid_inside);
-    case SurfaceKind::kTorus: return make_torus(s.point, s.direction, s.radius, s.minor_radius, s.solid_inside);
-    case SurfaceKind::kPolynomial: return make_polynomial(s.point, s.axes, s.terms, s.solid_inside);
-    case SurfaceKind::kPatch: break;
+    case SurfaceKind::kPlane:
+      return make_plane(s.point, s.direction);
+    case SurfaceKind::kSphere:
+      return make_sphere(s.point, s.radius, s.solid_inside);
+    case SurfaceKind::kCylinder:
+      return make_cylinder(s.point, s.direction, s.radius, s.solid_inside);
+    case SurfaceKind::kEllipsoid:
+      return make_ellipsoid(s.point, s.axes, s.semi_axes, s.solid_inside);
+    case SurfaceKind::kTorus:
+      return make_torus(s.point, s.direction, s.radius, s.minor_radius, s.solid_inside);
+    case SurfaceKind::kPolynomial:
+      return make_polynomial(s.point, s.axes, s.terms, s.solid_inside);
+    case SurfaceKind::kPatch:
+      break;
   }
   assert(false);
   return nullptr;
@@ -54,16 +62,19 @@ MeshFile mesh_of(const Scene& scene, const SurfaceDescription& surface) {
   if (surface.patch.mesh) return *surface.patch.mesh;
   const BodyDescription& body = scene.bodies[surface.body];
   if (body.mesh) return *body.mesh;
-  throw InputError(fmt::format("{}: kind = \"patch\" needs a mesh: neither the surface nor its body \"{}\" names one",
-                               place_of(scene, surface), body.name));
+  throw InputError(
+      fmt::format("{}: kind = \"patch\" needs a mesh: neither the surface nor its body \"{}\" names one",
+                  place_of(scene, surface), body.name));
 }
 
 void check_patch(const Scene& scene, const SurfaceDescription& surface) {
   const std::string place = place_of(scene, surface);
   if (surface.patch.region_box) return;
   if (!surface.patch.compartment)
-    throw InputError(fmt::format("{}: a patch needs compartment = \"medial\" or \"lateral\", or region = {{ box = ... }}", place));
-  if (!scene.joint) throw InputError(fmt::format("{}: compartment is found from [joint], which is missing", place));
+    throw InputError(fmt::format(
+        "{}: a patch needs compartment = \"medial\" or \"lateral\", or region = {{ box = ... }}", place));
+  if (!scene.joint)
+    throw InputError(fmt::format("{}: compartment is found from [joint], which is missing", place));
   if (surface.body != scene.joint->femur.body && surface.body != scene.joint->tibia.body)
     throw InputError(fmt::format("{}: body \"{}\" is neither the femur nor the tibia of [joint]", place,
                                  scene.bodies[surface.body].name));
@@ -81,7 +92,8 @@ std::vector<Source> collect_sources(const Scene& scene) {
       return s.body == surface.body && s.file.path == file.path && s.file.to_mm == file.to_mm;
     });
     if (source == sources.end()) {
-      sources.push_back({.file = file, .body = surface.body, .surfaces = {}, .mesh = {}, .axis = {}, .notes = {}});
+      sources.push_back(
+          {.file = file, .body = surface.body, .surfaces = {}, .mesh = {}, .axis = {}, .notes = {}});
       source = sources.end() - 1;
     }
     source->surfaces.push_back(static_cast<int>(i));
@@ -90,16 +102,22 @@ std::vector<Source> collect_sources(const Scene& scene) {
 }
 
 BoneFrame bone_frame(const AnatomicalFrame& frame) {
-  return {.origin = frame.origin, .lateral = frame.lateral, .anterior = frame.anterior, .proximal = frame.proximal};
+  return {.origin = frame.origin,
+          .lateral = frame.lateral,
+          .anterior = frame.anterior,
+          .proximal = frame.proximal};
 }
 
-bool is_femur(const Scene& scene, const Source& source) { return scene.joint && source.body == scene.joint->femur.body; }
-bool is_tibia(const Scene& scene, const Source& source) { return scene.joint && source.body == scene.joint->tibia.body; }
+bool is_femur(const Scene& scene, const Source& source) {
+  return scene.joint && source.body == scene.joint->femur.body;
+}
+bool is_tibia(const Scene& scene, const Source& source) {
+  return scene.joint && source.body == scene.joint->tibia.body;
+}
 
 bool needs_axis(const Scene& scene, const Source& source) {
-  return is_femur(scene, source) && std::any_of(source.surfaces.begin(), source.surfaces.end(), [&](int i) {
-           return !scene.surfaces[i].patch.region_box;
-         });
+  return is_femur(scene, source) && std::any_of(source.surfaces.begin(), source.surfaces.end(),
+                                                [&](int i) { return !scene.surfaces[i].patch.region_box; });
 }
 
 void load_source(const Scene& scene, Source& source) {
@@ -108,7 +126,9 @@ void load_source(const Scene& scene, Source& source) {
   int turned = 0;
   if (is_femur(scene, source)) turned = face_out_of_femur(source.mesh);
   if (is_tibia(scene, source)) turned = face_out_of_tibia(source.mesh, bone_frame(scene.joint->tibia));
-  if (turned > 0) source.notes.push_back(fmt::format("{} of {} sheets faced into the bone and were turned", turned, source.mesh.closed.size()));
+  if (turned > 0)
+    source.notes.push_back(fmt::format("{} of {} sheets faced into the bone and were turned", turned,
+                                       source.mesh.closed.size()));
   if (!needs_axis(scene, source)) return;
   try {
     const TriangleMesh& mesh = source.mesh.mesh;
@@ -158,7 +178,8 @@ FittedSurface fit_one(const Scene& scene, const Source& source, const SurfaceDes
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return {std::make_shared<const Patch>(std::move(fit.patch)), std::move(report)};
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {} ({})", place_of(scene, surface), error.what(), source.file.path.string()));
+    throw InputError(
+        fmt::format("{}: {} ({})", place_of(scene, surface), error.what(), source.file.path.string()));
   }
 }
 
@@ -167,8 +188,8 @@ void fit_source(const Scene& scene, Source& source, std::vector<FittedSurface>& 
   for (const int i : source.surfaces) surfaces[i] = fit_one(scene, source, scene.surfaces[i]);
 }
 
-/// Work for all sources on two threads, the first error rethrown: sources share nothing but their own places in
-/// `surfaces`.
+/// Work for all sources on two threads, the first error rethrown: sources share nothing but their own
+/// places in `surfaces`.
 void fit_sources(const Scene& scene, std::vector<Source>& sources, std::vector<FittedSurface>& surfaces) {
   std::vector<std::exception_ptr> errors(sources.size());
   const auto work = [&](std::size_t first, std::size_t step) {

@@ -22,7 +22,8 @@ using Eigen::Vector3d;
 void turn_components(CleanMesh& mesh, const std::vector<double>& outwardness) {
   for (std::size_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
     const int c = mesh.component[t];
-    if (!mesh.closed[c] && outwardness[c] < 0) std::swap(mesh.mesh.triangles[t][1], mesh.mesh.triangles[t][2]);
+    if (!mesh.closed[c] && outwardness[c] < 0)
+      std::swap(mesh.mesh.triangles[t][1], mesh.mesh.triangles[t][2]);
   }
 }
 
@@ -36,7 +37,8 @@ int count_inward(const CleanMesh& mesh, const std::vector<double>& outwardness) 
 std::vector<Vector3d> smoothed_normals(const TriangleMesh& mesh, double distance) {
   std::vector<Vector3d> normals = vertex_normals(mesh);
   const double edge = mean_edge_length(mesh);
-  const int rounds = edge > 0 ? std::clamp(static_cast<int>(std::lround(distance * distance / (edge * edge))), 0, 12) : 0;
+  const int rounds =
+      edge > 0 ? std::clamp(static_cast<int>(std::lround(distance * distance / (edge * edge))), 0, 12) : 0;
   for (int round = 0; round < rounds; ++round) {
     std::vector<Vector3d> next(normals.size(), Vector3d::Zero());
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -111,7 +113,10 @@ Vector3d centroid(const TriangleMesh& mesh, const std::vector<bool>& keep) {
 }
 
 /// Region and chart over a plane: `forward` gives the direction of u.
-ArticularRegion plane_region(const TriangleMesh& mesh, const std::vector<bool>& keep, const Vector3d& height, const Vector3d& forward) {
+ArticularRegion plane_region(const TriangleMesh& mesh,
+                             const std::vector<bool>& keep,
+                             const Vector3d& height,
+                             const Vector3d& forward) {
   const Vector3d origin = centroid(mesh, keep);
   const Vector3d u = (forward - height * height.dot(forward)).normalized(), v = height.cross(u);
   return make_region(
@@ -125,14 +130,21 @@ struct InnerEnds {
 };
 
 /// In the gap between two sheets; on a whole bone at the crests of the medial and the lateral half of the eminence.
+/// A mesh that is deeper than wide is one plateau alone.
 InnerEnds inner_ends(const TriangleMesh& mesh, const BoneFrame& frame, const std::vector<bool>& upward) {
   std::vector<double> z;
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
-    if (upward[i]) z.push_back(frame.lateral.dot(mesh.vertices[i] - frame.origin));
-  if (z.size() < 20) throw InputError("no tibial plateau found: expected faces towards the proximal direction of [joint]");
-  const auto [low, high] = std::minmax_element(z.begin(), z.end());
-  const double first = *low, extent = *high - *low;
-  if (const Gap gap = widest_gap(z); gap.width > 0.03 * extent) return {gap.center, gap.center};
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (!upward[i]) continue;
+    const Vector3d p = frame.components(mesh.vertices[i] - frame.origin);
+    box.extend(p);
+    z.push_back(p.z());
+  }
+  if (z.size() < 20)
+    throw InputError("no tibial plateau found: expected faces towards the proximal direction of [joint]");
+  if (box.sizes().z() < 1.1 * box.sizes().x()) return {box.max().z() + 1, box.min().z() - 1};
+  const double first = box.min().z(), extent = box.sizes().z();
+  if (const Gap gap = widest_gap(std::move(z)); gap.width > 0.03 * extent) return {gap.center, gap.center};
 
   constexpr int kBins = 40;
   std::vector<double> top(kBins, -1e300);
@@ -168,7 +180,8 @@ int face_out_of_femur(CleanMesh& mesh) {
 int face_out_of_tibia(CleanMesh& mesh, const BoneFrame& frame) {
   const std::vector<Vector3d> areas = triangle_areas(mesh.mesh);
   std::vector<double> outwardness(mesh.closed.size(), 0.0);
-  for (std::size_t t = 0; t < areas.size(); ++t) outwardness[mesh.component[t]] += areas[t].dot(frame.proximal);
+  for (std::size_t t = 0; t < areas.size(); ++t)
+    outwardness[mesh.component[t]] += areas[t].dot(frame.proximal);
   turn_components(mesh, outwardness);
   return count_inward(mesh, outwardness);
 }
@@ -182,7 +195,9 @@ ArticularRegion femoral_region(const TriangleMesh& mesh,
     const Vector3d q = p - axis.point;
     return q - axis.direction * axis.direction.dot(q);
   };
-  const auto angle = [&axis](const Vector3d& r) { return std::atan2(r.dot(axis.posterior), r.dot(axis.distal)); };
+  const auto angle = [&axis](const Vector3d& r) {
+    return std::atan2(r.dot(axis.posterior), r.dot(axis.distal));
+  };
 
   const std::vector<Vector3d> normals = smoothed_normals(mesh, options.normal_smoothing);
   std::vector<bool> passes(mesh.vertices.size());
@@ -196,15 +211,18 @@ ArticularRegion femoral_region(const TriangleMesh& mesh,
   }
   ArticularRegion region = make_region(
       mesh, select(mesh, passes),
-      [&](const Vector3d& p) { return Vector2d(radius * angle(radial(p)), axis.direction.dot(p - axis.point)); },
+      [&](const Vector3d& p) {
+        return Vector2d(radius * angle(radial(p)), axis.direction.dot(p - axis.point));
+      },
       [&](const Vector3d& p) -> Vector3d { return radial(p).normalized(); });
   double low = 10, high = -10;
   for (const Vector2d& uv : region.chart) {
     low = std::min(low, uv.x() / radius);
     high = std::max(high, uv.x() / radius);
   }
-  region.notes.push_back(fmt::format("condylar axis: radius {:.2f} mm, {:.2f} mm rms; condyle from {:.0f} to {:.0f} degrees",
-                                     radius, axis.rms, low * 180 / M_PI, high * 180 / M_PI));
+  region.notes.push_back(
+      fmt::format("condylar axis: radius {:.2f} mm, {:.2f} mm rms; condyle from {:.0f} to {:.0f} degrees",
+                  radius, axis.rms, low * 180 / M_PI, high * 180 / M_PI));
   return region;
 }
 
@@ -233,17 +251,19 @@ ArticularRegion tibial_region(const TriangleMesh& mesh,
     std::vector<bool> passes(mesh.vertices.size());
     for (std::size_t i = 0; i < passes.size(); ++i) {
       const Vector3d q = frame.components(mesh.vertices[i] - frame.origin);
-      passes[i] = (half == Half::kMedial ? q.z() < ends.medial : q.z() > ends.lateral) && q.y() > top - depth &&
-                  normals[i].dot(height) > options.tibia_least_cosine;
+      passes[i] = (half == Half::kMedial ? q.z() < ends.medial : q.z() > ends.lateral) &&
+                  q.y() > top - depth && normals[i].dot(height) > options.tibia_least_cosine;
     }
     keep = select(mesh, passes);
-    if (std::find(keep.begin(), keep.end(), true) == keep.end()) throw InputError("no tibial plateau found");
+    if (std::find(keep.begin(), keep.end(), true) == keep.end())
+      throw InputError("no tibial plateau found");
     height = total_area(mesh, keep).normalized();
   }
   ArticularRegion region = plane_region(mesh, keep, height, frame.anterior);
   const Vector3d h = frame.components(height);
   region.notes.push_back(fmt::format("plateau slopes {:.1f} degrees backwards, {:.1f} towards lateral",
-                                     std::atan2(-h.x(), h.y()) * 180 / M_PI, std::atan2(h.z(), h.y()) * 180 / M_PI));
+                                     std::atan2(-h.x(), h.y()) * 180 / M_PI,
+                                     std::atan2(h.z(), h.y()) * 180 / M_PI));
   return region;
 }
 
@@ -257,7 +277,8 @@ ArticularRegion box_region(const TriangleMesh& mesh, const std::array<Vector3d, 
   const std::vector<Vector3d> normals = vertex_normals(mesh);
   for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = inside[i] && normals[i].dot(height) > 0.25;
   const std::vector<bool> keep = select(mesh, inside);
-  if (std::find(keep.begin(), keep.end(), true) == keep.end()) throw InputError("the region box holds no part of the mesh");
+  if (std::find(keep.begin(), keep.end(), true) == keep.end())
+    throw InputError("the region box holds no part of the mesh");
 
   const Vector3d center = centroid(mesh, keep);
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();

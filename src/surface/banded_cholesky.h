@@ -13,7 +13,8 @@ namespace condyle {
 class BandedMatrix {
  public:
   BandedMatrix() = default;
-  BandedMatrix(int n, int band) : n_(n), band_(band), entries_(static_cast<std::size_t>(n) * (band + 1), 0.0) {}
+  BandedMatrix(int n, int band)
+      : n_(n), band_(band), entries_(static_cast<std::size_t>(n) * (band + 1), 0.0) {}
 
   [[nodiscard]] int size() const { return n_; }
   [[nodiscard]] int band() const { return band_; }

@@ -22,7 +22,8 @@ struct Sample {
   double area;
 };
 
-/// Axis through (x0, y0, 0) + z (tx, ty, 1), in anatomical components; one radius on either side of `split`.
+/// Axis through (x0, y0, 0) + z (tx, ty, 1), in anatomical components; one radius on either side of
+/// `split`.
 struct Cylinders {
   double x0 = 0, y0 = 0, tx = 0, ty = 0;
   double radius[2] = {0, 0};
@@ -38,12 +39,15 @@ struct Cylinders {
 
 double angle_of(double x, double y) { return std::atan2(-x, -y); }  // 0 distal, + posterior
 
-std::vector<Sample> samples_of(const TriangleMesh& mesh, const std::vector<Vector3d>& normals, const BoneFrame& frame) {
+std::vector<Sample> samples_of(const TriangleMesh& mesh,
+                               const std::vector<Vector3d>& normals,
+                               const BoneFrame& frame) {
   const std::vector<double> areas = vertex_areas(mesh);
   std::vector<Sample> samples;
   samples.reserve(mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
-    samples.push_back({frame.components(mesh.vertices[i] - frame.origin), frame.components(normals[i]), areas[i]});
+    samples.push_back(
+        {frame.components(mesh.vertices[i] - frame.origin), frame.components(normals[i]), areas[i]});
   return samples;
 }
 
@@ -65,8 +69,8 @@ std::vector<Sample> posterior_candidates(const std::vector<Sample>& all) {
   return kept;
 }
 
-/// A point of a cylinder lies one radius along its normal from the axis: p = a(z) + R n, linear in the unknowns.
-/// Least squares, reweighted so that what is no condyle loses its say.
+/// A point of a cylinder lies one radius along its normal from the axis: p = a(z) + R n, linear in the
+/// unknowns. Least squares, reweighted so that what is no condyle loses its say.
 Cylinders first_estimate(const std::vector<Sample>& samples) {
   constexpr double kScale = 1.5;  // [mm]
   using Vector5 = Eigen::Matrix<double, 5, 1>;
@@ -110,7 +114,8 @@ void refine(Cylinders& c, const std::vector<Sample>& samples) {
     const Vector3d e = q.normalized();
     const double r = q.norm() - c.radius[c.side(s.p)];
     Vector6 row;
-    row << -e.x(), -e.y(), -e.x() * s.p.z(), -e.y() * s.p.z(), c.side(s.p) == 0 ? -1 : 0, c.side(s.p) == 0 ? 0 : -1;
+    row << -e.x(), -e.y(), -e.x() * s.p.z(), -e.y() * s.p.z(), c.side(s.p) == 0 ? -1 : 0,
+        c.side(s.p) == 0 ? 0 : -1;
     const double weight = s.area / std::sqrt(1 + r * r / (kScale * kScale));
     H += weight * row * row.transpose();
     g += weight * r * row;
@@ -135,13 +140,15 @@ double rms_distance(const Cylinders& c, const std::vector<Sample>& samples) {
 }
 
 void check(const Cylinders& c, const std::vector<Sample>& samples) {
-  if (samples.size() < 40) throw InputError("no posterior condyles found: expected a femur, in the frame of [joint]");
+  if (samples.size() < 40)
+    throw InputError("no posterior condyles found: expected a femur, in the frame of [joint]");
   for (const double r : c.radius)
     if (!(r > 8 && r < 45))
       throw InputError(fmt::format("posterior condyles of radius {:.3g} mm, expected 8 to 45 mm", r));
   const double tilt = std::atan(std::hypot(c.tx, c.ty)) * 180 / M_PI;
   if (tilt > 30)
-    throw InputError(fmt::format("the condylar axis lies {:.0f} degrees off the lateral direction of [joint]", tilt));
+    throw InputError(
+        fmt::format("the condylar axis lies {:.0f} degrees off the lateral direction of [joint]", tilt));
 }
 
 CondylarAxis in_body_frame(const Cylinders& c, const BoneFrame& frame) {
@@ -178,7 +185,9 @@ Gap widest_gap(std::vector<double> positions) {
   return gap;
 }
 
-CondylarAxis fit_condylar_axis(const TriangleMesh& mesh, const std::vector<Vector3d>& normals, const BoneFrame& frame) {
+CondylarAxis fit_condylar_axis(const TriangleMesh& mesh,
+                               const std::vector<Vector3d>& normals,
+                               const BoneFrame& frame) {
   const std::vector<Sample> all = samples_of(mesh, normals, frame);
   Cylinders c = first_estimate(posterior_candidates(all));
   std::vector<Sample> samples;

@@ -21,16 +21,16 @@ struct BoneFrame {
 };
 
 struct CondylarAxis {
-  Eigen::Vector3d point;                      ///< on the axis [mm]
-  Eigen::Vector3d direction;                  ///< unit, towards lateral
-  Eigen::Vector3d distal, posterior;          ///< unit, at right angles to it: angles 0 and 90 degrees
+  Eigen::Vector3d point;                         ///< on the axis [mm]
+  Eigen::Vector3d direction;                     ///< unit, towards lateral
+  Eigen::Vector3d distal, posterior;             ///< unit, at right angles to it: angles 0 and 90 degrees
   double medial_radius = 0, lateral_radius = 0;  ///< of the posterior condyles [mm]
-  double split = 0;                           ///< between the condyles, along the axis from `point` [mm]
-  double rms = 0;                             ///< of the posterior condyles from the two cylinders [mm]
+  double split = 0;                              ///< between the condyles, along the axis from `point` [mm]
+  double rms = 0;                                ///< of the posterior condyles from the two cylinders [mm]
 };
 
-/// Robust fit of two coaxial cylinders to the posterior condyles of a femur whose mesh faces outward. `normals` are
-/// those of the vertices. Throws InputError where no condyles can be made out.
+/// Robust fit of two coaxial cylinders to the posterior condyles of a femur whose mesh faces outward.
+/// `normals` are those of the vertices. Throws InputError where no condyles can be made out.
 [[nodiscard]] CondylarAxis fit_condylar_axis(const TriangleMesh& mesh,
                                              const std::vector<Eigen::Vector3d>& normals,
                                              const BoneFrame& frame);

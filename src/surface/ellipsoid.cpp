@@ -13,7 +13,10 @@ using Eigen::Vector3d;
 /// The surface φ(x) = xᵀ M x = 1 about the centre, M = A diag(1/a²) Aᵀ; M x is normal to it.
 class Ellipsoid final : public Surface {
  public:
-  Ellipsoid(const Vector3d& center, const Matrix3d& axes, const Vector3d& semi_axes, bool solid_inside)
+  Ellipsoid(const Vector3d& center,
+            const Matrix3d& axes,
+            const Vector3d& semi_axes,
+            bool solid_inside)
       : center_(center),
         axes_(checked_axes(axes, "ellipsoid: axes")),
         semi_axes_(semi_axes),
@@ -22,7 +25,8 @@ class Ellipsoid final : public Surface {
     M_ = axes_ * semi_axes_.cwiseAbs2().cwiseInverse().asDiagonal() * axes_.transpose();
   }
 
-  /// n = M x/|M x| and, with P = I - nn, K = -P M P/|M x|; all signs turned where the solid is outside.
+  /// n = M x/|M x| and, with P = I - nn, K = -P M P/|M x|; all signs turned where the solid is
+  /// outside.
   [[nodiscard]] SurfacePoint evaluate(const Place& place) const override {
     const Vector3d gradient = M_ * (place - center_);
     const double size = std::max(gradient.norm(), 1e-12 / semi_axes_.maxCoeff());
@@ -35,7 +39,9 @@ class Ellipsoid final : public Surface {
     return at;
   }
 
-  [[nodiscard]] Place moved(const Place& place, const SurfacePoint&, const Vector3d& dc) const override {
+  [[nodiscard]] Place moved(const Place& place,
+                            const SurfacePoint&,
+                            const Vector3d& dc) const override {
     return scaled(place + dc, place);
   }
 
@@ -44,7 +50,9 @@ class Ellipsoid final : public Surface {
     if (x.cwiseQuotient(semi_axes_).squaredNorm() < 1) return closest_by_newton(*this, p, start);
     const Vector3d squares = semi_axes_.cwiseAbs2();
     const double t = multiplier_outside(x);
-    return scaled(center_ + axes_ * x.cwiseProduct(squares).cwiseQuotient((squares.array() + t).matrix()), start);
+    return scaled(
+        center_ + axes_ * x.cwiseProduct(squares).cwiseQuotient((squares.array() + t).matrix()),
+        start);
   }
 
   [[nodiscard]] Place seed(const Vector3d& p) const override {
@@ -55,8 +63,8 @@ class Ellipsoid final : public Surface {
   }
 
  private:
-  /// p brought to the surface along the ray from the centre. A tangent displacement leaves φ = 1 only by its square,
-  /// so this keeps it to first order.
+  /// p brought to the surface along the ray from the centre. A tangent displacement leaves φ = 1
+  /// only by its square, so this keeps it to first order.
   [[nodiscard]] Place scaled(const Vector3d& p, const Place& otherwise) const {
     const Vector3d x = p - center_;
     const double phi = x.dot(M_ * x);
@@ -64,8 +72,8 @@ class Ellipsoid final : public Surface {
     return center_ + x / std::sqrt(phi);
   }
 
-  /// The closest point c to x outside has x - c = t M c with t >= 0 and Σ (a x/(t + a²))² = 1: convex and decreasing,
-  /// so Newton from a lower bound climbs to the root.
+  /// The closest point c to x outside has x - c = t M c with t >= 0 and Σ (a x/(t + a²))² = 1:
+  /// convex and decreasing, so Newton from a lower bound climbs to the root.
   [[nodiscard]] double multiplier_outside(const Vector3d& x) const {
     const Vector3d squares = semi_axes_.cwiseAbs2(), ax = semi_axes_.cwiseProduct(x);
     double t = std::max(0.0, (ax.cwiseAbs() - squares).maxCoeff());

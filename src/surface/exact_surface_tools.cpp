@@ -1,11 +1,12 @@
 #include "surface/exact_surface_tools.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <limits>
 #include <numbers>
-#include <string>
 
 #include "input_error.h"
 
@@ -19,32 +20,34 @@ using Eigen::Vector3d;
 Vector3d checked_direction(const Vector3d& direction, const char* what) {
   const double length = direction.norm();
   if (length > 0 && std::isfinite(length)) return direction / length;
-  throw InputError(std::string(what) + " = [" + std::to_string(direction.x()) + ", " +
-                   std::to_string(direction.y()) + ", " + std::to_string(direction.z()) +
-                   "], expected a vector other than zero");
+  throw InputError(fmt::format("{} = [{}, {}, {}], expected a vector other than zero", what,
+                               direction.x(), direction.y(), direction.z()));
 }
 
 double checked_length(double length, const char* what) {
   if (length > 0 && std::isfinite(length)) return length;
-  throw InputError(std::string(what) + " = " + std::to_string(length) + ", expected a length > 0");
+  throw InputError(fmt::format("{} = {}, expected a length > 0", what, length));
 }
 
 Matrix3d checked_axes(const Matrix3d& axes, const char* what) {
   if ((axes.transpose() * axes - Matrix3d::Identity()).norm() < 1e-9) return axes;
-  throw InputError(std::string(what) + " are not at right angles or not of length 1, expected three unit vectors " +
-                   "at right angles");
+  throw InputError(fmt::format(
+      "{}: not at right angles or not of length 1, expected three unit vectors at right angles",
+      what));
 }
 
 namespace {
 
-/// Minimum of the quadratic model of ½|p - c|² in the tangent plane, `gradient` being its negative slope. Where the
-/// model has no minimum, a descent that also leaves a saddle or a maximum.
+/// Minimum of the quadratic model of ½|p - c|² in the tangent plane, `gradient` being its negative
+/// slope. Where the model has no minimum, a descent that also leaves a saddle or a maximum.
 Vector2d model_step(const Matrix2d& hessian, const Vector2d& gradient, double distance) {
-  const double mean = hessian.trace() / 2, difference = (hessian(0, 0) - hessian(1, 1)) / 2, off = hessian(0, 1);
+  const double mean = hessian.trace() / 2, difference = (hessian(0, 0) - hessian(1, 1)) / 2,
+               off = hessian(0, 1);
   const double radius = std::hypot(difference, off);
   const double lowest = mean - radius;
   if (lowest > 1e-9) {
-    return Vector2d(hessian(1, 1) * gradient[0] - off * gradient[1], hessian(0, 0) * gradient[1] - off * gradient[0]) /
+    return Vector2d(hessian(1, 1) * gradient[0] - off * gradient[1],
+                    hessian(0, 0) * gradient[1] - off * gradient[0]) /
            hessian.determinant();
   }
   const double angle = std::atan2(off, difference) / 2;  // of the stiffest direction
@@ -60,7 +63,11 @@ struct Trial {
 };
 
 /// The full step, or the first of its halves, quarters ... that does not increase the distance.
-Trial shortened_step(const Surface& surface, const Vector3d& p, const Place& x, const SurfacePoint& at, Vector3d dc) {
+Trial shortened_step(const Surface& surface,
+                     const Vector3d& p,
+                     const Place& x,
+                     const SurfacePoint& at,
+                     Vector3d dc) {
   const double square = (p - x).squaredNorm();
   const double round_off = 16 * std::numeric_limits<double>::epsilon() *
                            (square + std::sqrt(square) * (p.norm() + x.norm()));
@@ -84,12 +91,14 @@ Place closest_by_newton(const Surface& surface, const Vector3d& p, const Place& 
     T.col(1) = at.n.cross(T.col(0));
     const Matrix2d hessian = Matrix2d::Identity() - at.n.dot(r) * (T.transpose() * at.K * T);
     const Vector2d gradient = T.transpose() * r;
-    const Trial trial = shortened_step(surface, p, x, at, T * model_step(hessian, gradient, r.norm()));
+    const Trial trial =
+        shortened_step(surface, p, x, at, T * model_step(hessian, gradient, r.norm()));
     if (!trial.accepted) return x;
     x = trial.place;
     const double scale = x.norm() + p.norm();
     if (trial.length <= 1e-16 * scale) return x;
-    if (trial.length < 1e-10 * scale && trial.length >= last_length) return x;  // only round-off is left
+    if (trial.length < 1e-10 * scale && trial.length >= last_length)
+      return x;  // only round-off is left
     last_length = trial.length;
   }
   return x;
@@ -97,8 +106,10 @@ Place closest_by_newton(const Surface& surface, const Vector3d& p, const Place& 
 
 namespace {
 
-/// Parameters θ in [from, to] of points (a cos θ, b sin θ) that divide the arc into equal parts of about `spacing`.
-std::vector<double> evenly_spaced(double a, double b, double from, double to, double spacing, int least) {
+/// Parameters θ in [from, to] of points (a cos θ, b sin θ) that divide the arc into equal parts of
+/// about `spacing`.
+std::vector<double> evenly_spaced(
+    double a, double b, double from, double to, double spacing, int least) {
   constexpr int kFine = 512;
   std::vector<double> arc(kFine + 1, 0.0);
   const double step = (to - from) / kFine;
@@ -136,18 +147,16 @@ std::vector<Place> ellipsoid_samples(const Vector3d& center,
     if (std::max(a, b) > 1e-9 * widest) ring = evenly_spaced(a, b, 0, 2 * pi, spacing, 4);
     ring.pop_back();
     for (const double angle : ring) {
-      places.push_back(center + a * std::cos(angle) * axes.col(x) + b * std::sin(angle) * axes.col(y) +
+      places.push_back(center + a * std::cos(angle) * axes.col(x) +
+                       b * std::sin(angle) * axes.col(y) +
                        semi_axes[polar] * std::cos(latitude) * axes.col(polar));
     }
   }
   return places;
 }
 
-std::vector<Place> torus_samples(const Vector3d& center,
-                                 const Vector3d& axis,
-                                 double major,
-                                 double minor,
-                                 double spacing) {
+std::vector<Place> torus_samples(
+    const Vector3d& center, const Vector3d& axis, double major, double minor, double spacing) {
   constexpr double pi = std::numbers::pi;
   const Vector3d x = axis.unitOrthogonal(), y = axis.cross(x);
   const auto parts = [spacing](double radius) {
@@ -160,7 +169,8 @@ std::vector<Place> torus_samples(const Vector3d& center,
     const int along = parts(radius);
     for (int j = 0; j < along; ++j) {
       const double angle = 2 * pi * j / along;
-      places.push_back(center + radius * (std::cos(angle) * x + std::sin(angle) * y) + minor * std::sin(tube) * axis);
+      places.push_back(center + radius * (std::cos(angle) * x + std::sin(angle) * y) +
+                       minor * std::sin(tube) * axis);
     }
   }
   return places;

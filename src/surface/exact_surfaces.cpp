@@ -1,8 +1,8 @@
 #include "surface/exact_surfaces.h"
 
-#include <Eigen/Geometry>
+#include <fmt/format.h>
 
-#include <string>
+#include <Eigen/Geometry>
 
 #include "input_error.h"
 #include "surface/exact_surface_tools.h"
@@ -28,11 +28,15 @@ class Plane final : public Surface {
   [[nodiscard]] SurfacePoint evaluate(const Place& place) const override {
     return {place, n_, Matrix3d::Zero(), Eigen::Matrix<double, 3, 2>::Zero()};
   }
-  [[nodiscard]] Place moved(const Place& place, const SurfacePoint&, const Vector3d& dc) const override {
+  [[nodiscard]] Place moved(const Place& place,
+                            const SurfacePoint&,
+                            const Vector3d& dc) const override {
     return seed(place + dc);
   }
   [[nodiscard]] Place closest(const Vector3d& p, const Place&) const override { return seed(p); }
-  [[nodiscard]] Place seed(const Vector3d& p) const override { return p + (height_ - n_.dot(p)) * n_; }
+  [[nodiscard]] Place seed(const Vector3d& p) const override {
+    return p + (height_ - n_.dot(p)) * n_;
+  }
   [[nodiscard]] std::vector<Place> samples(double) const override { return {}; }
 
  private:
@@ -40,23 +44,31 @@ class Plane final : public Surface {
   double height_;
 };
 
-/// `sign_` is +1 where the solid is inside, so that sign_ times the direction away from the centre points out of it.
+/// `sign_` is +1 where the solid is inside, so that sign_ times the direction away from the centre
+/// points out of it.
 class Sphere final : public Surface {
  public:
   Sphere(const Vector3d& center, double radius, bool solid_inside)
-      : center_(center), radius_(checked_length(radius, "sphere: radius")), sign_(solid_inside ? 1 : -1) {}
+      : center_(center),
+        radius_(checked_length(radius, "sphere: radius")),
+        sign_(solid_inside ? 1 : -1) {}
 
   [[nodiscard]] SurfacePoint evaluate(const Place& place) const override {
     const Vector3d away = unit_or(place - center_, Vector3d::UnitZ());
-    return {place, sign_ * away, umbilic(away, sign_ / radius_), Eigen::Matrix<double, 3, 2>::Zero()};
+    return {place, sign_ * away, umbilic(away, sign_ / radius_),
+            Eigen::Matrix<double, 3, 2>::Zero()};
   }
-  [[nodiscard]] Place moved(const Place& place, const SurfacePoint& at, const Vector3d& dc) const override {
+  [[nodiscard]] Place moved(const Place& place,
+                            const SurfacePoint& at,
+                            const Vector3d& dc) const override {
     return on_sphere(place + dc, sign_ * at.n);
   }
   [[nodiscard]] Place closest(const Vector3d& p, const Place& start) const override {
     return on_sphere(p, unit_or(start - center_, Vector3d::UnitZ()));
   }
-  [[nodiscard]] Place seed(const Vector3d& p) const override { return on_sphere(p, Vector3d::UnitZ()); }
+  [[nodiscard]] Place seed(const Vector3d& p) const override {
+    return on_sphere(p, Vector3d::UnitZ());
+  }
   [[nodiscard]] std::vector<Place> samples(double spacing) const override {
     return ellipsoid_samples(center_, Matrix3d::Identity(), Vector3d::Constant(radius_), spacing);
   }
@@ -84,7 +96,9 @@ class Cylinder final : public Surface {
     return {place, sign_ * away, (-sign_ / radius_ * round) * round.transpose(),
             Eigen::Matrix<double, 3, 2>::Zero()};
   }
-  [[nodiscard]] Place moved(const Place& place, const SurfacePoint& at, const Vector3d& dc) const override {
+  [[nodiscard]] Place moved(const Place& place,
+                            const SurfacePoint& at,
+                            const Vector3d& dc) const override {
     return on_cylinder(place + dc, sign_ * at.n);
   }
   [[nodiscard]] Place closest(const Vector3d& p, const Place& start) const override {
@@ -117,13 +131,14 @@ class Torus final : public Surface {
         minor_(checked_length(minor, "torus: minor radius")),
         sign_(solid_inside ? 1 : -1) {
     if (minor_ < major_) return;
-    throw InputError("torus: minor radius = " + std::to_string(minor) + ", expected less than the major radius " +
-                     std::to_string(major));
+    throw InputError(fmt::format("torus: minor radius = {}, expected less than the major radius {}",
+                                 minor, major));
   }
 
   [[nodiscard]] SurfacePoint evaluate(const Place& place) const override {
     const Vector3d radial = radial_at(place, sideways_);
-    const Vector3d away = unit_or(place - center_ - major_ * radial, radial), round = axis_.cross(radial);
+    const Vector3d away = unit_or(place - center_ - major_ * radial, radial),
+                   round = axis_.cross(radial);
     // Curvature 1/minor round the tube, cos/(major + minor cos) round the axis, cos = away.radial.
     const double cosine = away.dot(radial);
     const double difference = 1 / minor_ - cosine / (major_ + minor_ * cosine);
@@ -131,14 +146,18 @@ class Torus final : public Surface {
     K += (sign_ * difference * round) * round.transpose();
     return {place, sign_ * away, K, Eigen::Matrix<double, 3, 2>::Zero()};
   }
-  [[nodiscard]] Place moved(const Place& place, const SurfacePoint& at, const Vector3d& dc) const override {
+  [[nodiscard]] Place moved(const Place& place,
+                            const SurfacePoint& at,
+                            const Vector3d& dc) const override {
     return on_torus(place + dc, radial_at(place, sideways_), sign_ * at.n);
   }
   [[nodiscard]] Place closest(const Vector3d& p, const Place& start) const override {
     const Vector3d radial = radial_at(start, sideways_);
     return on_torus(p, radial, unit_or(start - center_ - major_ * radial, radial));
   }
-  [[nodiscard]] Place seed(const Vector3d& p) const override { return on_torus(p, sideways_, sideways_); }
+  [[nodiscard]] Place seed(const Vector3d& p) const override {
+    return on_torus(p, sideways_, sideways_);
+  }
   [[nodiscard]] std::vector<Place> samples(double spacing) const override {
     return torus_samples(center_, axis_, major_, minor_, spacing);
   }
@@ -148,7 +167,9 @@ class Torus final : public Surface {
     const Vector3d x = p - center_;
     return unit_or(x - axis_.dot(x) * axis_, otherwise);
   }
-  [[nodiscard]] Place on_torus(const Vector3d& p, const Vector3d& radial_otherwise, const Vector3d& away_otherwise) const {
+  [[nodiscard]] Place on_torus(const Vector3d& p,
+                               const Vector3d& radial_otherwise,
+                               const Vector3d& away_otherwise) const {
     const Vector3d ring = center_ + major_ * radial_at(p, radial_otherwise);
     return ring + minor_ * unit_or(p - ring, away_otherwise);
   }
@@ -174,11 +195,8 @@ std::unique_ptr<Surface> make_cylinder(const Vector3d& point,
   return std::make_unique<Cylinder>(point, axis, radius, solid_inside);
 }
 
-std::unique_ptr<Surface> make_torus(const Vector3d& center,
-                                    const Vector3d& axis,
-                                    double major,
-                                    double minor,
-                                    bool solid_inside) {
+std::unique_ptr<Surface> make_torus(
+    const Vector3d& center, const Vector3d& axis, double major, double minor, bool solid_inside) {
   return std::make_unique<Torus>(center, axis, major, minor, solid_inside);
 }
 

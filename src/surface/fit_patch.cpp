@@ -1,6 +1,5 @@
 #include "surface/fit_patch.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -21,7 +20,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kMargin = 1;  // of the parameter box around the data [mm]
-constexpr double kEdgeSmoothing = 0.5, kEdgeBand = 6;  // smoothing length at the edge as a fraction; over [mm]
+constexpr double kEdgeSmoothing = 0.4,
+                 kEdgeBand = 6;  // smoothing length at the edge as a fraction; over [mm]
 
 int control_points_over(double length, double spacing, int degree) {
   return std::max(1, static_cast<int>(std::ceil(length / spacing))) + degree;
@@ -38,12 +38,15 @@ SplineGrid make_grid(const ArticularRegion& region, const FitOptions& options) {
   grid.v_max = box.max().y() + kMargin;
   grid.nu = control_points_over(grid.u_max - grid.u_min, options.knot_spacing, options.degree);
   grid.nv = control_points_over(grid.v_max - grid.v_min, options.knot_spacing, options.degree);
-  if (options.control_points) grid.nu = (*options.control_points)[0], grid.nv = (*options.control_points)[1];
+  if (options.control_points)
+    grid.nu = (*options.control_points)[0], grid.nv = (*options.control_points)[1];
   const int least = options.degree + 1, vertices = static_cast<int>(region.mesh.vertices.size());
   if (grid.nu < least || grid.nv < least)
-    throw InputError(fmt::format("{} x {} control points, expected at least {} each way", grid.nu, grid.nv, least));
+    throw InputError(
+        fmt::format("{} x {} control points, expected at least {} each way", grid.nu, grid.nv, least));
   if (vertices < 30 || (options.control_points && vertices < grid.size()))
-    throw InputError(fmt::format("the region holds {} vertices, too few for {} x {} control points", vertices, grid.nu, grid.nv));
+    throw InputError(fmt::format("the region holds {} vertices, too few for {} x {} control points",
+                                 vertices, grid.nu, grid.nv));
   return grid;
 }
 
@@ -67,10 +70,13 @@ std::vector<CellMetric> measure_cells(const SplineGrid& grid, const Patch& patch
       const double u = grid.u_min + (i + 0.5) * grid.step_u(), v = grid.v_min + (j + 0.5) * grid.step_v();
       const PatchDerivatives d = patch.derivatives(u, v);
       const double inside = patch.edge_distance({u, v, 0});
-      cells.push_back({.stretch_u = std::clamp(d.c_u.norm(), 0.5, 4.0),
-                       .stretch_v = std::clamp(d.c_v.norm(), 0.5, 4.0),
-                       .smoothing = inside < -2 ? 1 : std::clamp(kEdgeSmoothing + (1 - kEdgeSmoothing) * inside / kEdgeBand, kEdgeSmoothing, 1.0),
-                       .known = inside > -0.5});
+      cells.push_back(
+          {.stretch_u = std::clamp(d.c_u.norm(), 0.5, 4.0),
+           .stretch_v = std::clamp(d.c_v.norm(), 0.5, 4.0),
+           .smoothing = inside < -2 ? 1
+                                    : std::clamp(kEdgeSmoothing + (1 - kEdgeSmoothing) * inside / kEdgeBand,
+                                                 kEdgeSmoothing, 1.0),
+           .known = inside > -0.5});
     }
   return cells;
 }
@@ -90,9 +96,10 @@ Patch flat_patch(const SplineGrid& grid, const ArticularRegion& region, const Re
   return Patch(std::move(flat));
 }
 
-/// The smoothing length is judged away from the edge, where side walls and rims begin, as long as that leaves enough.
+/// The smoothing length is judged away from the edge, where side walls and rims begin, as long as that
+/// leaves enough.
 std::vector<bool> judged_points(const Patch& flat, const std::vector<DataPoint>& points) {
-  constexpr double kEdge = 4;  // [mm]
+  constexpr double kEdge = 2;  // [mm]
   std::vector<bool> judged;
   for (const DataPoint& p : points) judged.push_back(flat.edge_distance({p.uv.x(), p.uv.y(), 0}) > kEdge);
   const auto count = std::count(judged.begin(), judged.end(), true);
@@ -107,7 +114,8 @@ double correct_parameters(const SplineGrid& grid, const Patch& patch, std::vecto
     const Place before(point.uv.x(), point.uv.y(), 0);
     Place after = patch.closest(point.p, before);
     const double far = (patch.derivatives(before.x(), before.y()).c - point.p).norm();
-    if (!((patch.derivatives(after.x(), after.y()).c - point.p).norm() <= far)) after = patch.closest(point.p, patch.seed(point.p));
+    if (!((patch.derivatives(after.x(), after.y()).c - point.p).norm() <= far))
+      after = patch.closest(point.p, patch.seed(point.p));
     point.uv.x() = std::clamp(after.x(), grid.u_min, grid.u_max);
     point.uv.y() = std::clamp(after.y(), grid.v_min, grid.v_max);
     change += (point.uv - Vector2d(before.x(), before.y())).squaredNorm();
@@ -115,7 +123,9 @@ double correct_parameters(const SplineGrid& grid, const Patch& patch, std::vecto
   return std::sqrt(change / static_cast<double>(points.size()));
 }
 
-int find_orientation(const ArticularRegion& region, const Patch& patch, const std::vector<DataPoint>& points) {
+int find_orientation(const ArticularRegion& region,
+                     const Patch& patch,
+                     const std::vector<DataPoint>& points) {
   double sum = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const PatchDerivatives d = patch.derivatives(points[i].uv.x(), points[i].uv.y());
@@ -124,7 +134,11 @@ int find_orientation(const ArticularRegion& region, const Patch& patch, const st
   return sum < 0 ? -1 : 1;
 }
 
-void finish(const ArticularRegion& region, const RegionOutline& outline, PatchData data, std::vector<DataPoint>& points, PatchFit& fit) {
+void finish(const ArticularRegion& region,
+            const RegionOutline& outline,
+            PatchData data,
+            std::vector<DataPoint>& points,
+            PatchFit& fit) {
   for (const DataPoint& point : points) fit.parameters.push_back(point.uv);
   fill_mask(data, region.mesh, outline, fit.parameters);
   data.orientation = find_orientation(region, Patch(data), points);
@@ -171,48 +185,9 @@ PatchFit fit_patch(const ArticularRegion& region, const FitOptions& options) {
   correct_parameters(grid, Patch(data), points);
   finish(region, outline, std::move(data), points, fit);
   if (outline.holes > 0) fit.notes.push_back(fmt::format("{} small holes bridged", outline.holes));
-  if (outline.wide_holes > 0) fit.notes.push_back(fmt::format("{} wide holes left out", outline.wide_holes));
+  if (outline.wide_holes > 0)
+    fit.notes.push_back(fmt::format("{} wide holes left out", outline.wide_holes));
   return fit;
-}
-
-FitFigures measure_fit(const ArticularRegion& region, const PatchFit& fit, double core_margin) {
-  const Patch patch(fit.patch);
-  const std::vector<double> areas = vertex_areas(region.mesh);
-  FitFigures figures;
-  double area = 0, core_area = 0, square = 0, core_square = 0, normal_square = 0;
-  figures.curvature_range = {1e300, -1e300};
-  for (std::size_t i = 0; i < areas.size(); ++i) {
-    const double d = std::abs(fit.distance[i]);
-    area += areas[i];
-    square += areas[i] * d * d;
-    if (fit.edge_distance[i] <= core_margin) continue;
-    const SurfacePoint at = patch.evaluate({fit.parameters[i].x(), fit.parameters[i].y(), 0});
-    const double angle = std::acos(std::clamp(at.n.dot(region.normals[i]), -1.0, 1.0));
-    core_area += areas[i];
-    core_square += areas[i] * d * d;
-    normal_square += areas[i] * angle * angle;
-    figures.core_max = std::max(figures.core_max, d);
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal;
-    principal.computeDirect(at.K, Eigen::EigenvaluesOnly);
-    // One eigenvalue is the zero of the normal: the other two are the principal curvatures.
-    std::array<double, 3> k = {principal.eigenvalues()[0], principal.eigenvalues()[1], principal.eigenvalues()[2]};
-    std::sort(k.begin(), k.end(), [](double x, double y) { return std::abs(x) > std::abs(y); });
-    figures.curvature_range[0] = std::min({figures.curvature_range[0], k[0], k[1]});
-    figures.curvature_range[1] = std::max({figures.curvature_range[1], k[0], k[1]});
-  }
-  std::vector<double> sorted;
-  for (const double d : fit.distance) sorted.push_back(std::abs(d));
-  std::sort(sorted.begin(), sorted.end());
-  figures.rms = std::sqrt(square / area);
-  figures.max = sorted.back();
-  figures.p95 = sorted[sorted.size() * 95 / 100];
-  if (core_area > 0) {
-    figures.core_rms = std::sqrt(core_square / core_area);
-    figures.core_normal_rms = std::sqrt(normal_square / core_area);
-  } else {
-    figures.curvature_range = {0, 0};
-  }
-  return figures;
 }
 
 }  // namespace condyle

@@ -2,9 +2,9 @@
 
 /// A C² spline patch through an articular region: regularised least squares with parameter correction.
 ///
-/// The chart of the region gives the first parameters; after each linear fit every vertex gets the parameters of
-/// its closest point on the patch, until they settle, so that distances are measured at right angles to the surface.
-/// The mathematics, and how the smoothing length is chosen, is in docs/surface.md.
+/// The chart of the region gives the first parameters; after each linear fit every vertex gets the
+/// parameters of its closest point on the patch, until they settle, so that distances are measured at right
+/// angles to the surface. The mathematics, and how the smoothing length is chosen, is in docs/surface.md.
 
 #include <array>
 #include <optional>
@@ -17,34 +17,26 @@
 namespace condyle {
 
 struct FitOptions {
-  std::optional<std::array<int, 2>> control_points;  ///< absent: from the knot spacing
-  std::optional<double> smoothing_length;            ///< [mm]; absent: chosen from the data
+  std::optional<std::array<int, 2>> control_points = {};  ///< absent: from the knot spacing
+  std::optional<double> smoothing_length = {};            ///< [mm]; absent: chosen from the data
   int degree = 3;
-  double knot_spacing = 2.75;                        ///< [mm of chart length]
-  int rounds = 6;                                    ///< of parameter correction, at most
-  double settled = 0.02;                             ///< rms change of the parameters that ends them [mm]
+  double knot_spacing = 2.75;  ///< [mm of chart length]
+  int rounds = 6;              ///< of parameter correction, at most
+  double settled = 0.02;       ///< rms change of the parameters that ends them [mm]
 };
 
 struct PatchFit {
   PatchData patch;
-  double smoothing_length = 0;                ///< [mm]
-  int rounds = 0;                             ///< of parameter correction that were done
-  std::vector<Eigen::Vector2d> parameters;    ///< of the closest point to each vertex of the region
-  std::vector<double> distance;               ///< of each vertex, positive outside the patch [mm]
-  std::vector<double> edge_distance;          ///< of each closest point from the edge of the data [mm]
+  double smoothing_length = 0;              ///< [mm]
+  int rounds = 0;                           ///< of parameter correction that were done
+  std::vector<Eigen::Vector2d> parameters;  ///< of the closest point to each vertex of the region
+  std::vector<double> distance;             ///< of each vertex, positive outside the patch [mm]
+  std::vector<double> edge_distance;        ///< of each closest point from the edge of the data [mm]
   std::vector<std::string> notes;
 };
 
-/// Throws InputError (without the name of the surface) where the region is too small for the control points.
+/// Throws InputError (without the name of the surface) where the region is too small for the control
+/// points.
 [[nodiscard]] PatchFit fit_patch(const ArticularRegion& region, const FitOptions& options = {});
-
-/// How well the patch follows the region; distances in mm. Core: farther than `core_margin` from the edge.
-struct FitFigures {
-  double rms = 0, p95 = 0, max = 0;
-  double core_rms = 0, core_max = 0;
-  double core_normal_rms = 0;                    ///< [rad]
-  std::array<double, 2> curvature_range = {0, 0};///< principal curvatures in the core [1/mm]
-};
-[[nodiscard]] FitFigures measure_fit(const ArticularRegion& region, const PatchFit& fit, double core_margin = 4);
 
 }  // namespace condyle

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kReference = 1;  // smoothing length at which the texture is measured [mm]
 
-/// (1/2π) ∫ s(k) weight(H(k)) k dk for texture of unit variance and correlation length l, where the fit passes
-/// H = 1/(1 + (ℓk)⁶) of a wave of wave number k.
+/// (1/2π) ∫ s(k) weight(H(k)) k dk for texture of unit variance and correlation length l, where the fit
+/// passes H = 1/(1 + (ℓk)⁶) of a wave of wave number k.
 template <class Weight>
 double over_spectrum(double smoothing_length, double l, Weight weight) {
   constexpr int kSteps = 200;
@@ -38,8 +38,12 @@ double share_followed(double smoothing_length, double l) {
 }
 
 /// Mean squared distance of the judged points at right angles to the patch, parameters held.
-double mean_square_distance(const SplineGrid& grid, const std::vector<DataPoint>& points, const std::vector<bool>& judged,
-                            const DataTerm& data, const PenaltyTerm& penalty, double smoothing_length) {
+double mean_square_distance(const SplineGrid& grid,
+                            const std::vector<DataPoint>& points,
+                            const std::vector<bool>& judged,
+                            const DataTerm& data,
+                            const PenaltyTerm& penalty,
+                            double smoothing_length) {
   const Patch patch(patch_data(grid, solve_fit(data, penalty, smoothing_length)));
   double sum = 0, weight = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -62,9 +66,14 @@ SmoothingChoice choose_smoothing(const SplineGrid& grid,
   assert(judged.size() == points.size());
   const DataTerm data = assemble_data(grid, points);
   const double l = options.texture_correlation;
-  const auto left = [&](double length) { return mean_square_distance(grid, points, judged, data, penalty, length); };
-  const double variance = std::max(left(kReference) / share_left(kReference, l), options.least_texture * options.least_texture);
-  const auto expected_error = [&](double length) { return left(length) + 2 * variance * share_followed(length, l); };
+  const auto left = [&](double length) {
+    return mean_square_distance(grid, points, judged, data, penalty, length);
+  };
+  const double variance =
+      std::max(left(kReference) / share_left(kReference, l), options.least_texture * options.least_texture);
+  const auto expected_error = [&](double length) {
+    return left(length) + 2 * variance * share_followed(length, l);
+  };
 
   // Golden section over log ℓ: the error falls while texture is smoothed away and rises when shape is.
   const double golden = (std::sqrt(5.0) - 1) / 2;

@@ -13,7 +13,8 @@ namespace {
 constexpr int kMost = kMaxDegree + 1;
 using LocalMatrix = std::array<std::array<double, kMost>, kMost>;
 
-/// Gram matrices ∫ B_a^(k) B_b^(k) dt over one knot cell of width `step`, k = 0 to 3; the same for all cells.
+/// Gram matrices ∫ B_a^(k) B_b^(k) dt over one knot cell of width `step`, k = 0 to 3; the same for all
+/// cells.
 std::array<LocalMatrix, 4> cell_grams(int degree, double step) {
   // Gauss points and weights on [0, 1], exact to degree 11.
   constexpr double kPoint[] = {0.0337652428984240, 0.1693953067668677, 0.3806904069584016};
@@ -33,8 +34,13 @@ std::array<LocalMatrix, 4> cell_grams(int degree, double step) {
 
 /// Adds Σ_k factor[k] · gram_u[k] ⊗ gram_v[order - k] of one cell.
 template <std::size_t N>
-void add_cell(BandedMatrix& matrix, const SplineGrid& grid, int i0, int j0, const std::array<LocalMatrix, 4>& u,
-              const std::array<LocalMatrix, 4>& v, const std::array<double, N>& factor) {
+void add_cell(BandedMatrix& matrix,
+              const SplineGrid& grid,
+              int i0,
+              int j0,
+              const std::array<LocalMatrix, 4>& u,
+              const std::array<LocalMatrix, 4>& v,
+              const std::array<double, N>& factor) {
   constexpr int kOrder = static_cast<int>(N) - 1;
   const int m = grid.degree + 1;
   for (int a = 0; a < m; ++a)
@@ -77,7 +83,8 @@ DataTerm assemble_data(const SplineGrid& grid, const std::vector<DataPoint>& poi
 }
 
 PenaltyTerm assemble_penalty(const SplineGrid& grid, const std::vector<CellMetric>& cells) {
-  const auto gram_u = cell_grams(grid.degree, grid.step_u()), gram_v = cell_grams(grid.degree, grid.step_v());
+  const auto gram_u = cell_grams(grid.degree, grid.step_u()),
+             gram_v = cell_grams(grid.degree, grid.step_v());
   PenaltyTerm term{BandedMatrix(grid.size(), grid.band()), BandedMatrix(grid.size(), grid.band())};
   for (int i = 0; i < grid.cells_u(); ++i)
     for (int j = 0; j < grid.cells_v(); ++j) {
@@ -86,15 +93,19 @@ PenaltyTerm assemble_penalty(const SplineGrid& grid, const std::vector<CellMetri
       const double u2 = 1 / (cell.stretch_u * cell.stretch_u), v2 = 1 / (cell.stretch_v * cell.stretch_v);
       const double area = cell.stretch_u * cell.stretch_v;
       const double local = area * std::pow(cell.smoothing, 6);
-      add_cell<4>(term.third, grid, i, j, gram_u, gram_v,
-                  {local * v2 * v2 * v2, 3 * local * u2 * v2 * v2, 3 * local * u2 * u2 * v2, local * u2 * u2 * u2});
+      add_cell<4>(
+          term.third, grid, i, j, gram_u, gram_v,
+          {local * v2 * v2 * v2, 3 * local * u2 * v2 * v2, 3 * local * u2 * u2 * v2, local * u2 * u2 * u2});
       if (!cell.known)
-        add_cell<3>(term.second_outside, grid, i, j, gram_u, gram_v, {area * v2 * v2, 2 * area * u2 * v2, area * u2 * u2});
+        add_cell<3>(term.second_outside, grid, i, j, gram_u, gram_v,
+                    {area * v2 * v2, 2 * area * u2 * v2, area * u2 * u2});
     }
   return term;
 }
 
-std::vector<Eigen::Vector3d> solve_fit(const DataTerm& data, const PenaltyTerm& penalty, double smoothing_length) {
+std::vector<Eigen::Vector3d> solve_fit(const DataTerm& data,
+                                       const PenaltyTerm& penalty,
+                                       double smoothing_length) {
   const double l4 = std::pow(smoothing_length, 4), l6 = std::pow(smoothing_length, 6);
   BandedMatrix matrix = data.matrix.plus(l6, penalty.third).plus(l4, penalty.second_outside);
   if (!matrix.factorize()) throw InputError("too few vertices to determine the control points");

@@ -2,8 +2,9 @@
 
 /// The linear half of a fit: with parameters held fixed, the control points of least
 ///     Σ w_i |c(u_i, v_i) - p_i|² + ℓ⁶ ∫ |∇³c|² dA + ℓ⁴ ∫_outside |∇²c|² dA.
-/// Derivatives and areas are taken per mm of the surface, so that the smoothing length ℓ [mm] neither depends on
-/// the mesh nor on the chart. The last term acts only where there are no data: the patch goes on without bending.
+/// Derivatives and areas are taken per mm of the surface, so that the smoothing length ℓ [mm] neither
+/// depends on the mesh nor on the chart. The last term acts only where there are no data: the patch goes on
+/// without bending.
 
 #include <Eigen/Core>
 
@@ -31,7 +32,7 @@ struct SplineGrid {
 /// One knot cell: how its chart is stretched on the surface and whether it holds data; v fastest.
 struct CellMetric {
   double stretch_u = 1, stretch_v = 1;  ///< mm of surface per unit of parameter
-  double smoothing = 1;                   ///< the smoothing length here as a fraction of ℓ
+  double smoothing = 1;                 ///< the smoothing length here as a fraction of ℓ
   bool known = true;
 };
 
@@ -56,7 +57,9 @@ struct PenaltyTerm {
 [[nodiscard]] PenaltyTerm assemble_penalty(const SplineGrid& grid, const std::vector<CellMetric>& cells);
 
 /// Control points, v fastest. Throws InputError where the data do not determine them.
-[[nodiscard]] std::vector<Eigen::Vector3d> solve_fit(const DataTerm& data, const PenaltyTerm& penalty, double smoothing_length);
+[[nodiscard]] std::vector<Eigen::Vector3d> solve_fit(const DataTerm& data,
+                                                     const PenaltyTerm& penalty,
+                                                     double smoothing_length);
 
 /// The grid with its control points as a patch; no mask yet.
 [[nodiscard]] PatchData patch_data(const SplineGrid& grid, std::vector<Eigen::Vector3d> control_points);

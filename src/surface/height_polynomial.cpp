@@ -1,6 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "input_error.h"
@@ -36,7 +37,9 @@ class HeightPolynomial final : public Surface {
                    const Matrix3d& axes,
                    const std::vector<PolynomialTerm>& terms,
                    bool solid_inside)
-      : origin_(origin), axes_(checked_axes(axes, "polynomial: axes")), sign_(solid_inside ? 1 : -1) {
+      : origin_(origin),
+        axes_(checked_axes(axes, "polynomial: axes")),
+        sign_(solid_inside ? 1 : -1) {
     for (const PolynomialTerm& term : terms) {
       check(term);
       rows_ = std::max(rows_, term.i + 1);
@@ -46,7 +49,8 @@ class HeightPolynomial final : public Surface {
     for (const PolynomialTerm& term : terms) coefficients_[term.i * columns_ + term.j] += term.a;
   }
 
-  /// The gradient of z - h is (-h_x, -h_y, 1) =: w n and K = P [h_xx h_xy; h_xy h_yy] P / w, P = I - nn.
+  /// The gradient of z - h is (-h_x, -h_y, 1) =: w n and K = P [h_xx h_xy; h_xy h_yy] P / w, P = I
+  /// - nn.
   [[nodiscard]] SurfacePoint evaluate(const Place& place) const override {
     const Vector3d x = axes_.transpose() * (place - origin_);
     const Height z = height(x[0], x[1]);
@@ -58,16 +62,20 @@ class HeightPolynomial final : public Surface {
     const Vector3d m = hessian * n;
     const Vector3d side = m - (n.dot(m) / 2) * n;
     const Matrix3d K = (sign_ / w) * (hessian - n * side.transpose() - side * n.transpose());
-    return {place, axes_ * (sign_ * n), axes_ * K * axes_.transpose(), Eigen::Matrix<double, 3, 2>::Zero()};
+    return {place, axes_ * (sign_ * n), axes_ * K * axes_.transpose(),
+            Eigen::Matrix<double, 3, 2>::Zero()};
   }
 
-  [[nodiscard]] Place moved(const Place& place, const SurfacePoint&, const Vector3d& dc) const override {
+  [[nodiscard]] Place moved(const Place& place,
+                            const SurfacePoint&,
+                            const Vector3d& dc) const override {
     return seed(place + dc);
   }
   [[nodiscard]] Place closest(const Vector3d& p, const Place& start) const override {
     return closest_by_newton(*this, p, start);
   }
-  /// Above or below p. A tangent displacement leaves the surface only by its square, so `moved` may do the same.
+  /// Above or below p. A tangent displacement leaves the surface only by its square, so `moved` may
+  /// do the same.
   [[nodiscard]] Place seed(const Vector3d& p) const override {
     Vector3d x = axes_.transpose() * (p - origin_);
     x[2] = height(x[0], x[1]).h;
@@ -79,9 +87,9 @@ class HeightPolynomial final : public Surface {
   static void check(const PolynomialTerm& term) {
     const auto fits = [](int exponent) { return exponent >= 0 && exponent <= kHighestExponent; };
     if (fits(term.i) && fits(term.j) && std::isfinite(term.a)) return;
-    throw InputError("polynomial: term [" + std::to_string(term.i) + ", " + std::to_string(term.j) + ", " +
-                     std::to_string(term.a) + "], expected exponents from 0 to " +
-                     std::to_string(kHighestExponent) + " and a number");
+    throw InputError(
+        fmt::format("polynomial: term [{}, {}, {}], expected exponents from 0 to {} and a number",
+                    term.i, term.j, term.a, kHighestExponent));
   }
 
   /// Horner in y within Horner in x.

@@ -53,6 +53,7 @@ class Patch final : public Surface {
   [[nodiscard]] PatchDerivatives derivatives(double u, double v) const;
 
   [[nodiscard]] SurfacePoint evaluate(const Place& place) const override;
+  [[nodiscard]] SurfacePoint evaluate_frame(const Place& place) const override;
   [[nodiscard]] Place moved(const Place& place,
                             const SurfacePoint& at,
                             const Eigen::Vector3d& dc) const override;
@@ -76,8 +77,10 @@ class Patch final : public Surface {
   struct Basis;
   [[nodiscard]] static Direction make_direction(const std::vector<double>& knots, int degree);
   static int evaluate_direction(const Direction& direction, double t, Basis& basis);
+  static int find_span(const Direction& direction, double t);
   template <int P, int Q>
-  [[nodiscard]] PatchDerivatives derivatives_of_degree(double u, double v) const;
+  [[nodiscard]] PatchDerivatives derivatives_of_degree(double u, double v, bool second) const;
+  [[nodiscard]] SurfacePoint point_from(const PatchDerivatives& d) const;
 
   PatchData data_;
   Direction u_, v_;

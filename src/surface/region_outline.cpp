@@ -35,7 +35,8 @@ std::vector<std::vector<int>> boundary_loops(const TriangleMesh& region) {
 
 double perimeter(const TriangleMesh& region, const std::vector<int>& loop) {
   double sum = 0;
-  for (std::size_t i = 1; i < loop.size(); ++i) sum += (region.vertices[loop[i]] - region.vertices[loop[i - 1]]).norm();
+  for (std::size_t i = 1; i < loop.size(); ++i)
+    sum += (region.vertices[loop[i]] - region.vertices[loop[i - 1]]).norm();
   return sum;
 }
 
@@ -60,12 +61,15 @@ struct CornerGrid {
       return std::array<int, 2>{std::max(0, static_cast<int>(std::ceil((low - origin) / step))),
                                 std::min(n - 1, static_cast<int>(std::floor((high - origin) / step)))};
     };
-    const auto [i0, i1] = range(std::min({a.x(), b.x(), c.x()}), std::max({a.x(), b.x(), c.x()}), u0, step_u, nu);
-    const auto [j0, j1] = range(std::min({a.y(), b.y(), c.y()}), std::max({a.y(), b.y(), c.y()}), v0, step_v, nv);
+    const auto [i0, i1] =
+        range(std::min({a.x(), b.x(), c.x()}), std::max({a.x(), b.x(), c.x()}), u0, step_u, nu);
+    const auto [j0, j1] =
+        range(std::min({a.y(), b.y(), c.y()}), std::max({a.y(), b.y(), c.y()}), v0, step_v, nv);
     for (int i = i0; i <= i1; ++i)
       for (int j = j0; j <= j1; ++j) {
         const Vector2d p(u0 + i * step_u, v0 + j * step_v);
-        const double x = cross(b - p, c - p) / area, y = cross(c - p, a - p) / area, z = cross(a - p, b - p) / area;
+        const double x = cross(b - p, c - p) / area, y = cross(c - p, a - p) / area,
+                     z = cross(a - p, b - p) / area;
         if (std::min({x, y, z}) >= -1e-12) inside[static_cast<std::size_t>(i) * nv + j] = 1;
       }
   }
@@ -82,7 +86,8 @@ RegionOutline trace_outline(const TriangleMesh& region, double small_hole) {
   for (std::size_t k = 0; k < loops.size(); ++k) {
     const std::vector<int>& loop = loops[k];
     if (lengths[k] < std::min(small_hole, longest)) {
-      for (std::size_t i = 2; i + 1 < loop.size(); ++i) outline.hole_fans.push_back({loop[0], loop[i], loop[i - 1]});
+      for (std::size_t i = 2; i + 1 < loop.size(); ++i)
+        outline.hole_fans.push_back({loop[0], loop[i], loop[i - 1]});
       ++outline.holes;
       continue;
     }
@@ -92,7 +97,10 @@ RegionOutline trace_outline(const TriangleMesh& region, double small_hole) {
   return outline;
 }
 
-void fill_mask(PatchData& data, const TriangleMesh& region, const RegionOutline& outline, const std::vector<Vector2d>& uv) {
+void fill_mask(PatchData& data,
+               const TriangleMesh& region,
+               const RegionOutline& outline,
+               const std::vector<Vector2d>& uv) {
   const double u0 = data.knots_u[data.degree[0]], u1 = data.knots_u[data.nu];
   const double v0 = data.knots_v[data.degree[1]], v1 = data.knots_v[data.nv];
   data.mask.clear();

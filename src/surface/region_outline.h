@@ -1,6 +1,7 @@
 #pragma once
 
-/// The edge of the data: outline of a region, its inside in the parameter plane, and the validity mask of a patch.
+/// The edge of the data: outline of a region, its inside in the parameter plane, and the validity mask of a
+/// patch.
 
 #include <array>
 #include <vector>
@@ -11,17 +12,17 @@
 namespace condyle {
 
 struct RegionOutline {
-  std::vector<std::array<int, 2>> edges;       ///< boundary edges, small holes left out
-  std::vector<std::array<int, 3>> hole_fans;   ///< triangles that close the small holes
-  int holes = 0;                               ///< closed this way
-  int wide_holes = 0;                          ///< left open
+  std::vector<std::array<int, 2>> edges;      ///< boundary edges, small holes left out
+  std::vector<std::array<int, 3>> hole_fans;  ///< triangles that close the small holes
+  int holes = 0;                              ///< closed this way
+  int wide_holes = 0;                         ///< left open
 };
 
 /// Holes of a perimeter below `small_hole` [mm] count as data.
 [[nodiscard]] RegionOutline trace_outline(const TriangleMesh& region, double small_hole);
 
-/// Signed distance [mm, in space] of every corner of a grid over the parameter box from the outline, positive
-/// inside. `uv` are the parameters of the region's vertices.
+/// Signed distance [mm, in space] of every corner of a grid over the parameter box from the outline,
+/// positive inside. `uv` are the parameters of the region's vertices.
 void fill_mask(PatchData& patch,
                const TriangleMesh& region,
                const RegionOutline& outline,

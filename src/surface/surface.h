@@ -34,6 +34,9 @@ class Surface {
   /// Point, normal and curvature at a place. Must not allocate; finite for every finite place.
   [[nodiscard]] virtual SurfacePoint evaluate(const Place& place) const = 0;
 
+  /// The same without the curvature (K is not to be used), where that is cheaper.
+  [[nodiscard]] virtual SurfacePoint evaluate_frame(const Place& place) const { return evaluate(place); }
+
   /// The place reached from `at` (evaluated there) by the tangent displacement dc [mm]; on the surface, and equal
   /// to the true displacement to first order.
   [[nodiscard]] virtual Place moved(const Place& place,

@@ -1,0 +1,19 @@
+#pragma once
+
+/// The subcommands of condyle, each in a file of its own. A setup function adds its subcommand to the program;
+/// when that is called it puts its exit code into `status`: 0 all done, 2 some pose did not succeed. Bad input leaves as
+/// an exception.
+
+namespace CLI {
+class App;
+}
+
+namespace condyle {
+
+void setup_check(CLI::App& program, int& status);
+void setup_fit(CLI::App& program, int& status);
+void setup_sweep(CLI::App& program, int& status);
+void setup_render(CLI::App& program, int& status);  // built with CONDYLE_PICTURES only
+void setup_plot(CLI::App& program, int& status);    // built with CONDYLE_PICTURES only
+
+}  // namespace condyle

@@ -1,0 +1,58 @@
+/// condyle: the equilibrium of a knee, from meshes to a sweep. Exit codes: 0 all done, 1 bad input, 2 some pose did
+/// not succeed.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "app/commands.h"
+#include "input_error.h"
+
+namespace condyle {
+namespace {
+
+constexpr int kBadInput = 1;
+
+void setup(CLI::App& program, int& status) {
+  program.set_version_flag("--version", "condyle " CONDYLE_VERSION);
+  program.require_subcommand(1);
+  setup_check(program, status);
+  setup_fit(program, status);
+  setup_sweep(program, status);
+#ifdef CONDYLE_PICTURES
+  setup_render(program, status);
+  setup_plot(program, status);
+#endif
+}
+
+int run(int argc, char** argv) {
+  CLI::App program("condyle: positions of equilibrium of a knee, from its meshes", "condyle");
+  int status = 0;
+  setup(program, status);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return program.exit(help);
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "condyle: {} (condyle --help says more)\n", error.what());
+    return kBadInput;
+  }
+  return status;
+}
+
+}  // namespace
+}  // namespace condyle
+
+int main(int argc, char** argv) {
+  try {
+    return condyle::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::fputs("condyle: not enough memory\n", stderr);
+  } catch (const std::exception& error) {  // InputError above all
+    std::fprintf(stderr, "condyle: %s\n", error.what());
+  }
+  return condyle::kBadInput;
+}

@@ -1,0 +1,13 @@
+#pragma once
+
+/// How the patches of a scene came out, as a table on the standard output; nothing where there is no patch.
+
+#include <vector>
+
+#include "scene/fit_surfaces.h"
+
+namespace condyle {
+
+void print_fit(const std::vector<FittedSurface>& surfaces);
+
+}  // namespace condyle

@@ -1,0 +1,58 @@
+#include "pictures/color_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace condyle {
+namespace {
+
+constexpr std::array<Rgb, 10> kViridis = {{{68, 1, 84},
+                                           {72, 40, 120},
+                                           {62, 73, 137},
+                                           {49, 104, 142},
+                                           {38, 130, 142},
+                                           {31, 158, 137},
+                                           {53, 183, 121},
+                                           {110, 206, 88},
+                                           {181, 222, 43},
+                                           {253, 231, 37}}};
+constexpr std::array<Rgb, 10> kPlasma = {{{13, 8, 135},
+                                          {70, 3, 159},
+                                          {114, 1, 168},
+                                          {156, 23, 158},
+                                          {189, 55, 134},
+                                          {216, 87, 107},
+                                          {237, 121, 83},
+                                          {251, 159, 58},
+                                          {253, 202, 38},
+                                          {240, 249, 33}}};
+
+Rgb interpolate(std::span<const Rgb> anchors, double t) {
+  const double x = t * static_cast<double>(anchors.size() - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(x), anchors.size() - 2);
+  const double w = x - static_cast<double>(i);
+  Rgb color{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    color[c] =
+        static_cast<std::uint8_t>(std::lround((1 - w) * anchors[i][c] + w * anchors[i + 1][c]));
+  }
+  return color;
+}
+
+}  // namespace
+
+Rgb map_color(ColorMap map, double t) {
+  const double s = std::isfinite(t) ? std::clamp(t, 0.0, 1.0) : 0.0;
+  return map == ColorMap::kStrain ? interpolate(kPlasma, 0.8 * s) : interpolate(kViridis, 0.95 * s);
+}
+
+double round_up_nicely(double x) {
+  const double decade = std::pow(10.0, std::floor(std::log10(x)));
+  for (const double step : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+    if (x <= step * decade * (1 + 1e-9)) return step * decade;
+  }
+  return 10 * decade;
+}
+
+}  // namespace condyle

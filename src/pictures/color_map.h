@@ -1,0 +1,23 @@
+#pragma once
+
+/// Colour maps whose lightness rises evenly, so that they survive colour blindness and grey
+/// printing: viridis and plasma of matplotlib (van der Walt and Smith 2015), by their anchor
+/// colours.
+
+#include "pictures/image.h"
+
+namespace condyle {
+
+enum class ColorMap {
+  kStrain,  ///< plasma without its pale end, which would drown on bone
+  kFlexion  ///< viridis
+};
+
+/// t is clamped to [0, 1].
+[[nodiscard]] Rgb map_color(ColorMap map, double t);
+
+/// The smallest of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is not below x (> 0):
+/// round ends for scales.
+[[nodiscard]] double round_up_nicely(double x);
+
+}  // namespace condyle

@@ -1,0 +1,95 @@
+#include "pictures/knee_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pictures/solids.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr Rgb kContactColor = {22, 32, 43};
+constexpr double kPathRadius = 0.5, kPathDot = 0.75, kContactDot = 1.5,
+                 kArrowRadius = 0.95;  // [mm]
+constexpr double kStrideOfPath = 25;  // [mm] between two poses: farther apart it is another contact
+
+bool tibia_moves(const Scene& scene) { return tibia_body(scene) == scene.moving_body(); }
+
+const ContactPointResult* strongest(const ContactResult& contact) {
+  const ContactPointResult* best = nullptr;
+  for (const ContactPointResult& point : contact.points) {
+    if (contact.closed && (!best || point.force > best->force)) best = &point;
+  }
+  return best;
+}
+
+Vector3d on_tibia(const Scene& scene, const ContactPointResult& point) {
+  return tibia_moves(scene) ? point.point_moving : point.point_ground;
+}
+
+/// One piece of a path: follows a contact as long as it stays closed.
+void add_piece(ShadedMesh& mesh, const std::vector<TubePoint>& piece) {
+  for (std::size_t i = 1; i < piece.size(); ++i) append(mesh, tube({piece[i - 1], piece[i]}));
+  for (const TubePoint& point : piece) append(mesh, ball(point.center, kPathDot, point.paint));
+}
+
+}  // namespace
+
+std::vector<ContactMark> contact_marks(const Scene& scene, const PoseResult& pose) {
+  std::vector<ContactMark> marks;
+  const RigidTransform X_PB = tibia_moves(scene) ? pose.X_BA.inverse() : RigidTransform();
+  for (const ContactResult& contact : pose.contacts) {
+    if (!contact.closed) continue;
+    for (const ContactPointResult& point : contact.points) {
+      const Vector3d out_of_fixed = X_PB.R * point.normal_ground;
+      marks.push_back({X_PB * point.point_ground,
+                       tibia_moves(scene) ? Vector3d(-out_of_fixed) : out_of_fixed, point.force});
+    }
+  }
+  return marks;
+}
+
+ShadedMesh contact_paths(const Run& run, const PictureScales& scales) {
+  ShadedMesh mesh;
+  const double range = std::max(1e-12, scales.sweep_high - scales.sweep_low);
+  for (std::size_t c = 0; c < run.scene.contacts.size(); ++c) {
+    std::vector<TubePoint> piece;
+    for (const PoseResult& pose : run.sweep.poses) {
+      const ContactPointResult* point =
+          pose.converged() && c < pose.contacts.size() ? strongest(pose.contacts[c]) : nullptr;
+      const double far =
+          point && !piece.empty() ? (on_tibia(run.scene, *point) - piece.back().center).norm() : 0;
+      if (!point || far > kStrideOfPath) {
+        add_piece(mesh, piece);
+        piece.clear();
+      }
+      if (!point || (!piece.empty() && far < 1e-6)) continue;
+      const Rgb color = map_color(ColorMap::kFlexion, (pose.value - scales.sweep_low) / range);
+      piece.push_back({on_tibia(run.scene, *point), kPathRadius, {color, 0.9}});
+    }
+    add_piece(mesh, piece);
+  }
+  return mesh;
+}
+
+ShadedMesh contact_points(const std::vector<ContactMark>& marks) {
+  ShadedMesh mesh;
+  for (const ContactMark& mark : marks)
+    append(mesh, ball(mark.point, kContactDot, {kContactColor, 0.85}));
+  return mesh;
+}
+
+ShadedMesh force_arrows(const std::vector<ContactMark>& marks, const PictureScales& scales) {
+  ShadedMesh mesh;
+  for (const ContactMark& mark : marks) {
+    const double length = mark.force * scales.arrow_mm_per_n;
+    if (length < 1) continue;
+    append(mesh, arrow(mark.point, mark.point + length * mark.toward_femur, kArrowRadius,
+                       {kContactColor, 0.75}));
+  }
+  return mesh;
+}
+
+}  // namespace condyle

@@ -1,0 +1,41 @@
+#pragma once
+
+/// Plots through gnuplot, the maintained plotting program of the distribution. A chart is plain
+/// data; here it becomes a gnuplot script, which gnuplot reads from a pipe.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace condyle {
+
+/// NaN where there is no value: a gap in the line.
+struct Curve {
+  std::string title;
+  std::vector<double> x, y;
+};
+
+struct Panel {
+  std::string y_label;
+  std::vector<Curve> curves;
+  bool from_zero = false;  ///< the axis begins at 0: for quantities that are never negative
+};
+
+/// Panels one above the other over the same abscissa, legends to their right.
+struct Chart {
+  std::string title, x_label;
+  std::vector<Panel> panels;
+};
+
+enum class PlotFormat { kPng, kSvg };
+
+/// The script that draws `chart` into `file`.
+[[nodiscard]] std::string gnuplot_script(const Chart& chart,
+                                         const std::filesystem::path& file,
+                                         PlotFormat format);
+
+/// Draws; never leaves a half-written file. Throws InputError when the folder does not exist,
+/// PictureError when gnuplot is missing or refuses.
+void plot(const Chart& chart, const std::filesystem::path& file, PlotFormat format);
+
+}  // namespace condyle

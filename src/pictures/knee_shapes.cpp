@@ -1,0 +1,105 @@
+#include "pictures/knee_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pictures/surface_shapes.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr Paint kBone = {{232, 222, 204}, 0};
+constexpr Paint kCartilage = {{186, 207, 223}, 0.42};
+
+int body_named(const Scene& scene, const std::string& name) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].name == name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+const RunPatch* patch_of(const Run& run, const std::string& surface) {
+  for (const RunPatch& patch : run.patches) {
+    if (patch.surface == surface) return &patch;
+  }
+  return nullptr;
+}
+
+/// Where in the body's frame a surface without bounds is worth seeing: at the first contact of the
+/// body.
+Vector3d place_of_interest(const Run& run, int body) {
+  for (const PoseResult& pose : run.sweep.poses) {
+    if (!pose.converged()) continue;
+    for (const ContactResult& contact : pose.contacts) {
+      for (const ContactPointResult& point : contact.points) {
+        return body == run.scene.moving_body() ? point.point_moving : point.point_ground;
+      }
+    }
+  }
+  return Vector3d::Zero();
+}
+
+}  // namespace
+
+int tibia_body(const Scene& scene) {
+  return scene.joint ? scene.joint->tibia.body : scene.moving_body();
+}
+int femur_body(const Scene& scene) {
+  return scene.joint ? scene.joint->femur.body : scene.fixed_body();
+}
+
+std::vector<RigidTransform> body_poses(const Scene& scene, const RigidTransform& X_BA) {
+  std::vector<RigidTransform> poses(scene.bodies.size());
+  const int moving = scene.moving_body(), tibia = tibia_body(scene);
+  if (moving >= 0) poses[static_cast<std::size_t>(moving)] = X_BA;
+  const RigidTransform X_PB = tibia == moving && moving >= 0 ? X_BA.inverse() : RigidTransform();
+  for (RigidTransform& pose : poses) pose = X_PB * pose;
+  return poses;
+}
+
+std::vector<BodyShape> body_shapes(const Run& run) {
+  std::vector<BodyShape> shapes;
+  for (const BodyMesh& bone : run.bodies) {
+    const int body = body_named(run.scene, bone.name);
+    if (body < 0 || bone.mesh.triangles.empty()) continue;
+    shapes.push_back({body, Layer::kBone, 0.05, shade(bone.mesh, kBone)});
+  }
+  for (const SurfaceDescription& surface : run.scene.surfaces) {
+    const RunPatch* patch = patch_of(run, surface.name);
+    if (surface.kind == SurfaceKind::kPatch && !patch) continue;
+    shapes.push_back(
+        {surface.body, Layer::kSolid, 0.16,
+         patch ? patch_shape(Patch(patch->data), kCartilage)
+               : exact_shape(surface, kCartilage, place_of_interest(run, surface.body))});
+  }
+  return shapes;
+}
+
+PictureScales picture_scales(const Run& run) {
+  PictureScales scales;
+  scales.strain_known =
+      std::any_of(run.scene.ligaments.begin(), run.scene.ligaments.end(),
+                  [](const auto& ligament) { return slack_length(ligament.law) > 0; });
+  double strain = 0.01, tension = 1, contact = 1, low = 1e300, high = -1e300;
+  for (const PoseResult& pose : run.sweep.poses) {
+    if (!pose.converged()) continue;
+    low = std::min(low, pose.value);
+    high = std::max(high, pose.value);
+    for (const LigamentResult& ligament : pose.ligaments) {
+      strain = std::max(strain, ligament.strain);
+      tension = std::max(tension, ligament.force);
+    }
+    for (const ContactResult& c : pose.contacts) contact = std::max(contact, c.force);
+  }
+  scales.ligament_top = round_up_nicely(scales.strain_known ? strain : tension);
+  scales.force_top = contact;
+  scales.arrow_mm_per_n = 35 / contact;
+  if (low <= high) scales.sweep_low = low, scales.sweep_high = high;
+  const double strands = static_cast<double>(run.scene.ligaments.size());
+  scales.tube_radius = 1.5 * std::min(1.0, std::sqrt(20 / std::max(1.0, strands)));
+  return scales;
+}
+
+}  // namespace condyle

@@ -1,0 +1,80 @@
+#pragma once
+
+/// What of a run is drawn, as shaded meshes: bones and articular surfaces once per run, ligaments,
+/// contact points and force arrows once per pose. P is the picture's frame: the body frame of the
+/// tibia, which stands still in every picture while the femur moves over it.
+
+#include <vector>
+
+#include "pictures/color_map.h"
+#include "pictures/renderer.h"
+#include "results/run_file.h"
+
+namespace condyle {
+
+/// Index of the tibia's and the femur's body; without [joint] the moving and the fixed body.
+[[nodiscard]] int tibia_body(const Scene& scene);
+[[nodiscard]] int femur_body(const Scene& scene);
+
+/// Pose of every body in P when the moving body has the pose X_BA in the ground frame.
+[[nodiscard]] std::vector<RigidTransform> body_poses(const Scene& scene,
+                                                     const RigidTransform& X_BA);
+
+/// A mesh that is fixed to a body.
+struct BodyShape {
+  int body = -1;
+  Layer layer = Layer::kSolid;
+  double gloss = 0.1;
+  ShadedMesh mesh;  ///< body frame
+};
+/// Bones and articular surfaces of all bodies. Works on runs without meshes or patches: then there
+/// is less to see.
+[[nodiscard]] std::vector<BodyShape> body_shapes(const Run& run);
+
+/// Scales that hold for all pictures of a run, so that they can be compared.
+struct PictureScales {
+  bool strain_known =
+      true;  ///< some ligament has a slack length; else ligaments are coloured by force
+  double ligament_top = 0.05;   ///< strain [-] or force [N] at the upper end of the colours
+  double force_top = 100;       ///< largest contact force [N]
+  double arrow_mm_per_n = 0.3;  ///< length of arrows
+  double sweep_low = 0, sweep_high = 1;  ///< range of the swept value, converged poses
+  double tube_radius = 1.5;              ///< [mm]
+};
+[[nodiscard]] PictureScales picture_scales(const Run& run);
+
+/// Colour of a ligament; slack ones are grey.
+[[nodiscard]] Rgb ligament_color(const PictureScales& scales, const LigamentResult& ligament);
+
+/// A ligament's line in P, end to end: straight when taut; when slack, bowed away from the joint
+/// until it is as long as its slack length (within reason).
+[[nodiscard]] std::vector<Eigen::Vector3d> ligament_line(const Scene& scene,
+                                                         const std::vector<RigidTransform>& X_P,
+                                                         std::size_t ligament,
+                                                         const LigamentResult& result);
+
+[[nodiscard]] ShadedMesh ligament_tubes(const Run& run,
+                                        const PoseResult& pose,
+                                        const PictureScales& scales);
+/// Only where they end on the tibia, for the view of the plateau.
+[[nodiscard]] ShadedMesh tibial_insertions(const Run& run,
+                                           const PoseResult& pose,
+                                           const PictureScales& scales);
+
+/// Points of the closed contacts at a pose, in P.
+struct ContactMark {
+  Eigen::Vector3d point;         ///< [mm]
+  Eigen::Vector3d toward_femur;  ///< unit normal out of the tibia
+  double force = 0;              ///< on the femur along toward_femur [N]
+};
+[[nodiscard]] std::vector<ContactMark> contact_marks(const Scene& scene, const PoseResult& pose);
+
+/// The points that the contacts leave on the tibia over the converged poses, coloured by the swept
+/// value.
+[[nodiscard]] ShadedMesh contact_paths(const Run& run, const PictureScales& scales);
+/// Balls at the contact points and arrows of the forces on the femur.
+[[nodiscard]] ShadedMesh contact_points(const std::vector<ContactMark>& marks);
+[[nodiscard]] ShadedMesh force_arrows(const std::vector<ContactMark>& marks,
+                                      const PictureScales& scales);
+
+}  // namespace condyle

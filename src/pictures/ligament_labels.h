@@ -1,0 +1,23 @@
+#pragma once
+
+/// One label per ligament of a picture, and the point its leader line goes to.
+
+#include <string>
+#include <vector>
+
+#include "pictures/annotate.h"
+
+namespace condyle {
+
+struct LigamentLabel {
+  std::string name;
+  double force = 0;        ///< of all strands [N]
+  Eigen::Vector3d anchor;  ///< [mm], in P
+};
+
+/// In the order of the scene. Seen from above the anchor is an insertion on the tibia, and
+/// ligaments whose insertions are all hidden below the plateau have no label; else it is the middle
+/// of the bundle's middle strand.
+[[nodiscard]] std::vector<LigamentLabel> ligament_labels(const Scenery& scenery);
+
+}  // namespace condyle

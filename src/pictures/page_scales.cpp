@@ -1,0 +1,114 @@
+#include "pictures/page_scales.h"
+
+#include <fmt/format.h>
+
+#include "pictures/swept_quantity.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// A step of 1, 2 or 5 times a power of ten that gives at most six ticks.
+double tick_step(double range) {
+  double step = std::pow(10.0, std::floor(std::log10(range / 5)));
+  for (const double factor : {2.0, 2.5, 2.0}) {
+    if (range / step <= 6) break;
+    step *= factor;
+  }
+  return step;
+}
+
+struct ColorBar {
+  ColorMap map;
+  std::string title, unit;
+  double low, high;  // as shown
+};
+
+void draw_color_bar(const Pen& pen, const ColorBar& bar, const Frame& place) {
+  const double height = place.bottom - place.top;
+  const int rows = static_cast<int>(std::lround(height));
+  for (int i = 0; i < rows; ++i) {
+    pen.canvas.rectangle({place.left, place.top + i, place.right, place.top + i + 1.0},
+                         map_color(bar.map, 1 - (i + 0.5) / rows));
+  }
+  pen.canvas.text({place.left - 2 * pen.s, place.top - 34 * pen.s}, bar.title, pen.style(14));
+  pen.canvas.text({place.left - 2 * pen.s, place.top - 15 * pen.s}, bar.unit,
+                  pen.style(14, kQuiet));
+  const double range = std::max(1e-9, bar.high - bar.low), step = tick_step(range);
+  for (double value = std::ceil(bar.low / step - 1e-6) * step; value <= bar.high + 1e-6 * range;
+       value += step) {
+    const double y = place.bottom - height * (value - bar.low) / range;
+    pen.canvas.line({place.right, y}, {place.right + 5 * pen.s, y}, pen.s, kInk);
+    pen.canvas.text({place.right + 9 * pen.s, y + 5 * pen.s},
+                    fmt::format("{:g}", std::round(value / step) * step + 0.0), pen.style(14));
+  }
+}
+
+}  // namespace
+
+void draw_bars(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
+  const double left = page.width - 98 * pen.s, right = left + 16 * pen.s;
+  const SweptQuantity swept = swept_quantity(scenery.run.scene);
+  const PictureScales& scales = scenery.scales;
+  double top = 150 * pen.s;
+  if (!scenery.run.scene.ligaments.empty()) {
+    const Frame place{left, top, right, top + 215 * pen.s};
+    const double factor = scales.strain_known ? 100 : 1;
+    draw_color_bar(pen,
+                   {ColorMap::kStrain, "Ligament", scales.strain_known ? "strain [%]" : "force [N]",
+                    0, factor * scales.ligament_top},
+                   place);
+    const double y = place.bottom + 24 * pen.s;
+    pen.canvas.line({left, y}, {right, y}, 3 * pen.s, ligament_color(scales, {}));
+    pen.canvas.text({right + 9 * pen.s, y + 5 * pen.s}, "slack", pen.style(14));
+    top = place.bottom + 120 * pen.s;
+  }
+  if (scenery.run.scene.contacts.empty() || !(scales.sweep_high > scales.sweep_low)) return;
+  const std::string unit = swept.unit == "°" ? "[°]" : "[" + swept.unit + "]";
+  draw_color_bar(pen,
+                 {ColorMap::kFlexion, "Contact path", capitalized(swept.title) + " " + unit,
+                  swept.shown(scales.sweep_low), swept.shown(scales.sweep_high)},
+                 {left, top, right, top + 215 * pen.s});
+}
+
+void draw_directions(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
+  const Anatomy anatomy = anatomy_of(scenery.run.scene);
+  const Vector2d middle(66 * pen.s, page.height - 74 * pen.s);
+  for (int axis = 0; axis < 2; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      const Vector3d direction = sign * scenery.camera.R_VP.row(axis).transpose();
+      const Vector2d out = axis == 0 ? Vector2d(sign, 0) : Vector2d(0, -sign);
+      pen.canvas.line(middle, middle + 22 * pen.s * out, 1.4 * pen.s, kLeader);
+      pen.canvas.text(middle + 34 * pen.s * out + Vector2d(0, 6 * pen.s),
+                      std::string(1, direction_letter(anatomy, direction)),
+                      pen.style(16, kInk, Align::kCenter));
+    }
+  }
+}
+
+void draw_scale_bar(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
+  constexpr double kLength = 20;  // mm
+  const double pixels = kLength / scenery.camera.mm_per_pixel, y = page.height - 52 * pen.s,
+               x = 140 * pen.s;
+  pen.canvas.rectangle({x, y - 2 * pen.s, x + pixels, y + 2 * pen.s}, kInk);
+  pen.canvas.text({x + 0.5 * pixels, y - 9 * pen.s}, fmt::format("{:g} mm", kLength),
+                  pen.style(14, kInk, Align::kCenter));
+}
+
+void draw_force_scale(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
+  const double force = round_up_nicely(0.2 * scenery.scales.force_top);
+  const double pixels = force * scenery.scales.arrow_mm_per_n / scenery.camera.mm_per_pixel;
+  const double y = page.height - 52 * pen.s, x = 175 * pen.s + 20 / scenery.camera.mm_per_pixel;
+  const Vector2d tip(x + pixels, y);
+  pen.canvas.line({x, y}, tip - Vector2d(6 * pen.s, 0), 3 * pen.s, kInk);
+  for (int i = 0; i <= static_cast<int>(12 * pen.s); ++i) {
+    const double half_width = 6 * pen.s * i / (12 * pen.s);
+    pen.canvas.line(tip - Vector2d(i, half_width), tip - Vector2d(i, -half_width), 1.2, kInk);
+  }
+  pen.canvas.text({x + 0.5 * pixels, y - 11 * pen.s}, fmt::format("{:g} N", force),
+                  pen.style(14, kInk, Align::kCenter));
+}
+
+}  // namespace condyle

@@ -1,0 +1,19 @@
+#pragma once
+
+/// What a picture is measured by: colour bars, scale bar, length of force arrows, and the
+/// anatomical directions.
+
+#include "pictures/annotate.h"
+#include "pictures/pen.h"
+
+namespace condyle {
+
+/// Colour bars of ligament strain and of the contact path, at the right.
+void draw_bars(const Pen& pen, const PageLayout& page, const Scenery& scenery);
+/// A cross with the letters of the anatomical directions, lower left.
+void draw_directions(const Pen& pen, const PageLayout& page, const Scenery& scenery);
+void draw_scale_bar(const Pen& pen, const PageLayout& page, const Scenery& scenery);
+/// The arrow of a round force, to compare the arrows in the picture with.
+void draw_force_scale(const Pen& pen, const PageLayout& page, const Scenery& scenery);
+
+}  // namespace condyle

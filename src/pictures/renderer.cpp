@@ -1,0 +1,195 @@
+#include "pictures/renderer.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "pictures/gl_objects.h"
+#include "pictures/shaders.h"
+
+namespace condyle {
+namespace {
+
+constexpr int kSamplesPerPixel = 4;
+constexpr double kDepthRange = 2000;   // [mm] before and behind the target
+constexpr double kOcclusionReach = 9;  // [mm]
+// Cartilage is fitted to the same mesh that is drawn as bone: the bone steps back so that its
+// roughness does not poke through [mm].
+constexpr double kBoneStepsBack = 1.2;
+constexpr double kFade = 0.08;  // margin of the page in which shafts fade away, of its smaller side
+constexpr float kMarkOpacity = 0.92F;
+constexpr float kNothing = -10000;  // height where no surface is [mm]
+
+/// Half the size of the picture, for geometry and occlusion.
+int half(int size) { return (size + 1) / 2; }
+
+}  // namespace
+
+struct Renderer::State {
+  int width, height;
+  OffscreenContext context;
+  ShaderProgram geometry{shaders::kMeshVertex, shaders::kGeometryFragment};
+  ShaderProgram occlusion{shaders::kPageVertex, shaders::kOcclusionFragment};
+  ShaderProgram smooth{shaders::kPageVertex, shaders::kSmoothFragment};
+  ShaderProgram depth{shaders::kMeshVertex, shaders::kDepthFragment};
+  ShaderProgram shading{shaders::kMeshVertex, shaders::kShadeFragment};
+  Target surfaces{half(width), half(height), GL_RGBA32F, true};
+  Target noisy{half(width), half(height), GL_RG32F, false};
+  Target light{half(width), half(height), GL_R8, false};
+  Target page{width, height, GL_SRGB8_ALPHA8, true, available_samples(kSamplesPerPixel)};
+  Target resolved{width, height, GL_SRGB8_ALPHA8, false};
+  GLuint no_vertices = 0;
+  std::vector<std::unique_ptr<MeshBuffer>> meshes;
+
+  State(int w, int h) : width(w), height(h) { glGenVertexArrays(1, &no_vertices); }
+  ~State() {
+    context.make_current();  // the objects above are about to be deleted in it
+    glDeleteVertexArrays(1, &no_vertices);
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  void set_camera(const ShaderProgram& program, const Camera& camera) const;
+  void draw(const ShaderProgram& program,
+            const Camera& camera,
+            const std::vector<Item>& items,
+            Layer layer) const;
+  void find_light(const Camera& camera, const std::vector<Item>& items) const;
+  void draw_page(const Camera& camera, const std::vector<Item>& items) const;
+  [[nodiscard]] Image read_back() const;
+};
+
+void Renderer::State::set_camera(const ShaderProgram& program, const Camera& camera) const {
+  const double sx = 2 / (width * camera.mm_per_pixel), sy = 2 / (height * camera.mm_per_pixel);
+  program.use();
+  glUniform3f(program.uniform("scale"), static_cast<float>(sx), static_cast<float>(sy),
+              static_cast<float>(-1 / kDepthRange));
+  glUniform3f(program.uniform("shift"), static_cast<float>(2 * camera.center.x() / width - 1),
+              static_cast<float>(1 - 2 * camera.center.y() / height), 0);
+}
+
+void Renderer::State::draw(const ShaderProgram& program,
+                           const Camera& camera,
+                           const std::vector<Item>& items,
+                           Layer layer) const {
+  glUniform1f(program.uniform("push"),
+              layer == Layer::kBone ? static_cast<float>(kBoneStepsBack) : 0);
+  for (const Item& item : items) {
+    if (item.layer != layer) continue;
+    Eigen::Matrix4f X_VM = Eigen::Matrix4f::Identity();
+    X_VM.topLeftCorner<3, 3>() = (camera.R_VP * item.X_PM.R).cast<float>();
+    X_VM.topRightCorner<3, 1>() = (camera.R_VP * (item.X_PM.p - camera.target)).cast<float>();
+    glUniformMatrix4fv(program.uniform("X_VM"), 1, GL_FALSE, X_VM.data());
+    glUniform1f(program.uniform("gloss"), static_cast<float>(item.gloss));
+    if (item.closed) glEnable(GL_CULL_FACE);
+    meshes[static_cast<std::size_t>(item.mesh)]->draw();
+    glDisable(GL_CULL_FACE);
+  }
+}
+
+/// Ambient occlusion of the nearest surface, solid or bone.
+void Renderer::State::find_light(const Camera& camera, const std::vector<Item>& items) const {
+  const auto mm_per_pixel = static_cast<float>(camera.mm_per_pixel * width / surfaces.width());
+  surfaces.bind();
+  const float nothing[4] = {0, 0, 1, kNothing};
+  glClearBufferfv(GL_COLOR, 0, nothing);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_DEPTH_TEST);
+  set_camera(geometry, camera);
+  for (const Layer layer : {Layer::kSolid, Layer::kBone}) draw(geometry, camera, items, layer);
+
+  glDisable(GL_DEPTH_TEST);
+  glBindVertexArray(no_vertices);
+  surfaces.bind_texture(0);
+  noisy.bind();
+  occlusion.use();
+  glUniform1i(occlusion.uniform("geometry"), 0);
+  glUniform1f(occlusion.uniform("mm_per_pixel"), mm_per_pixel);
+  glUniform1f(occlusion.uniform("reach"), static_cast<float>(kOcclusionReach));
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+
+  light.bind();
+  noisy.bind_texture(1);
+  smooth.use();
+  glUniform1i(smooth.uniform("noisy"), 1);
+  glUniform1f(smooth.uniform("mm_per_pixel"), mm_per_pixel);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::State::draw_page(const Camera& camera, const std::vector<Item>& items) const {
+  page.bind();
+  glEnable(GL_FRAMEBUFFER_SRGB);
+  glClearColor(1, 1, 1, 0);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_DEPTH_TEST);
+  light.bind_texture(2);
+  set_camera(shading, camera);
+  glUniform1i(shading.uniform("occlusion"), 2);
+  glUniform2f(shading.uniform("page"), static_cast<float>(width), static_cast<float>(height));
+  glUniform1f(shading.uniform("fade"), static_cast<float>(kFade * std::min(width, height)));
+  draw(shading, camera, items, Layer::kSolid);
+
+  // The page's alpha now says how far the solid there shows through bone, 0 where there is none. Of
+  // the bones the nearest surface is mixed with it: depth first, then colour where the depth is
+  // equal.
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  set_camera(depth, camera);
+  draw(depth, camera, items, Layer::kBone);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthFunc(GL_EQUAL);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_DST_ALPHA);
+  shading.use();
+  draw(shading, camera, items, Layer::kBone);
+  glDepthFunc(GL_LESS);
+
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glBlendColor(1, 1, 1, kMarkOpacity);
+  glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+  draw(shading, camera, items, Layer::kMark);
+  glDisable(GL_BLEND);
+}
+
+Image Renderer::State::read_back() const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, page.framebuffer());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved.framebuffer());
+  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved.framebuffer());
+  std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(width) *
+                                 static_cast<std::size_t>(height));
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  Image image{width, height, std::vector<std::uint8_t>(rgba.size() / 4 * 3)};
+  for (int y = 0; y < height; ++y) {
+    const std::uint8_t* from = rgba.data() + 4 * static_cast<std::size_t>(width) *
+                                                 static_cast<std::size_t>(height - 1 - y);
+    std::uint8_t* to = image.rgb.data() + image.offset(0, y);
+    for (int x = 0; x < width; ++x, from += 4, to += 3) std::copy(from, from + 3, to);
+  }
+  return image;
+}
+
+Renderer::Renderer(int width, int height) : state_(std::make_unique<State>(width, height)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+int Renderer::add(const ShadedMesh& mesh) {
+  state_->context.make_current();
+  state_->meshes.push_back(std::make_unique<MeshBuffer>());
+  state_->meshes.back()->fill(mesh);
+  return static_cast<int>(state_->meshes.size()) - 1;
+}
+
+void Renderer::replace(int id, const ShadedMesh& mesh) {
+  state_->context.make_current();
+  state_->meshes[static_cast<std::size_t>(id)]->fill(mesh);
+}
+
+Image Renderer::render(const Camera& camera, const std::vector<Item>& items) {
+  state_->context.make_current();
+  state_->find_light(camera, items);
+  state_->draw_page(camera, items);
+  return state_->read_back();
+}
+
+}  // namespace condyle

@@ -1,0 +1,20 @@
+#pragma once
+
+/// Runs another program without a shell, feeds its standard input and collects what it says.
+
+#include <string>
+#include <vector>
+
+namespace condyle {
+
+struct ProgramResult {
+  bool started = false;  ///< false: there is no such program
+  int exit_code = -1;    ///< -1 when it was ended by a signal
+  std::string messages;  ///< standard error, on one line
+};
+
+/// `command` holds the program, found along PATH, and its arguments.
+[[nodiscard]] ProgramResult run_program(const std::vector<std::string>& command,
+                                        const std::string& input);
+
+}  // namespace condyle

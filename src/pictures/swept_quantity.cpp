@@ -1,0 +1,71 @@
+#include "pictures/swept_quantity.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace condyle {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+SweptQuantity quantity_of(const ConditionDescription& condition) {
+  switch (condition.kind) {
+    case ConditionKind::kFlexion:
+      return {"Flexion", "°", kDegrees, true};
+    case ConditionKind::kAdduction:
+      return {"Adduction", "°", kDegrees};
+    case ConditionKind::kInternalRotation:
+      return {"Internal rotation", "°", kDegrees};
+    case ConditionKind::kLateralShift:
+      return {"Lateral shift", "mm", 1};
+    case ConditionKind::kAnteriorDrawer:
+      return {"Anterior drawer", "mm", 1};
+    case ConditionKind::kDistraction:
+      return {"Distraction", "mm", 1};
+    case ConditionKind::kTranslation:
+      return {condition.name, "mm", 1};
+    case ConditionKind::kRotation:
+      return {condition.name, "°", kDegrees};
+    case ConditionKind::kDistance:
+      return {condition.name, "mm", 1};
+  }
+  return {condition.name, "", 1};
+}
+
+}  // namespace
+
+SweptQuantity swept_quantity(const Scene& scene) {
+  if (!scene.sweep || scene.sweep->index < 0) return {"Pose", "", 1};
+  const auto index = static_cast<std::size_t>(scene.sweep->index);
+  if (scene.sweep->varies_load) {
+    return {index < scene.loads.size() ? "Factor on " + scene.loads[index].name : scene.sweep->vary,
+            "×", 1};
+  }
+  if (index >= scene.conditions.size()) return {scene.sweep->vary, "", 1};
+  return quantity_of(scene.conditions[index]);
+}
+
+std::string with_unit(const SweptQuantity& quantity, double inside) {
+  // Rounded first, so that -0.04 does not read "-0".
+  const double rounded = std::round(10 * quantity.shown(inside)) / 10 + 0.0;
+  return fmt::format("{:g}{}{}", rounded, quantity.unit == "mm" ? " " : "", quantity.unit);
+}
+
+std::optional<std::size_t> nearest_pose(const Scene& scene,
+                                        const SweepResult& sweep,
+                                        double shown) {
+  const SweptQuantity quantity = swept_quantity(scene);
+  std::optional<std::size_t> best;
+  double least = 0;
+  for (std::size_t i = 0; i < sweep.poses.size(); ++i) {
+    const double far = std::abs(quantity.shown(sweep.poses[i].value) - shown);
+    if (best && !(far < least)) continue;
+    best = i;
+    least = far;
+  }
+  return best;
+}
+
+}  // namespace condyle

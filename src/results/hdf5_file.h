@@ -1,0 +1,109 @@
+#pragma once
+
+/// A small door to HDF5: groups, datasets with their units, attributes. Every failure throws InputError naming the
+/// file and the place in it; nothing of HDF5 is printed.
+///
+/// Files are built in memory and handed out as bytes, so that a full disk is met by a plain write and never by
+/// HDF5 half-way through its own.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace condyle {
+
+/// Owns one HDF5 identifier.
+class Hdf5Handle {
+ public:
+  using Close = int (*)(std::int64_t);
+  Hdf5Handle() = default;
+  Hdf5Handle(std::int64_t id, Close close) : id_(id), close_(close) {}
+  Hdf5Handle(Hdf5Handle&& other) noexcept : id_(other.id_), close_(other.close_) { other.id_ = -1; }
+  Hdf5Handle& operator=(Hdf5Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(close_, other.close_);
+    return *this;
+  }
+  ~Hdf5Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  [[nodiscard]] std::int64_t id() const { return id_; }
+
+ private:
+  std::int64_t id_ = -1;
+  Close close_ = nullptr;
+};
+
+using Shape = std::vector<std::size_t>;
+
+struct Hdf5Array {
+  std::vector<double> values;  ///< last index fastest
+  Shape shape;
+};
+
+class Hdf5Group {
+ public:
+  /// `place` names the group in messages: "run.h5: /sweep".
+  Hdf5Group(Hdf5Handle handle, std::string place) : handle_(std::move(handle)), place_(std::move(place)) {}
+
+  [[nodiscard]] Hdf5Group create(const std::string& name) const;
+  [[nodiscard]] Hdf5Group open(const std::string& name) const;
+  [[nodiscard]] bool has(const std::string& name) const;
+  [[nodiscard]] bool is_group(const std::string& name) const;
+  [[nodiscard]] std::vector<std::string> names() const;  ///< of what it holds, in the order of creation
+
+  void write(const std::string& name, const std::vector<double>& values, const Shape& shape, const std::string& units) const;
+  void write(const std::string& name, const std::vector<int>& values, const Shape& shape, const std::string& units) const;
+  void write(const std::string& name, const std::vector<std::string>& values) const;
+  void write_attribute(const std::string& name, const std::string& text) const;
+  /// An attribute of a dataset of this group.
+  void write_attribute(const std::string& dataset, const std::string& name, const std::vector<std::string>& texts) const;
+
+  [[nodiscard]] Hdf5Array read(const std::string& name) const;
+  /// The same, of a shape that must be met.
+  [[nodiscard]] std::vector<double> read(const std::string& name, const Shape& shape) const;
+  [[nodiscard]] std::vector<int> read_integers(const std::string& name, const Shape& shape) const;
+  [[nodiscard]] std::vector<std::string> read_texts(const std::string& name) const;
+  [[nodiscard]] std::string read_attribute(const std::string& name) const;
+  [[nodiscard]] std::string read_attribute(const std::string& dataset, const std::string& name) const;
+
+  [[noreturn]] void fail(const std::string& message) const;
+
+ private:
+  [[nodiscard]] Hdf5Handle checked(std::int64_t id, Hdf5Handle::Close close, const std::string& what) const;
+  void check(int status, const std::string& what) const;
+  [[nodiscard]] Hdf5Handle create_dataset(const std::string& name, std::int64_t type, const Shape& shape, const std::string& units) const;
+  void attach(const Hdf5Handle& object, const std::string& name, const std::vector<std::string>& texts, bool scalar) const;
+
+  [[nodiscard]] Hdf5Handle open_dataset(const std::string& name) const;
+  [[nodiscard]] std::string read_attribute_of(const Hdf5Handle& object, const std::string& name) const;
+
+  Hdf5Handle handle_;
+  std::string place_;
+};
+
+/// A file being built in memory. Groups must be gone before `bytes` is asked.
+class Hdf5Builder {
+ public:
+  explicit Hdf5Builder(const std::string& file);
+  [[nodiscard]] Hdf5Group root() const;
+  [[nodiscard]] std::string bytes() const;
+
+ private:
+  Hdf5Handle file_;
+  std::string name_;
+};
+
+class Hdf5Reader {
+ public:
+  explicit Hdf5Reader(const std::filesystem::path& file);
+  [[nodiscard]] Hdf5Group root() const;
+
+ private:
+  Hdf5Handle file_;
+  std::string name_;
+};
+
+}  // namespace condyle

@@ -1,0 +1,216 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "results/hdf5_file.h"
+#include "results/run_file.h"
+#include "results/run_layout.h"
+#include "scene/read_scene.h"
+#include "scene/sweep_range.h"
+
+namespace condyle {
+namespace {
+
+using Poses = std::vector<PoseResult>;
+
+// Hands one row of numbers to each pose.
+using TakeRow = std::function<void(PoseResult& pose, const double* row)>;
+void take(const Hdf5Group& group, const char* name, const Shape& shape, Poses& poses, const TakeRow& take_row) {
+  const std::vector<double> values = group.read(name, shape);
+  const std::size_t width = values.size() / poses.size();
+  for (std::size_t i = 0; i < poses.size(); ++i) take_row(poses[i], &values[i * width]);
+}
+
+Scene read_head(const Hdf5Group& root) {
+  const std::string format = root.read_attribute("format");
+  if (format != kRunFormat) root.fail(fmt::format("format = \"{}\", expected \"{}\"", format, kRunFormat));
+  return parse_scene(root.read_attribute("scene"), root.read_attribute("scene_file"));
+}
+
+void read_status(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
+  const double unit = scene.sweep ? border_sweep_unit(scene).factor : 1;
+  const Shape n = {poses.size()};
+  take(sweep, "value", n, poses, [&](PoseResult& p, const double* row) { p.value = *row * unit; });
+  take(sweep, "status", n, poses, [&](PoseResult& p, const double* row) {
+    if (!(*row >= 0 && *row < kPoseStatusCount)) sweep.fail(fmt::format("status = {}, which has no meaning", *row));
+    p.status = static_cast<PoseStatus>(static_cast<int>(*row));
+  });
+  const std::vector<std::string> reasons = sweep.read_texts("reason");
+  if (reasons.size() != poses.size()) sweep.fail("dataset reason has not one text for each value");
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].reason = reasons[i];
+}
+
+void read_pose(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
+  const std::size_t n = poses.size();
+  const Hdf5Group pose = sweep.open("pose");
+  take(pose, "translation", {n, 3}, poses, [](PoseResult& p, const double* row) { std::copy_n(row, 3, p.X_BA.p.data()); });
+  take(pose, "rotation", {n, 3, 3}, poses, [](PoseResult& p, const double* row) {
+    for (int i = 0; i < 9; ++i) p.X_BA.R(i / 3, i % 3) = row[i];
+  });
+  if (!scene.joint) return;
+  const Hdf5Group joint = sweep.open("joint");
+  for (const auto& column : kJointColumns) {
+    take(joint, column.name, {n}, poses, [&](PoseResult& p, const double* row) {
+      p.joint.*column.member = *row * column.unit;
+    });
+  }
+}
+
+void read_contact(const Hdf5Group& group, std::size_t index, Poses& poses) {
+  const std::size_t n = poses.size();
+  take(group, "state", {n}, poses, [&](PoseResult& p, const double* row) { p.contacts[index].closed = *row == 1; });
+  take(group, "force", {n}, poses, [&](PoseResult& p, const double* row) { p.contacts[index].force = *row; });
+  const Hdf5Group points = group.open("points");
+  take(points, "count", {n}, poses, [&](PoseResult& p, const double* row) {
+    p.contacts[index].points.resize(static_cast<std::size_t>(std::clamp(*row, 0.0, 1e6)));
+  });
+  const Hdf5Array edges = points.read("on_edge");
+  const std::size_t slots = edges.shape.size() == 2 && edges.shape[0] == n ? edges.shape[1] : 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    std::vector<ContactPointResult>& list = poses[i].contacts[index].points;
+    if (list.size() > slots) points.fail("dataset on_edge has fewer columns than there are points");
+    for (std::size_t k = 0; k < list.size(); ++k) list[k].on_edge = edges.values[i * slots + k] == 1;
+  }
+  for (const PointColumn& column : kPointColumns) {
+    const Shape shape = column.width > 1 ? Shape{n, slots, column.width} : Shape{n, slots};
+    take(points, column.name, shape, poses, [&](PoseResult& p, const double* row) {
+      for (ContactPointResult& point : p.contacts[index].points) {
+        std::copy_n(row, column.width, column.data(point));
+        row += column.width;
+      }
+    });
+  }
+}
+
+void read_elements(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
+  const Shape n = {poses.size()};
+  for (PoseResult& pose : poses) {
+    pose.contacts.resize(scene.contacts.size());
+    pose.ligaments.resize(scene.ligaments.size());
+    pose.conditions.resize(scene.conditions.size());
+  }
+  const Hdf5Group contacts = sweep.open("contacts"), ligaments = sweep.open("ligaments");
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) read_contact(contacts.open(scene.contacts[i].name), i, poses);
+  for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
+    const Hdf5Group group = ligaments.open(scene.ligaments[i].name);
+    for (const auto& column : kLigamentColumns) {
+      take(group, column.name, n, poses, [&](PoseResult& p, const double* row) { p.ligaments[i].*column.member = *row; });
+    }
+  }
+  const Hdf5Group conditions = sweep.open("conditions");
+  for (std::size_t i = 0; i < scene.conditions.size(); ++i) {
+    const Hdf5Group group = conditions.open(scene.conditions[i].name);
+    const double unit = is_angle(scene.conditions[i].kind) ? kDegree : 1;
+    take(group, "value", n, poses, [&](PoseResult& p, const double* row) { p.conditions[i].value = *row * unit; });
+    take(group, "multiplier", n, poses, [&](PoseResult& p, const double* row) { p.conditions[i].multiplier = *row; });
+  }
+}
+
+void read_solver(const Hdf5Group& sweep, Poses& poses) {
+  const Shape n = {poses.size()};
+  const Hdf5Group stability = sweep.open("stability"), newton = sweep.open("newton");
+  take(stability, "stable", n, poses, [](PoseResult& p, const double* row) { p.stability = static_cast<int>(*row); });
+  take(stability, "lowest_stiffness", n, poses, [](PoseResult& p, const double* row) { p.lowest_stiffness = *row; });
+  take(newton, "iterations", n, poses, [](PoseResult& p, const double* row) { p.iterations = static_cast<int>(*row); });
+  take(newton, "residual", n, poses, [](PoseResult& p, const double* row) { p.residual = *row; });
+  take(newton, "seconds", n, poses, [](PoseResult& p, const double* row) { p.seconds = *row; });
+}
+
+void read_sweep(const Hdf5Group& sweep, Run& run) {
+  Poses& poses = run.sweep.poses;
+  poses.resize(sweep.read("value").values.size());
+  if (poses.empty()) sweep.fail("dataset value is empty");
+  read_status(sweep, run.scene, poses);
+  read_pose(sweep, run.scene, poses);
+  read_elements(sweep, run.scene, poses);
+  read_solver(sweep, poses);
+  if (!run.scene.sweep) return;
+  run.scene.sweep->values.clear();  // the command line may have had its own
+  for (const PoseResult& pose : poses) run.scene.sweep->values.push_back(pose.value);
+}
+
+std::vector<Eigen::Vector3d> read_points(const Hdf5Group& group, const char* name, Shape& shape) {
+  const Hdf5Array array = group.read(name);
+  shape = array.shape;
+  if (shape.empty() || shape.back() != 3) group.fail(fmt::format("dataset {} does not hold points", name));
+  std::vector<Eigen::Vector3d> points(array.values.size() / 3);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = Eigen::Map<const Eigen::Vector3d>(&array.values[3 * i]);
+  return points;
+}
+
+FitReport read_fit(const Hdf5Group& patch, const std::string& surface, const PatchData& data) {
+  FitReport report;
+  report.surface = surface;
+  report.control_points = {data.nu, data.nv};
+  report.rms = patch.read("rms_mm", {})[0];
+  report.max = patch.read("max_mm", {})[0];
+  const Hdf5Group fit = patch.open("fit");
+  for (const auto& column : kFitColumns) report.*column.member = fit.read(column.name, {})[0] * column.unit;
+  report.mesh_vertices = fit.read_integers("mesh_vertices", {})[0];
+  const std::vector<double> range = fit.read("curvature_range", {2});
+  report.curvature_range = {range[0], range[1]};
+  report.notes = fit.read_texts("notes");
+  return report;
+}
+
+RunPatch read_patch(const Hdf5Group& group, const std::string& surface, const Scene& scene) {
+  RunPatch patch;
+  patch.surface = surface;
+  const std::string body = group.read_attribute("body");
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].name == body) patch.body = static_cast<int>(i);
+  }
+  PatchData& data = patch.data;
+  const std::vector<int> degree = group.read_integers("degree", {2});
+  data.degree = {degree[0], degree[1]};
+  Shape net;
+  data.control_points = read_points(group, "control_points", net);
+  if (net.size() != 3 || patch.body < 0) group.fail("is not a patch of this scene");
+  data.nu = static_cast<int>(net[0]);
+  data.nv = static_cast<int>(net[1]);
+  data.knots_u = group.read("knots_u", {net[0] + static_cast<std::size_t>(degree[0]) + 1});
+  data.knots_v = group.read("knots_v", {net[1] + static_cast<std::size_t>(degree[1]) + 1});
+  data.orientation = group.read_integers("orientation", {})[0];
+  Hdf5Array mask = group.read("mask");
+  if (mask.shape.size() != 2) group.fail("dataset mask is not a grid");
+  data.mask_nu = std::max(0, static_cast<int>(mask.shape[0]) - 1);
+  data.mask_nv = std::max(0, static_cast<int>(mask.shape[1]) - 1);
+  data.mask = std::move(mask.values);
+  patch.report = read_fit(group, surface, data);
+  return patch;
+}
+
+BodyMesh read_body(const Hdf5Group& group, const std::string& name) {
+  BodyMesh body;
+  body.name = name;
+  Shape shape;
+  body.mesh.vertices = read_points(group, "vertices", shape);
+  const Hdf5Array corners = group.read("triangles");
+  const auto count = static_cast<double>(body.mesh.vertices.size());
+  for (std::size_t i = 0; i + 2 < corners.values.size(); i += 3) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(corners.values[i + k] >= 0 && corners.values[i + k] < count)) group.fail("triangles name no vertex");
+    }
+    body.mesh.triangles.push_back({static_cast<int>(corners.values[i]), static_cast<int>(corners.values[i + 1]),
+                                   static_cast<int>(corners.values[i + 2])});
+  }
+  return body;
+}
+
+}  // namespace
+
+Run read_run(const std::filesystem::path& path) {
+  const Hdf5Reader reader(path);
+  const Hdf5Group root = reader.root();
+  Run run;
+  run.scene = read_head(root);
+  if (root.has("sweep")) read_sweep(root.open("sweep"), run);
+  const Hdf5Group patches = root.open("patches");
+  for (const std::string& name : patches.names()) run.patches.push_back(read_patch(patches.open(name), name, run.scene));
+  const Hdf5Group bodies = root.open("bodies");
+  for (const std::string& name : bodies.names()) run.bodies.push_back(read_body(bodies.open(name), name));
+  return run;
+}
+
+}  // namespace condyle

@@ -1,0 +1,44 @@
+#pragma once
+
+/// A run on disk: HDF5 as shared between programs (format "condyle 1"). All the reader of pictures needs is inside:
+/// the scene text, poses, patches, and the bodies' meshes.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "equilibrium/pose_result.h"
+#include "mesh/triangle_mesh.h"
+#include "scene/fit_surfaces.h"
+#include "scene/scene.h"
+#include "surface/patch.h"
+
+namespace condyle {
+
+struct BodyMesh {
+  std::string name;   ///< of the body
+  TriangleMesh mesh;  ///< body frame [mm]; may be empty
+};
+
+struct RunPatch {
+  std::string surface;  ///< name of the surface in the scene
+  int body = -1;
+  PatchData data;
+  FitReport report;
+};
+
+struct Run {
+  Scene scene;
+  SweepResult sweep;
+  std::vector<RunPatch> patches;
+  std::vector<BodyMesh> bodies;
+};
+
+/// Writes to a temporary file beside `path` and renames it: never a half-written file. Throws InputError when the
+/// folder does not exist or the disk is full.
+void write_run(const std::filesystem::path& path, const Run& run);
+
+/// Throws InputError for a file that is missing or is not a run.
+[[nodiscard]] Run read_run(const std::filesystem::path& path);
+
+}  // namespace condyle

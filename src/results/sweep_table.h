@@ -1,0 +1,52 @@
+#pragma once
+
+/// A sweep as lines of text: one row for each pose, a closing summary, and what went wrong where. Angles in deg,
+/// lengths in mm, forces in N, times in µs.
+
+#include <string>
+#include <vector>
+
+#include "equilibrium/pose_result.h"
+#include "scene/scene.h"
+
+namespace condyle {
+
+/// Ligaments whose forces are added up in one column.
+struct LigamentColumn {
+  std::string name;
+  std::vector<std::size_t> members;  ///< indices into Scene::ligaments
+};
+
+/// Each ligament for itself where there are few. Else by name, first without the number at its end (ACLam3 is of
+/// ACLam), then without the small letters before it too (ACLam is of ACL).
+[[nodiscard]] std::vector<LigamentColumn> ligament_columns(const std::vector<std::string>& names, std::size_t most = 12);
+
+class SweepTable {
+ public:
+  explicit SweepTable(const Scene& scene);
+  /// Two lines: names and units.
+  [[nodiscard]] std::string head() const;
+  [[nodiscard]] std::string row(const PoseResult& pose) const;
+
+ private:
+  struct Cell {
+    std::string name, units;
+    int decimals;
+    double (*value)(const SweepTable& table, const PoseResult& pose, std::size_t index);
+    std::size_t index = 0;
+  };
+  void add_coordinates(bool joint, bool flexion_is_swept);
+  [[nodiscard]] static int width(const Cell& cell);
+
+  double swept_unit_ = 1;
+  std::vector<LigamentColumn> ligaments_;
+  std::vector<Cell> cells_;
+};
+
+/// "25 of 25 poses converged, largest residual 1.2e-11 N, largest gap 3e-14 mm, 1.3 ms (52 µs a pose)"
+[[nodiscard]] std::string summary(const SweepResult& sweep);
+
+/// One line for each pose that did not converge, saying which and why.
+[[nodiscard]] std::vector<std::string> failures(const Scene& scene, const SweepResult& sweep);
+
+}  // namespace condyle

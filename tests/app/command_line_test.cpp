@@ -1,0 +1,179 @@
+/// The program itself, as a user runs it: exit codes, one line for a mistake, no half-written file.
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "results/run_file.h"
+#include "scene/small_scene.h"
+
+namespace condyle {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+std::string contents(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// A ball on a plateau that turns about the ball's centre: the position of equilibrium is known.
+const std::string kScene = with(kSmallScene, "to = 120", "to = 20");
+
+class CommandLine : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("condyle_app_" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+    write("knee.toml", kScene);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// Runs the program in the folder; `prefix` are shell commands before it.
+  [[nodiscard]] Outcome run(const std::string& arguments, const std::string& prefix = "") const {
+    const std::string command = "cd '" + folder_.string() + "' && " + prefix + "'" CONDYLE_PROGRAM "' " + arguments +
+                                " > stdout.txt 2> stderr.txt";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder_ / "stdout.txt"), contents(folder_ / "stderr.txt")};
+  }
+
+  /// Names in the folder apart from the scene and the captured output.
+  [[nodiscard]] std::vector<std::string> results() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+      const std::string name = entry.path().filename().string();
+      if (name != "knee.toml" && name != "stdout.txt" && name != "stderr.txt") names.push_back(name);
+    }
+    return names;
+  }
+
+  fs::path folder_;
+};
+
+void expect_bad_input(const Outcome& outcome, const std::string& message) {
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.err, "condyle: " + message + "\n");
+}
+
+TEST_F(CommandLine, ChecksAScene) {
+  const Outcome outcome = run("check knee.toml");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("sweep      bend from 0 to 20 deg, 5 poses"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(CommandLine, SweepsASceneIntoAFileThatCanBeReadAgain) {
+  const Outcome outcome = run("sweep knee.toml -o run.h5");
+  EXPECT_EQ(outcome.code == 0 || outcome.code == 2, true) << outcome.err;
+  EXPECT_NE(outcome.out.find("wrote run.h5"), std::string::npos) << outcome.out;
+  const condyle::Run back = read_run(folder_ / "run.h5");
+  EXPECT_EQ(back.scene.title, "ball and socket");
+  EXPECT_EQ(back.sweep.poses.size(), 5U);
+  EXPECT_EQ(results(), std::vector<std::string>{"run.h5"});
+}
+
+TEST_F(CommandLine, TakesItsRangeFromTheOptions) {
+  const Outcome outcome = run("sweep knee.toml -o run.h5 --from 10 --to -10 --step -10");
+  EXPECT_NE(outcome.out.find("wrote run.h5"), std::string::npos) << outcome.err;
+  const condyle::Run back = read_run(folder_ / "run.h5");
+  ASSERT_EQ(back.sweep.poses.size(), 3U);
+  EXPECT_NEAR(back.sweep.poses[2].value, -10 * M_PI / 180, 1e-15);
+}
+
+TEST_F(CommandLine, TakesTheOptionsInTheUnitOfTheScene) {
+  write("knee.toml", with(with(kScene, "angle = \"deg\"", "angle = \"rad\""), "to = 20\nstep = 5", "to = 0.4\nstep = 0.2"));
+  const Outcome outcome = run("sweep knee.toml -o run.h5 --to 0.2");
+  EXPECT_NE(outcome.out.find("wrote run.h5"), std::string::npos) << outcome.err;
+  const condyle::Run back = read_run(folder_ / "run.h5");
+  ASSERT_EQ(back.sweep.poses.size(), 2U);
+  EXPECT_NEAR(back.sweep.poses[1].value, 0.2, 1e-15);
+}
+
+TEST_F(CommandLine, ExitsWithTwoWhereAPoseDoesNotSucceed) {
+  // Nothing holds the tibia up: the load pulls it away from the ball and there is no ligament.
+  std::string text = kScene;
+  const std::size_t ligament = text.find("[[ligament]]");
+  text.erase(ligament, text.find("[[condition]]") - ligament);
+  write("knee.toml", with(text, "vector = [0, 100, 0]", "vector = [0, -100, 0]"));
+  const Outcome outcome = run("sweep knee.toml -o run.h5");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 5) << outcome.err;
+  EXPECT_EQ(outcome.err.rfind("condyle: bend = 0 deg: ", 0), 0U) << outcome.err;
+  EXPECT_EQ(read_run(folder_ / "run.h5").sweep.count_converged(), 0);
+}
+
+TEST_F(CommandLine, SaysWhatIsWrongInAScene) {
+  write("knee.toml", with(kScene, "radius = 20", "raduis = 20"));
+  expect_bad_input(run("check knee.toml"),
+                   "knee.toml:26: [[surface]] \"ball\": unknown key raduis = 20, did you mean \"radius\"?");
+  expect_bad_input(run("sweep knee.toml -o run.h5"),
+                   "knee.toml:26: [[surface]] \"ball\": unknown key raduis = 20, did you mean \"radius\"?");
+  EXPECT_TRUE(results().empty());
+}
+
+TEST_F(CommandLine, NamesASceneThatIsNotThere) {
+  expect_bad_input(run("check nobody.toml"), "nobody.toml: no such file, expected a scene (TOML)");
+}
+
+TEST_F(CommandLine, NamesAFolderThatIsNotThereBeforeItComputes) {
+  const Outcome outcome = run("sweep knee.toml -o no/run.h5");
+  expect_bad_input(outcome, "no/run.h5: there is no folder no, expected one that exists");
+  EXPECT_EQ(outcome.out, "");
+}
+
+TEST_F(CommandLine, LeavesNothingBehindOnAFullDisk) {
+  // A limit of 2 blocks on the size of files stands for a full disk.
+  const Outcome outcome = run("sweep knee.toml -o run.h5", "trap '' XFSZ; ulimit -f 8; ");
+  expect_bad_input(outcome, "run.h5: cannot be written: File too large");
+  EXPECT_TRUE(results().empty());
+}
+
+TEST_F(CommandLine, FitsOnlyWhatIsAPatch) {
+  expect_bad_input(run("fit knee.toml -o fit.h5"), "knee.toml: no surface has kind = \"patch\", expected one to fit");
+}
+
+TEST_F(CommandLine, SaysWhichRangeLeadsNowhere) {
+  expect_bad_input(run("sweep knee.toml -o run.h5 --step -1"),
+                   "--from, --to, --step: step = -1, expected a step > 0 to get from 0 to 20");
+}
+
+TEST_F(CommandLine, NeedsASweep) {
+  write("knee.toml", kScene.substr(0, kScene.find("[sweep]")));
+  expect_bad_input(run("sweep knee.toml -o run.h5"), "knee.toml: [sweep] is missing, expected what to vary and how far");
+}
+
+TEST_F(CommandLine, NamesAnOptionThatItDoesNotKnow) {
+  const Outcome outcome = run("sweep knee.toml --out run.h5");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("--help"), std::string::npos);
+}
+
+TEST_F(CommandLine, ExplainsItself) {
+  const Outcome outcome = run("--help");
+  EXPECT_EQ(outcome.code, 0);
+  for (const char* command : {"check", "fit", "sweep"}) {
+    EXPECT_NE(outcome.out.find(command), std::string::npos) << command;
+  }
+  EXPECT_EQ(run("").code, 1);
+  EXPECT_EQ(run("--version").out, "condyle " CONDYLE_VERSION "\n");
+}
+
+}  // namespace
+}  // namespace condyle

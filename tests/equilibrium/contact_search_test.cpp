@@ -1,0 +1,83 @@
+#include "equilibrium/contact_search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "math/rotation.h"
+#include "surface/exact_surfaces.h"
+
+namespace condyle {
+namespace {
+
+ContactPair pair_of(std::unique_ptr<Surface> on_B, std::unique_ptr<Surface> on_A) {
+  ContactPair pair;
+  pair.name = "pair";
+  pair.on_B = std::move(on_B);
+  pair.on_A = std::move(on_A);
+  return pair;
+}
+
+TEST(ContactSearch, FindsTheLowestPointOfABallOverAPlane) {
+  const ContactPair pair = pair_of(make_plane({0, 0, 0}, {0, 0, 1}), make_sphere({0, 0, 0}, 20, true));
+  ContactSearch search(pair);
+  std::vector<GapMinimum> minima;
+  search.find({exp_rotation({0.3, -0.8, 0.2}), {3, -7, 20.05}}, 0.1, minima);
+  ASSERT_EQ(minima.size(), 1u);
+  EXPECT_TRUE(minima[0].refined);
+  EXPECT_NEAR(minima[0].gap, 0.05, 1e-12);
+  EXPECT_LT((minima[0].point_B - Eigen::Vector3d(3, -7, 0)).norm(), 1e-9);
+}
+
+TEST(ContactSearch, SeesNothingBeyondTheCutoffAndAnOverlapBelowIt) {
+  const ContactPair pair = pair_of(make_sphere({0, 0, 0}, 20, true), make_sphere({0, 0, 0}, 15, true));
+  ContactSearch search(pair);
+  std::vector<GapMinimum> minima;
+  search.find({Eigen::Matrix3d::Identity(), {0, 0, 35.5}}, 0.1, minima);
+  EXPECT_TRUE(minima.empty());
+  search.find({Eigen::Matrix3d::Identity(), {0, 0, 32}}, 0.1, minima);
+  ASSERT_EQ(minima.size(), 1u);
+  EXPECT_NEAR(minima[0].gap, -3, 1e-9);
+}
+
+// A wavy floor of height 0.5 cos(x) cos(y)-like polynomial bumps: x⁴ - 2x² has two pits at x = ±1 (scaled by 10 mm), so
+// a large ball over a double ridge touches in two places.
+TEST(ContactSearch, FindsTwoPlacesWhereABallTouchesTwoRidges) {
+  // z = 2 x²/100 - x⁴/10000: ridges of height 1 at x = ±10.
+  const ContactPair pair = pair_of(
+      make_polynomial({0, 0, 0}, Eigen::Matrix3d::Identity(), {{2, 0, 0.02}, {4, 0, -0.0001}}, true),
+      make_sphere({0, 0, 0}, 60, true));
+  ContactSearch search(pair);
+  std::vector<GapMinimum> minima;
+  search.find({Eigen::Matrix3d::Identity(), {0, 0, 60.3}}, 0.5, minima);
+  ASSERT_EQ(minima.size(), 2u);
+  EXPECT_NEAR(minima[0].gap, minima[1].gap, 1e-9);  // by symmetry
+  EXPECT_NEAR(std::abs(minima[0].point_B.x()), std::abs(minima[1].point_B.x()), 1e-9);
+  EXPECT_LT(minima[0].point_B.x() * minima[1].point_B.x(), 0);
+  // The gap there by a fine scan of the polynomial.
+  double lowest = 1e9;
+  for (double x = -20; x <= 20; x += 1e-3) {
+    const double z = 0.02 * x * x - 0.0001 * x * x * x * x;
+    lowest = std::min(lowest, std::hypot(x, 60.3 - z) - 60);
+  }
+  EXPECT_NEAR(minima[0].gap, lowest, 1e-6);
+}
+
+TEST(ContactSearch, AgreesWithItselfWhenWarmAfterALongMove) {
+  const ContactPair pair = pair_of(
+      make_ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {30, 22, 20}, true),
+      make_torus({0, 0, 0}, {0, 0, 1}, 30, 8, true));
+  ContactSearch warm(pair);
+  std::vector<GapMinimum> minima, fresh_minima;
+  for (int k = 0; k < 20; ++k) {
+    const RigidTransform X{exp_rotation({0.1 * k, 0.05 * k, 0}), {2.0 * k - 20, 5, 33 - 0.2 * k}};
+    warm.find(X, 2, minima);
+    ContactSearch fresh(pair);
+    fresh.find(X, 2, fresh_minima);
+    ASSERT_EQ(minima.size(), fresh_minima.size()) << k;
+    for (std::size_t i = 0; i < minima.size(); ++i) EXPECT_NEAR(minima[i].gap, fresh_minima[i].gap, 1e-8);
+  }
+}
+
+}  // namespace
+}  // namespace condyle

@@ -1,0 +1,131 @@
+#include "equilibrium/newton.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "math/rotation.h"
+#include "support/report_problems.h"
+
+namespace condyle {
+namespace {
+
+KinematicCondition prescribed(ConditionKind kind, const Eigen::Vector3d& axis, int cardan_axis, double value) {
+  KinematicCondition condition;
+  condition.kind = kind;
+  condition.axis = axis;
+  condition.cardan_axis = cardan_axis;
+  condition.value = value;
+  return condition;
+}
+
+/// The Cardan angle w of R = Ry(w).
+double angle_about_y(const RigidTransform& X) { return std::atan2(X.R(0, 2), X.R(2, 2)); }
+
+// Exact answers: theory section 9, e.g. w = -1.4056476493802696, p = 32.11453374, sigma = 119.90259274 at phi = 0.
+TEST(Newton, ReportProblem1HasTheExactAnswerInFiveIterationsPerIncrement) {
+  using P = test::Problem1;
+  Model model = P::model(0);
+  Newton newton(model);
+  EquilibriumState state;
+  state.X = {exp_rotation({0, -1.3, 0}), {1, 0, 0}};
+  state.contacts = {{0, {2, 0, 0}, {1, 0, 0}, 0}};
+  state.contacts[0].on_A = state.X.R.transpose() * Eigen::Vector3d(1, 0, 0);
+  state.sigma = {0};
+  for (const double phi : {0.0, 0.5, 1.0, 1.5, 2.0, 2.5}) {
+    model.conditions[0].value = phi;
+    const NewtonReport report = newton.solve(state);
+    ASSERT_EQ(report.outcome, NewtonOutcome::kConverged) << "phi = " << phi;
+    EXPECT_LE(report.iterations, 5);  // the report: 4, and one for the tolerance of 1e-12
+    EXPECT_NEAR(angle_about_y(state.X), P::w(phi), 1e-12);
+    EXPECT_NEAR(state.X.p.x(), 1, 1e-12);
+    EXPECT_NEAR(state.contacts[0].p, P::p(phi), 1e-12 * 120);
+    EXPECT_NEAR(state.sigma[0], P::sigma(phi), 1e-12 * 120);
+    EXPECT_NEAR(state.contacts[0].on_B.z(), phi, 1e-12);
+  }
+  EXPECT_NEAR(test::Problem1::p(0), 32.11453374, 1e-8);
+  EXPECT_NEAR(test::Problem1::sigma(0), 119.90259274, 1e-8);
+}
+
+// w = 0, sigma_x = -1 - 6 alpha, sigma_z = -4.
+TEST(Newton, ReportProblem2HasTheExactAnswerInThreeIterations) {
+  Model model = test::six_elements(1);
+  model.conditions = {prescribed(ConditionKind::kTranslation, Eigen::Vector3d::UnitX(), 0, 0),
+                      prescribed(ConditionKind::kTranslation, Eigen::Vector3d::UnitZ(), 0, 3)};
+  model.condition_names = {"x", "z"};
+  Newton newton(model);
+  EquilibriumState state;
+  state.X = model.start;
+  state.sigma = {0, 0};
+  for (const double alpha : {0.0, 0.1, 0.2, 0.3}) {
+    model.conditions[0].value = alpha;
+    const NewtonReport report = newton.solve(state);
+    ASSERT_EQ(report.outcome, NewtonOutcome::kConverged);
+    EXPECT_LE(report.iterations, 3);
+    EXPECT_NEAR(state.sigma[0], -1 - 6 * alpha, 1e-12 * 10);
+    EXPECT_NEAR(state.sigma[1], -4, 1e-12 * 10);
+    EXPECT_NEAR((state.X.R - Eigen::Matrix3d::Identity()).norm(), 0, 1e-12);
+  }
+}
+
+// Centre (0, 0, 7/3), sigma = -10 sin w.
+TEST(Newton, ReportProblem3HasTheExactAnswerInFourIterations) {
+  Model model = test::six_elements(0);
+  model.conditions = {prescribed(ConditionKind::kRotation, Eigen::Vector3d::UnitX(), 1, 0)};
+  model.condition_names = {"w"};
+  Newton newton(model);
+  EquilibriumState state;
+  state.X = model.start;
+  state.sigma = {0};
+  for (const double w : {0.0, 0.1, 0.2, 0.3, 0.4}) {
+    model.conditions[0].value = w;
+    const NewtonReport report = newton.solve(state);
+    ASSERT_EQ(report.outcome, NewtonOutcome::kConverged);
+    EXPECT_LE(report.iterations, 4);
+    EXPECT_NEAR(state.sigma[0], -10 * std::sin(w), 1e-12 * 30);
+    EXPECT_NEAR((state.X.p - Eigen::Vector3d(0, 0, 7.0 / 3)).norm(), 0, 1e-12 * 10);
+  }
+}
+
+TEST(Newton, ResidualFallsQuadratically) {
+  Model model = test::Problem1::model(0);
+  EquilibriumState state;
+  state.X = {exp_rotation({0, -1.2, 0}), {1, 0, 0}};
+  state.contacts = {{0, {2, 0, 0}, state.X.R.transpose() * Eigen::Vector3d(1, 0, 0), 0}};
+  state.sigma = {0};
+  std::vector<double> error;
+  for (int k = 0; k < 5; ++k) {
+    Newton newton(model, {.max_iterations = 1});
+    newton.solve(state);
+    error.push_back(std::abs(angle_about_y(state.X) - test::Problem1::w(0)));
+  }
+  // e_{k+1} <= C e_k² with C of order one; 1e-14 is round-off.
+  for (std::size_t k = 1; k + 1 < error.size(); ++k) EXPECT_LE(error[k + 1], 3 * error[k] * error[k] + 1e-14);
+}
+
+TEST(Newton, ContactThatDependsOnAConditionIsSingular) {
+  Model model = test::Problem1::model(0);
+  // The contact already prescribes the x-position of the centre.
+  model.conditions.push_back(prescribed(ConditionKind::kTranslation, Eigen::Vector3d::UnitX(), 0, 1));
+  model.condition_names.emplace_back("x");
+  Newton newton(model);
+  EquilibriumState state;
+  state.X = {exp_rotation({0, -1.3, 0}), {1, 0, 0}};
+  state.contacts = {{0, {2, 0, 0}, state.X.R.transpose() * Eigen::Vector3d(1, 0, 0), 0}};
+  state.sigma = {0, 0};
+  EXPECT_EQ(newton.solve(state).outcome, NewtonOutcome::kSingular);
+}
+
+TEST(Newton, ElementWithoutLengthIsNamed) {
+  Model model = test::six_elements(0);
+  model.elements[2].x_C = model.start * model.elements[2].s_D;
+  Newton newton(model);
+  EquilibriumState state;
+  state.X = model.start;
+  const NewtonReport report = newton.solve(state);
+  EXPECT_EQ(report.outcome, NewtonOutcome::kZeroLength);
+  EXPECT_EQ(report.zero_element, 2);
+}
+
+}  // namespace
+}  // namespace condyle

@@ -1,0 +1,120 @@
+#include "mesh/clean_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include "mesh/mesh_measures.h"
+#include "mesh/mesh_shapes.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+using namespace testing;
+
+/// Every triangle with vertices of its own, as in an STL file.
+TriangleMesh apart(const TriangleMesh& mesh) {
+  TriangleMesh result;
+  for (const auto& triangle : mesh.triangles) {
+    const int first = static_cast<int>(result.vertices.size());
+    for (const int v : triangle) result.vertices.push_back(mesh.vertices[v]);
+    result.triangles.push_back({first, first + 1, first + 2});
+  }
+  return result;
+}
+
+// A cube has 8 vertices; 12 triangles with 3 each make 36.
+TEST(CleanMesh, MergesTheVerticesOfATriangleSoup) {
+  const CleanMesh clean = clean_mesh(apart(cube(10)));
+  EXPECT_EQ(clean.mesh.vertices.size(), 8u);
+  EXPECT_EQ(clean.report.merged_vertices, 28);
+  EXPECT_EQ(clean.report.closed_components, 1);
+  EXPECT_EQ(clean.report.boundary_edges, 0);
+  EXPECT_TRUE(describe(clean.report).empty());
+}
+
+// The tolerance is 1e-6 of the diagonal: 1.7e-5 mm for a cube of 10 mm.
+TEST(CleanMesh, MergesWhatIsCloserThanTheToleranceAndNothingElse) {
+  TriangleMesh mesh = apart(cube(10));
+  mesh.vertices[0] += Vector3d(1e-5, 0, 0);
+  EXPECT_EQ(clean_mesh(mesh).mesh.vertices.size(), 8u);
+  mesh.vertices[0] += Vector3d(1e-3, 0, 0);
+  EXPECT_EQ(clean_mesh(mesh).mesh.vertices.size(), 9u);
+}
+
+TEST(CleanMesh, DropsDegenerateAndDuplicateTrianglesAndUnusedVertices) {
+  TriangleMesh mesh = cube(10);
+  mesh.triangles.push_back({0, 0, 1});  // repeated vertex
+  mesh.vertices.push_back({5, 0, 0});   // on the edge 0-1
+  mesh.triangles.push_back({0, 8, 1});  // no area
+  mesh.triangles.push_back({3, 2, 0});  // a triangle of the cube, the other way round
+  mesh.vertices.push_back({3, 3, 3});   // nobody's
+  const CleanMesh clean = clean_mesh(mesh);
+  EXPECT_EQ(clean.report.degenerate_triangles, 2);
+  EXPECT_EQ(clean.report.duplicate_triangles, 1);
+  EXPECT_EQ(clean.report.unreferenced_vertices, 2);
+  EXPECT_EQ(clean.mesh.triangles.size(), 12u);
+  EXPECT_EQ(describe(clean.report).size(), 2u);
+}
+
+TEST(CleanMesh, TurnsAClosedSurfaceOutward) {
+  TriangleMesh mesh = cube(10);
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  const CleanMesh clean = clean_mesh(mesh);
+  EXPECT_EQ(clean.report.flipped_triangles, 12);
+  EXPECT_NEAR(enclosed_volume(clean.mesh), 1000, 1e-9);  // side³, positive: outward
+}
+
+TEST(CleanMesh, TurnsTheFewTrianglesThatDisagree) {
+  TriangleMesh mesh = cube(10);
+  for (const int t : {2, 7, 8}) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  const CleanMesh clean = clean_mesh(mesh);
+  EXPECT_EQ(clean.report.flipped_triangles, 3);
+  EXPECT_NEAR(enclosed_volume(clean.mesh), 1000, 1e-9);
+}
+
+TEST(CleanMesh, LeavesTheSideOfAnOpenSheetToTheMajority) {
+  TriangleMesh mesh = height_sheet(20, 6, [](double, double) { return 0; });
+  std::swap(mesh.triangles[5][1], mesh.triangles[5][2]);
+  const CleanMesh clean = clean_mesh(mesh);
+  EXPECT_EQ(clean.report.flipped_triangles, 1);
+  EXPECT_FALSE(clean.closed[0]);
+  for (const Vector3d& area : triangle_areas(clean.mesh)) EXPECT_GT(area.z(), 0);
+}
+
+// Two sheets of one tibia stay; a crumb of 1/400 of the area of a cube goes.
+TEST(CleanMesh, DropsStraysButKeepsPiecesOfSimilarSize) {
+  TriangleMesh mesh = cube(20);
+  append(mesh, cube(15, {40, 0, 0}));
+  append(mesh, cube(1, {70, 0, 0}));
+  const CleanMesh clean = clean_mesh(mesh);
+  EXPECT_EQ(clean.report.components, 2);
+  EXPECT_EQ(clean.report.stray_components, 1);
+  EXPECT_EQ(clean.report.stray_triangles, 12);
+  EXPECT_EQ(clean.report.unreferenced_vertices, 8);
+  EXPECT_EQ(clean.component.front(), 0);  // the largest comes first
+}
+
+TEST(CleanMesh, CountsEdgesOfThreeTriangles) {
+  TriangleMesh mesh = cube(10);
+  mesh.vertices.push_back({-8, -8, 5});
+  mesh.triangles.push_back({0, 4, 8});  // a fin on the edge 0-4
+  const CleanMesh clean = clean_mesh(mesh, {.stray_fraction = 0});
+  EXPECT_EQ(clean.report.non_manifold_edges, 1);
+}
+
+TEST(CleanMesh, TakesAMeshWithoutTriangles) {
+  const CleanMesh clean = clean_mesh(TriangleMesh{{Vector3d::Zero(), Vector3d::Ones()}, {}});
+  EXPECT_TRUE(clean.mesh.vertices.empty());
+  EXPECT_EQ(clean.report.components, 0);
+}
+
+TEST(CleanMesh, IsDoneAfterOnce) {
+  const CleanMesh once = clean_mesh(apart(cube(10)));
+  const CleanMesh twice = clean_mesh(once.mesh);
+  EXPECT_EQ(twice.mesh.triangles, once.mesh.triangles);
+  EXPECT_EQ(
+      twice.report.merged_vertices + twice.report.flipped_triangles + twice.report.degenerate_triangles, 0);
+}
+
+}  // namespace
+}  // namespace condyle

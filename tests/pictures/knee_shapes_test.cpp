@@ -1,0 +1,140 @@
+#include "pictures/knee_shapes.h"
+
+#include <gtest/gtest.h>
+
+#include "pictures/block_knee.h"
+#include "pictures/ligament_groups.h"
+#include "pictures/seen_from_above.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+double length_of(const std::vector<Vector3d>& line) {
+  double sum = 0;
+  for (std::size_t i = 1; i < line.size(); ++i) sum += (line[i] - line[i - 1]).norm();
+  return sum;
+}
+
+TEST(KneeShapes, TheTibiaStandsStillWhicheverBodyMoves) {
+  Scene scene = block_scene(1);
+  RigidTransform X_BA;
+  X_BA.R << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  X_BA.p = {1, 2, 3};
+  const auto tibia_moves = body_poses(scene, X_BA);
+  EXPECT_TRUE(tibia_moves[1].R.isIdentity(1e-15));
+  EXPECT_LT(tibia_moves[1].p.norm(), 1e-15);
+  // A point of the femur at f lies at X_BA⁻¹ f in the tibia's frame.
+  EXPECT_LT((tibia_moves[0] * (X_BA * Vector3d(4, 5, 6)) - Vector3d(4, 5, 6)).norm(), 1e-12);
+
+  std::swap(scene.bodies[0].fixed, scene.bodies[1].fixed);
+  const auto femur_moves = body_poses(scene, X_BA);
+  EXPECT_LT(femur_moves[1].p.norm(), 1e-15);
+  EXPECT_LT((femur_moves[0] * Vector3d(4, 5, 6) - X_BA * Vector3d(4, 5, 6)).norm(), 1e-12);
+}
+
+TEST(KneeShapes, ContactForcePushesTheFemurUp) {
+  auto run = block_run();
+  // The normal out of the fixed femur points down; the tibia pushes the femur up.
+  for (const ContactMark& mark : contact_marks(run.scene, run.sweep.poses[0]))
+    EXPECT_GT(mark.toward_femur.y(), 0.99);
+  // With the tibia fixed the normal out of the fixed body already points up.
+  std::swap(run.scene.bodies[0].fixed, run.scene.bodies[1].fixed);
+  for (ContactResult& contact : run.sweep.poses[0].contacts)
+    contact.points[0].normal_ground = {0, 1, 0};
+  for (const ContactMark& mark : contact_marks(run.scene, run.sweep.poses[0]))
+    EXPECT_GT(mark.toward_femur.y(), 0.99);
+}
+
+TEST(KneeShapes, OpenContactsHaveNoMark) {
+  auto run = block_run();
+  run.sweep.poses[0].contacts[0].closed = false;
+  EXPECT_EQ(contact_marks(run.scene, run.sweep.poses[0]).size(), 1u);
+}
+
+TEST(KneeShapes, ATautLigamentIsStraightAndASlackOneHasItsSlackLength) {
+  const auto run = block_run();
+  const auto X_P = body_poses(run.scene, {});
+  EXPECT_EQ(ligament_line(run.scene, X_P, 0, {40, 0.05, 30}).size(), 2u);
+  // At -5 % strain the ligament is 40 / 0.95 = 42.105 mm long; the parabola meets that to second
+  // order.
+  const auto slack = ligament_line(run.scene, X_P, 1, {40, -0.05, 0});
+  EXPECT_NEAR(length_of(slack), 42.105, 0.15);
+  EXPECT_LT(slack[slack.size() / 2].z(), -36) << "a medial ligament bows away from the knee";
+}
+
+TEST(KneeShapes, AVerySlackLigamentStaysNearTheKnee) {
+  const auto run = block_run();
+  for (const double strain : {-0.3, -0.7, -0.99, -5.0}) {
+    for (const Vector3d& p :
+         ligament_line(run.scene, body_poses(run.scene, {}), 1, {40, strain, 0})) {
+      EXPECT_TRUE(p.allFinite());
+      EXPECT_LT(p.norm(), 60);
+    }
+  }
+}
+
+TEST(KneeShapes, ScalesIgnorePosesThatFailed) {
+  auto run = block_run();
+  run.sweep.poses[2].status = PoseStatus::kDiverged;
+  run.sweep.poses[2].ligaments[0].strain = 1e6;
+  run.sweep.poses[2].contacts[0].force = 1e9;
+  const PictureScales scales = picture_scales(run);
+  EXPECT_DOUBLE_EQ(scales.ligament_top, 0.025);
+  EXPECT_DOUBLE_EQ(scales.force_top, 200);
+  EXPECT_DOUBLE_EQ(scales.sweep_high, 0.5);
+}
+
+TEST(KneeShapes, LigamentsWithoutASlackLengthAreColouredByForce) {
+  auto run = block_run();
+  for (LigamentDescription& ligament : run.scene.ligaments)
+    ligament.law = PolynomialLaw{{0, 1}, true};
+  const PictureScales scales = picture_scales(run);
+  EXPECT_FALSE(scales.strain_known);
+  EXPECT_NE(ligament_color(scales, {40, 0, 30}), ligament_color(scales, {40, 0, 10}));
+}
+
+TEST(KneeShapes, ThePathEndsWhereTheContactOpens) {
+  auto run = block_run();
+  const auto vertices = [&] { return contact_paths(run, picture_scales(run)).vertices.size(); };
+  const std::size_t whole = vertices();
+  run.sweep.poses[1].contacts[0].closed = false;  // the medial path falls apart into two dots
+  EXPECT_LT(vertices(), whole);
+  run.sweep.poses[0].contacts[0].closed = run.sweep.poses[2].contacts[0].closed = false;
+  const std::size_t lateral_only = vertices();
+  run.scene.contacts.pop_back();
+  EXPECT_GT(lateral_only, 0u);
+  EXPECT_EQ(vertices(), 0u);
+}
+
+TEST(KneeShapes, RunsWithoutMeshesAndPatchesAreDrawable) {
+  auto run = block_run();
+  run.bodies.clear();
+  EXPECT_TRUE(body_shapes(run).empty());
+  run.bodies = {{"femur", {}}, {"somebody else", box({0, 0, 0}, {1, 1, 1})}};
+  EXPECT_TRUE(body_shapes(run).empty());
+}
+
+TEST(LigamentGroups, NumberedStrandsAreOneLigament) {
+  const auto groups = ligament_groups(block_scene(1));
+  ASSERT_EQ(groups.size(), 2u);
+  EXPECT_EQ(groups[0].name, "LCL");
+  EXPECT_EQ(groups[1].name, "MCL");
+  EXPECT_EQ(groups[1].strands, (std::vector<std::size_t>{1, 2}));
+  Scene scene = block_scene(1);
+  scene.ligaments.pop_back();
+  EXPECT_EQ(ligament_groups(scene)[1].name, "MCL1") << "a single one keeps its number";
+}
+
+TEST(SeenFromAbove, InsertionsBelowThePlateauAreNot) {
+  auto run = block_run();
+  run.scene.ligaments.push_back(strand("below", {0, 10, 0}, {0, -30, 10}));
+  run.scene.ligaments.push_back(strand("on top", {0, 10, 0}, {0, -2.5, 10}));
+  const auto seen = seen_from_above(run.scene, body_shapes(run));
+  // LCL and MCL insert beside the block, 6 mm clear of it.
+  EXPECT_EQ(seen, (std::vector<bool>{true, true, true, false, true}));
+}
+
+}  // namespace
+}  // namespace condyle

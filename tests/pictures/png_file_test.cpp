@@ -1,0 +1,55 @@
+#include "pictures/png_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "input_error.h"
+
+namespace condyle {
+namespace {
+
+std::filesystem::path fresh_folder() {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "condyle_png_file_test";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+TEST(PngFile, ComesBackAsItWasWritten) {
+  Image image = blank_image(37, 11, {1, 2, 3});
+  for (std::size_t i = 0; i < image.rgb.size(); ++i)
+    image.rgb[i] = static_cast<std::uint8_t>(31 * i);
+  const auto file = fresh_folder() / "picture.png";
+  write_png(file, image);
+  const Image back = read_png(file);
+  EXPECT_EQ(back.width, 37);
+  EXPECT_EQ(back.height, 11);
+  EXPECT_EQ(back.rgb, image.rgb);
+}
+
+TEST(PngFile, AFolderThatDoesNotExistIsNamed) {
+  try {
+    write_png("no/such/folder/picture.png", blank_image(4, 4, {}));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("no/such/folder/picture.png"), std::string::npos);
+  }
+}
+
+TEST(PngFile, AFullDiskLeavesNothingBehind) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const auto folder = fresh_folder();
+  std::filesystem::create_symlink("/dev/full", folder / "picture.png.part");
+  EXPECT_THROW(write_png(folder / "picture.png", blank_image(400, 400, {9, 9, 9})), InputError);
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+}
+
+TEST(PngFile, WhatIsNoPictureIsRefused) {
+  const auto file = fresh_folder() / "text.png";
+  std::ofstream(file) << "not a picture";
+  EXPECT_THROW((void)read_png(file), InputError);
+}
+
+}  // namespace
+}  // namespace condyle

@@ -1,0 +1,236 @@
+#include "results/run_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "input_error.h"
+#include "results/hdf5_file.h"
+#include "results/made_up_run.h"
+
+namespace condyle {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RunFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    path_ = fs::path(testing::TempDir()) / ("condyle_run_" + std::to_string(::getpid()) + ".h5");
+  }
+  void TearDown() override { fs::remove(path_); }
+  [[nodiscard]] std::string message() const {
+    try {
+      (void)read_run(path_);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+
+  fs::path path_;
+};
+
+void expect_same_point(const ContactPointResult& a, const ContactPointResult& b) {
+  EXPECT_EQ(a.force, b.force);
+  EXPECT_EQ(a.point_ground, b.point_ground);
+  EXPECT_EQ(a.point_moving, b.point_moving);
+  EXPECT_EQ(a.normal_ground, b.normal_ground);
+  EXPECT_EQ(a.gap, b.gap);
+  EXPECT_EQ(a.relative_curvature, b.relative_curvature);
+  EXPECT_EQ(a.on_edge, b.on_edge);
+}
+
+TEST_F(RunFile, GivesBackThePoses) {
+  const condyle::Run run = made_up_run();
+  write_run(path_, run);
+  const condyle::Run back = read_run(path_);
+  ASSERT_EQ(back.sweep.poses.size(), 3U);
+  for (const std::size_t i : {0U, 2U}) {
+    const PoseResult &a = run.sweep.poses[i], &b = back.sweep.poses[i];
+    EXPECT_NEAR(a.value, b.value, 1e-16);  // to degrees and back
+    EXPECT_EQ(b.status, PoseStatus::kConverged);
+    EXPECT_EQ(a.X_BA.R, b.X_BA.R);
+    EXPECT_EQ(a.X_BA.p, b.X_BA.p);
+    EXPECT_NEAR(a.joint.internal_rotation, b.joint.internal_rotation, 1e-16);
+    EXPECT_EQ(a.joint.distraction, b.joint.distraction);
+    EXPECT_EQ(a.contacts[0].closed, b.contacts[0].closed);
+    EXPECT_EQ(a.contacts[0].force, b.contacts[0].force);
+    ASSERT_EQ(a.contacts[0].points.size(), b.contacts[0].points.size());
+    for (std::size_t k = 0; k < a.contacts[0].points.size(); ++k) {
+      expect_same_point(a.contacts[0].points[k], b.contacts[0].points[k]);
+    }
+    EXPECT_EQ(a.ligaments[0].force, b.ligaments[0].force);
+    EXPECT_EQ(a.ligaments[0].strain, b.ligaments[0].strain);
+    EXPECT_NEAR(a.conditions[0].value, b.conditions[0].value, 1e-16);
+    EXPECT_EQ(a.conditions[0].multiplier, b.conditions[0].multiplier);
+    EXPECT_EQ(a.stability, b.stability);
+    EXPECT_EQ(a.lowest_stiffness, b.lowest_stiffness);
+    EXPECT_EQ(a.iterations, b.iterations);
+    EXPECT_EQ(a.residual, b.residual);
+    EXPECT_EQ(a.seconds, b.seconds);
+  }
+}
+
+TEST_F(RunFile, GivesBackPatchesMeshesAndScene) {
+  const condyle::Run run = made_up_run();
+  write_run(path_, run);
+  const condyle::Run back = read_run(path_);
+  EXPECT_EQ(back.scene.text, run.scene.text);
+  EXPECT_EQ(back.scene.file, run.scene.file);
+  ASSERT_EQ(back.scene.sweep->values.size(), 3U);  // what was swept, not what the scene says
+  ASSERT_EQ(back.patches.size(), 1U);
+  const PatchData &a = run.patches[0].data, &b = back.patches[0].data;
+  EXPECT_EQ(a.degree, b.degree);
+  EXPECT_EQ(a.knots_u, b.knots_u);
+  EXPECT_EQ(a.knots_v, b.knots_v);
+  EXPECT_EQ(a.nu, b.nu);
+  EXPECT_EQ(a.nv, b.nv);
+  EXPECT_EQ(a.control_points, b.control_points);
+  EXPECT_EQ(a.orientation, b.orientation);
+  EXPECT_EQ(a.mask_nu, b.mask_nu);
+  EXPECT_EQ(a.mask_nv, b.mask_nv);
+  EXPECT_EQ(a.mask, b.mask);
+  EXPECT_EQ(back.patches[0].body, 0);
+  const FitReport &p = run.patches[0].report, &q = back.patches[0].report;
+  EXPECT_EQ(p.mesh_vertices, q.mesh_vertices);
+  EXPECT_EQ(p.control_points, q.control_points);
+  EXPECT_EQ(p.rms, q.rms);
+  EXPECT_EQ(p.core_max, q.core_max);
+  EXPECT_DOUBLE_EQ(p.normal_rms, q.normal_rms);
+  EXPECT_EQ(p.curvature_range, q.curvature_range);
+  EXPECT_EQ(p.notes, q.notes);
+  ASSERT_EQ(back.bodies.size(), 2U);
+  EXPECT_EQ(back.bodies[0].name, "femur");
+  EXPECT_EQ(back.bodies[0].mesh.vertices, run.bodies[0].mesh.vertices);
+  EXPECT_EQ(back.bodies[0].mesh.triangles, run.bodies[0].mesh.triangles);
+  EXPECT_TRUE(back.bodies[1].mesh.vertices.empty());
+}
+
+TEST_F(RunFile, MarksAFailedPoseWithNanAndItsReason) {
+  write_run(path_, made_up_run());
+  const Hdf5Reader reader(path_);
+  const Hdf5Group sweep = reader.root().open("sweep");
+  EXPECT_EQ(sweep.read_integers("status", {3}), (std::vector<int>{0, 3, 0}));
+  EXPECT_EQ(sweep.read_texts("reason")[1], "nothing resists turning about x");
+  EXPECT_TRUE(std::isnan(sweep.open("pose").read("translation", {3, 3})[3]));
+  EXPECT_TRUE(std::isnan(sweep.open("joint").read("distraction", {3})[1]));
+  EXPECT_TRUE(std::isnan(sweep.open("ligaments").open("aACL").read("force", {3})[1]));
+  EXPECT_EQ(sweep.open("contacts").open("medial").read_integers("state", {3}), (std::vector<int>{1, -1, 1}));
+  EXPECT_TRUE(std::isnan(sweep.open("contacts").open("medial").read("gap", {3})[1]));
+}
+
+// Numbers of made_up_run in the units that the file promises.
+TEST_F(RunFile, HoldsDegreesMillimetresAndNewtons) {
+  write_run(path_, made_up_run());
+  const Hdf5Reader reader(path_);
+  const Hdf5Group sweep = reader.root().open("sweep");
+  EXPECT_NEAR(sweep.read("value", {3})[2], 0.2 * 180 / M_PI, 1e-13);
+  EXPECT_NEAR(sweep.open("joint").read("internal_rotation", {3})[0], 0.3 * 180 / M_PI, 1e-13);
+  EXPECT_EQ(sweep.open("joint").read("lateral_shift", {3})[0], 4);
+  EXPECT_EQ(sweep.open("pose").read("rotation", {3, 3, 3})[1], -1);  // row 0, column 1
+  const Hdf5Group medial = sweep.open("contacts").open("medial");
+  EXPECT_EQ(medial.read("force", {3})[2], 70);                   // the sum, 30 + 40 N
+  EXPECT_EQ(medial.read("point_ground", {3, 3})[6], 4);          // of the point that carries more
+  EXPECT_EQ(medial.open("points").read("force", {3, 2})[4], 30);
+  EXPECT_TRUE(std::isnan(medial.open("points").read("force", {3, 2})[1]));  // the first pose has one point
+  EXPECT_EQ(sweep.open("conditions").open("bend").read("multiplier", {3})[2], -40);
+}
+
+TEST_F(RunFile, HoldsASceneTextOf200Kilobytes) {
+  // Attributes of HDF5 proper end at 64 KB.
+  condyle::Run run = made_up_run();
+  run.scene.text += "# " + std::string(200000, 'x') + "\n";
+  write_run(path_, run);
+  EXPECT_EQ(read_run(path_).scene.text, run.scene.text);
+}
+
+TEST_F(RunFile, CompressesALargeMesh) {
+  condyle::Run run = made_up_run();
+  TriangleMesh& mesh = run.bodies[1].mesh;
+  for (int i = 0; i < 30000; ++i) mesh.vertices.emplace_back(i, 0, 0);
+  for (int i = 0; i + 2 < 30000; ++i) mesh.triangles.push_back({i, i + 1, i + 2});
+  write_run(path_, run);
+  EXPECT_LT(fs::file_size(path_), 500000U);  // 1.08 MB of plain numbers
+  const condyle::Run back = read_run(path_);
+  EXPECT_EQ(back.bodies[1].mesh.vertices, mesh.vertices);
+  EXPECT_EQ(back.bodies[1].mesh.triangles, mesh.triangles);
+}
+
+TEST_F(RunFile, OfAFitHasNoSweep) {
+  condyle::Run run = made_up_run();
+  run.sweep.poses.clear();
+  write_run(path_, run);
+  const condyle::Run back = read_run(path_);
+  EXPECT_TRUE(back.sweep.poses.empty());
+  EXPECT_EQ(back.patches.size(), 1U);
+}
+
+TEST_F(RunFile, WithoutAJointHasNoJointCoordinates) {
+  condyle::Run run = made_up_run();
+  std::string text = kSmallScene;
+  text.erase(text.find("[joint]"), text.find("[[surface]]") - text.find("[joint]"));
+  text = with(text, "kind = \"flexion\"", "kind = \"rotation\"\naxis = \"z\"");
+  run.scene = parse_scene(text, "knee.toml");
+  write_run(path_, run);
+  EXPECT_FALSE(Hdf5Reader(path_).root().open("sweep").has("joint"));
+  EXPECT_EQ(read_run(path_).sweep.poses[2].X_BA.p, run.sweep.poses[2].X_BA.p);
+}
+
+TEST_F(RunFile, ThatIsMissingIsNamed) { EXPECT_EQ(message(), path_.string() + ": no such file, expected a run (HDF5)"); }
+
+TEST_F(RunFile, ThatIsSomethingElseIsNamed) {
+  std::ofstream(path_) << "solid femur\n";
+  EXPECT_EQ(message(), path_.string() + ": cannot be opened, expected a run (HDF5), whole and readable");
+}
+
+TEST_F(RunFile, ThatIsCutShortIsNamed) {
+  write_run(path_, made_up_run());
+  fs::resize_file(path_, fs::file_size(path_) / 2);
+  EXPECT_EQ(message(), path_.string() + ": cannot be opened, expected a run (HDF5), whole and readable");
+}
+
+TEST_F(RunFile, OfAnotherFormatIsNamed) {
+  const Hdf5Builder builder("x.h5");
+  builder.root().write_attribute("format", "condyle 9");
+  std::ofstream(path_, std::ios::binary) << builder.bytes();
+  EXPECT_EQ(message(), path_.string() + ": /: format = \"condyle 9\", expected \"condyle 1\"");
+}
+
+TEST_F(RunFile, WithoutADatasetNamesIt) {
+  const Hdf5Builder builder("x.h5");
+  const condyle::Run run = made_up_run();
+  builder.root().write_attribute("format", "condyle 1");
+  builder.root().write_attribute("scene", run.scene.text);
+  builder.root().write_attribute("scene_file", "knee.toml");
+  builder.root().create("sweep").write("value", std::vector<double>{1, 2}, {2}, "deg");
+  std::ofstream(path_, std::ios::binary) << builder.bytes();
+  EXPECT_EQ(message(), path_.string() + ": /sweep/: dataset status is missing");
+}
+
+// The contract: every dataset tells its units.
+void expect_units(const Hdf5Group& group, int& datasets) {
+  for (const std::string& name : group.names()) {
+    if (group.is_group(name)) {
+      expect_units(group.open(name), datasets);
+    } else {
+      ++datasets;
+      EXPECT_FALSE(group.read_attribute(name, "units").empty()) << name;
+    }
+  }
+}
+
+TEST_F(RunFile, TellsTheUnitsOfEveryDataset) {
+  write_run(path_, made_up_run());
+  int datasets = 0;
+  const Hdf5Reader reader(path_);
+  expect_units(reader.root(), datasets);
+  EXPECT_GT(datasets, 50);
+  EXPECT_EQ(reader.root().open("sweep").read_attribute("value", "units"), "deg");
+  EXPECT_EQ(reader.root().open("sweep").open("stability").read_attribute("lowest_stiffness", "units"), "N/mm");
+}
+
+}  // namespace
+}  // namespace condyle

@@ -1,0 +1,234 @@
+#include "scene/fit_surfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <filesystem>
+
+#include "input_error.h"
+#include "mesh/clean_mesh.h"
+#include "mesh/load_mesh.h"
+#include "mesh/mesh_measures.h"
+#include "phantom/phantom_shape.h"
+#include "surface/articular_region.h"
+#include "surface/fit_patch.h"
+#include "surface/patch.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+namespace fs = std::filesystem;
+
+const fs::path kMeshes = fs::path(CONDYLE_SOURCE_DIR) / "meshes";
+const fs::path kSpecimens = fs::path(CONDYLE_SOURCE_DIR) / "../shared/specimens";
+
+struct KneeFiles {
+  fs::path femur, tibia;
+  double to_mm = 1;
+  Vector3d lateral = {0, 0, 1}, anterior = {1, 0, 0}, proximal = {0, 1, 0};
+};
+
+/// Two bodies and the four patches of a knee.
+Scene knee(const KneeFiles& files) {
+  Scene scene;
+  scene.file = "knee.toml";
+  scene.bodies.resize(2);
+  scene.bodies[0].name = "femur";
+  scene.bodies[0].fixed = true;
+  scene.bodies[0].mesh = MeshFile{files.femur, files.to_mm};
+  scene.bodies[1].name = "tibia";
+  scene.bodies[1].mesh = MeshFile{files.tibia, files.to_mm};
+  const auto frame = [&](int body) {
+    return AnatomicalFrame{.body = body,
+                           .origin = Vector3d::Zero(),
+                           .lateral = files.lateral,
+                           .anterior = files.anterior,
+                           .proximal = files.proximal};
+  };
+  scene.joint = JointDescription{.side = Side::kRight, .femur = frame(0), .tibia = frame(1)};
+  for (const Compartment compartment : {Compartment::kMedial, Compartment::kLateral})
+    for (const int body : {0, 1}) {
+      SurfaceDescription surface;
+      surface.name = std::string(compartment == Compartment::kMedial ? "medial " : "lateral ") +
+                     (body == 0 ? "condyle" : "plateau");
+      surface.body = body;
+      surface.kind = SurfaceKind::kPatch;
+      surface.patch.compartment = compartment;
+      scene.surfaces.push_back(surface);
+    }
+  return scene;
+}
+KneeFiles phantom_files() { return {.femur = kMeshes / "femur.stl", .tibia = kMeshes / "tibia.stl"}; }
+
+std::string complaint(const Scene& scene) {
+  try {
+    (void)fit_surfaces(scene);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// The mesh carries 0.2 mm of seeded roughness; away from the edge the patch must lie closer than that to
+// the exact shape, and its normals much closer than those of the mesh (7 degrees).
+TEST(FitSurfaces, FindsTheExactPhantomUnderItsRoughness) {
+  const Scene scene = knee(phantom_files());
+  const std::vector<FittedSurface> fitted = fit_surfaces(scene);
+  ASSERT_EQ(fitted.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const phantom::Bone bone = scene.surfaces[i].body == 0 ? phantom::Bone::kFemur : phantom::Bone::kTibia;
+    double square = 0, angle_square = 0, count = 0;
+    for (const Place& place : fitted[i].surface->samples(1.0)) {
+      if (fitted[i].surface->edge_distance(place) < 4) continue;
+      const SurfacePoint at = fitted[i].surface->evaluate(place),
+                         exact = phantom::surface_point(bone, at.c);
+      square += (at.c - exact.c).squaredNorm();
+      angle_square += at.n.cross(exact.n).squaredNorm();
+      EXPECT_GT(at.n.dot(exact.n), 0.8) << "the normal must leave the bone";
+      ++count;
+    }
+    ASSERT_GT(count, 200) << scene.surfaces[i].name;
+    EXPECT_LT(std::sqrt(square / count), 0.14) << scene.surfaces[i].name;
+    EXPECT_LT(std::sqrt(angle_square / count) * 180 / M_PI, 3.5) << scene.surfaces[i].name;
+    const FitReport& report = *fitted[i].report;
+    EXPECT_EQ(report.surface, scene.surfaces[i].name);
+    EXPECT_LE(report.rms, 0.205) << "the roughness of the mesh is 0.2 mm";
+    EXPECT_LE(report.rms, report.max);
+    EXPECT_GT(report.smoothing_length, 1);
+  }
+}
+
+// Condyles must reach from the trochlea to deep flexion, for a sweep from 0 to 120 degrees.
+TEST(FitSurfaces, CoversTheContactZonesOfThePhantom) {
+  const std::vector<FittedSurface> fitted = fit_surfaces(knee(phantom_files()));
+  for (const int i : {0, 2}) {
+    const double z = i == 0 ? -23.5 : 23.5;  // middles of the condyles
+    for (double degrees = -45; degrees <= 130; degrees += 5) {
+      const double angle = degrees * M_PI / 180;
+      const Vector3d p(-25 * std::sin(angle), -25 * std::cos(angle), z);
+      const Surface& surface = *fitted[i].surface;
+      EXPECT_GT(surface.edge_distance(surface.closest(p, surface.seed(p))), 2)
+          << "at " << degrees << " degrees";
+    }
+  }
+}
+
+/// The phantom's mesh seen in a mirror: what a left knee gives.
+TriangleMesh mirrored(TriangleMesh mesh) {
+  for (Vector3d& v : mesh.vertices) v.z() = -v.z();
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+// A left knee is charted through its own lateral direction: same regions, mirrored.
+TEST(FitSurfaces, TreatsALeftKneeAsTheMirrorOfARightOne) {
+  const TriangleMesh right = clean_mesh(load_mesh(kMeshes / "femur.stl", 1)).mesh, left = mirrored(right);
+  const BoneFrame right_frame{.lateral = {0, 0, 1}, .anterior = {1, 0, 0}, .proximal = {0, 1, 0}};
+  const BoneFrame left_frame{.lateral = {0, 0, -1}, .anterior = {1, 0, 0}, .proximal = {0, 1, 0}};
+  const auto region = [](const TriangleMesh& mesh, const BoneFrame& frame) {
+    return femoral_region(mesh, fit_condylar_axis(mesh, vertex_normals(mesh), frame), Half::kMedial);
+  };
+  const ArticularRegion a = region(right, right_frame), b = region(left, left_frame);
+  ASSERT_EQ(a.mesh.vertices.size(), b.mesh.vertices.size());
+  const Patch p(fit_patch(a).patch), q(fit_patch(b).patch);
+  for (const Place& place : p.samples(4)) {
+    const SurfacePoint x = p.evaluate(place), y = q.evaluate(place);
+    EXPECT_LT((x.c - Vector3d(y.c.x(), y.c.y(), -y.c.z())).norm(), 1e-6);
+    EXPECT_LT((x.n - Vector3d(y.n.x(), y.n.y(), -y.n.z())).norm(), 1e-6);
+  }
+}
+
+// The posterior arcs of the phantom have radii 21.5 and 20.0 about one axis, 20 mm in the coronal section.
+TEST(FitSurfaces, FindsTheCondylarAxisOfThePhantom) {
+  const TriangleMesh mesh = clean_mesh(load_mesh(kMeshes / "femur.stl", 1)).mesh;
+  const CondylarAxis axis = fit_condylar_axis(
+      mesh, vertex_normals(mesh), {.lateral = {0, 0, 1}, .anterior = {1, 0, 0}, .proximal = {0, 1, 0}});
+  EXPECT_NEAR(axis.medial_radius, 21.5, 1.5);
+  EXPECT_NEAR(axis.lateral_radius, 20.0, 1.5);
+  EXPECT_GT(axis.direction.z(), std::cos(3 * M_PI / 180));
+  EXPECT_NEAR(axis.split, 0, 4);  // in the notch
+}
+
+TEST(FitSurfaces, FitsABoxInPlaceOfACompartment) {
+  Scene scene = knee(phantom_files());
+  scene.surfaces.resize(1);
+  scene.surfaces[0].body = 1;
+  scene.surfaces[0].patch.compartment.reset();
+  scene.surfaces[0].patch.region_box = {{{-12, -40, -32}, {12, 0, -14}}};
+  scene.joint.reset();
+  const std::vector<FittedSurface> fitted = fit_surfaces(scene);
+  const SurfacePoint middle = fitted[0].surface->evaluate(fitted[0].surface->seed({0, -22, -22}));
+  EXPECT_GT(middle.n.y(), 0.9);
+  scene.surfaces[0].patch.region_box = {{{300, 300, 300}, {310, 310, 310}}};
+  EXPECT_NE(complaint(scene).find("surface \"medial condyle\": the region box holds no part"),
+            std::string::npos);
+}
+
+TEST(FitSurfaces, MakesExactKindsWithoutAMesh) {
+  Scene scene;
+  scene.bodies.resize(1);
+  SurfaceDescription ball;
+  ball.body = 0;
+  ball.kind = SurfaceKind::kSphere;
+  ball.radius = 20;
+  scene.surfaces = {ball};
+  const std::vector<FittedSurface> fitted = fit_surfaces(scene);
+  EXPECT_FALSE(fitted[0].report);
+  EXPECT_NEAR(fitted[0].surface->evaluate(fitted[0].surface->seed({0, 0, 30})).c.z(), 20, 1e-9);
+}
+
+TEST(FitSurfaces, NamesTheSurfaceThatCannotBeFitted) {
+  Scene scene = knee(phantom_files());
+  scene.bodies[0].mesh.reset();
+  EXPECT_NE(complaint(scene).find("knee.toml: surface \"medial condyle\": kind = \"patch\" needs a mesh"),
+            std::string::npos)
+      << complaint(scene);
+  scene = knee(phantom_files());
+  scene.joint.reset();
+  EXPECT_NE(complaint(scene).find("[joint]"), std::string::npos);
+  scene = knee(phantom_files());
+  scene.surfaces[2].patch.control_points = {60, 60};
+  EXPECT_NE(complaint(scene).find("surface \"lateral condyle\""), std::string::npos) << complaint(scene);
+  scene = knee(phantom_files());
+  scene.bodies[0].mesh->to_mm = 1000;
+  EXPECT_NE(complaint(scene).find("look like mm"), std::string::npos) << complaint(scene);
+}
+
+struct Limits {
+  double rms, max, normal_degrees;
+};
+void expect_core(const Scene& scene, const Limits& limits) {
+  for (const FittedSurface& fitted : fit_surfaces(scene)) {
+    const FitReport& report = *fitted.report;
+    EXPECT_LE(report.core_rms, limits.rms) << report.surface;
+    EXPECT_LE(report.core_max, limits.max) << report.surface;
+    EXPECT_LE(report.normal_rms * 180 / M_PI, limits.normal_degrees) << report.surface;
+  }
+}
+
+// A living knee: what is wanted of its fit was measured with a prototype beforehand.
+TEST(FitSurfaces, FollowsTheCartilageOfALivingKnee) {
+  const fs::path folder = kSpecimens / "lenhart2015";
+  if (!fs::exists(folder)) GTEST_SKIP() << "no specimens here";
+  expect_core(knee({.femur = folder / "ACLC01-R-femur-cart.obj",
+                    .tibia = folder / "ACLC01-R-tibia-cart.obj",
+                    .to_mm = 1000}),
+              {.rms = 0.06, .max = 0.25, .normal_degrees = 2.5});
+}
+
+TEST(FitSurfaces, FollowsTheMeanKneeOfAShapeModel) {
+  const fs::path folder = kSpecimens / "clouthier2019_ssm";
+  if (!fs::exists(folder)) GTEST_SKIP() << "no specimens here";
+  expect_core(knee({.femur = folder / "mean_Femur_Cartilage.ply",
+                    .tibia = folder / "mean_Tibia_Cartilage_shifted.ply",
+                    .to_mm = 1,
+                    .lateral = {1, 0, 0},
+                    .anterior = {0, 1, 0},
+                    .proximal = {0, 0, 1}}),
+              {.rms = 0.04, .max = 0.25, .normal_degrees = 2.5});
+}
+
+}  // namespace
+}  // namespace condyle

@@ -1,0 +1,55 @@
+# Sourced by run.sh and test.sh: the Debian packages that condyle is built from, and the way to get them.
+# Only what is missing is installed; where there is no apt the list is shown and CMake has the last word.
+
+build_packages=(
+  cmake g++ make pkg-config
+  libeigen3-dev libassimp-dev libnanoflann-dev libhdf5-dev libtomlplusplus-dev libfmt-dev libcli11-dev
+  libosmesa6-dev libpng-dev libfreetype-dev fonts-dejavu-core gnuplot-nox
+  libgtest-dev libbenchmark-dev hdf5-tools
+)
+
+missing_packages() {
+  local package
+  for package in "${build_packages[@]}"; do
+    dpkg-query --show --showformat='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed ||
+      echo "$package"
+  done
+}
+
+install_packages() {
+  if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+    echo "No apt here. Needed (Debian names): ${build_packages[*]}" >&2
+    echo "Going on with what CMake finds." >&2
+    return 0
+  fi
+  local missing
+  mapfile -t missing < <(missing_packages)
+  [ "${#missing[@]}" -gt 0 ] || return 0
+
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "Missing packages: ${missing[*]}" >&2
+      echo "Install them as root: apt-get install ${missing[*]}" >&2
+      echo "Going on with what CMake finds." >&2
+      return 0
+    fi
+    as_root=(sudo)
+  fi
+  echo "Installing: ${missing[*]}"
+  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=600 -qq)
+  # The lists are fetched only where they do not know a package yet.
+  "${apt[@]}" install --yes --no-install-recommends "${missing[@]}" >/dev/null 2>&1 || {
+    "${apt[@]}" update
+    "${apt[@]}" install --yes --no-install-recommends "${missing[@]}" >/dev/null
+  }
+}
+
+# build FOLDER [CMAKE ARGUMENT...]: configures where needed and builds everything, quietly while all is well.
+# TARGET, where set, is built alone.
+build() {
+  local folder=$1
+  shift
+  cmake -S . -B "$folder" "$@" >/dev/null
+  cmake --build "$folder" --parallel "$(nproc)" ${TARGET:+--target "$TARGET"}
+}

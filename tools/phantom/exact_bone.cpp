@@ -1,0 +1,68 @@
+#include "phantom/exact_bone.h"
+
+#include <cmath>
+
+#include "phantom/femur.h"
+#include "phantom/tibia.h"
+
+namespace condyle::phantom {
+
+namespace {
+
+/// A point near the articular surface of the compartment: on the femur along the direction from the
+/// centre of the condyle, on the tibia above or below p.
+Eigen::Vector3d near_surface(Bone bone, int side, const Eigen::Vector3d& p) {
+  const double z = side * std::clamp(side * p.z(), 12.0, 34.0);
+  if (bone == Bone::kTibia) {
+    const double x = std::clamp(p.x(), -17.0, 24.0);
+    return {x, tibial_height<double>(x, z), z};
+  }
+  const Condyle& c = side < 0 ? kMedialCondyle : kLateralCondyle;
+  const double angle = std::clamp(std::atan2(-p.x(), -p.y()), -40 * kDegree, 140 * kDegree);
+  const double r = outline_radius<double>(c, angle);
+  return {-r * std::sin(angle), -r * std::cos(angle), z};
+}
+
+}  // namespace
+
+SurfacePoint ExactBone::evaluate(const Place& place) const {
+  const ShapeValue s = shape_derivatives(bone_, place);
+  const double slope = s.g.norm();
+  SurfacePoint point;
+  point.c = place;
+  point.n = s.g / slope;
+  const Eigen::Matrix3d P = Eigen::Matrix3d::Identity() - point.n * point.n.transpose();
+  point.K = -(P * s.h * P) / slope;
+  point.dual.setZero();
+  return point;
+}
+
+Place ExactBone::moved(const Place& place,
+                       const SurfacePoint& at,
+                       const Eigen::Vector3d& dc) const {
+  return project(bone_, place + dc - dc.dot(at.n) * at.n);
+}
+
+Place ExactBone::closest(const Eigen::Vector3d& p, const Place&) const { return project(bone_, p); }
+
+Place ExactBone::seed(const Eigen::Vector3d& p) const {
+  return project(bone_, near_surface(bone_, side_, p));
+}
+
+std::vector<Place> ExactBone::samples(double spacing) const {
+  std::vector<Place> places;
+  for (double z = 13; z <= 33; z += spacing) {
+    if (bone_ == Bone::kTibia) {
+      for (double x = -16; x <= 22; x += spacing)
+        places.push_back(project(bone_, near_surface(bone_, side_, {x, 0, side_ * z})));
+    } else {
+      for (double a = -35; a <= 135; a += spacing / 22 / kDegree)
+        places.push_back(project(
+            bone_, near_surface(bone_, side_,
+                                {-std::sin(a * kDegree), -std::cos(a * kDegree), side_ * z})));
+    }
+  }
+  return places;
+}
+
+}  // namespace condyle::phantom

@@ -1,0 +1,30 @@
+#pragma once
+
+/// A compartment of the exact phantom as a contact surface, so that the mechanics can run on the
+/// truth itself: what a sweep on fitted patches should come to.
+///
+/// A `Place` is the point itself. Lengths in mm.
+
+#include "phantom/phantom_shape.h"
+
+namespace condyle::phantom {
+
+class ExactBone : public Surface {
+ public:
+  /// side: -1 medial, +1 lateral.
+  ExactBone(Bone bone, int side) : bone_(bone), side_(side) {}
+
+  [[nodiscard]] SurfacePoint evaluate(const Place& place) const override;
+  [[nodiscard]] Place moved(const Place& place,
+                            const SurfacePoint& at,
+                            const Eigen::Vector3d& dc) const override;
+  [[nodiscard]] Place closest(const Eigen::Vector3d& p, const Place& start) const override;
+  [[nodiscard]] Place seed(const Eigen::Vector3d& p) const override;
+  [[nodiscard]] std::vector<Place> samples(double spacing) const override;
+
+ private:
+  Bone bone_;
+  int side_;
+};
+
+}  // namespace condyle::phantom

@@ -1,0 +1,68 @@
+/// condyle_phantom: writes the phantom knee's two bones as binary STL (docs/phantom.md).
+///
+///   condyle_phantom -o meshes
+///   condyle_phantom -o DIR --resolution 1.0 --roughness 0.1 --correlation 3 --seed 7
+///   condyle_phantom -o DIR --exact
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "phantom/mesh_shape.h"
+#include "phantom/roughness.h"
+#include "phantom/stl.h"
+
+int main(int argc, char** argv) {
+  using namespace condyle::phantom;
+  // CLI::Range lets nan pass
+  const CLI::Validator finite(
+      [](std::string& text) {
+        return std::isfinite(std::strtod(text.c_str(), nullptr)) ? std::string()
+                                                                 : text + " is not a number";
+      },
+      "");
+  CLI::App app{"Meshes of the phantom knee"};
+  std::filesystem::path folder;
+  double resolution = kResolution;
+  Roughness roughness;
+  bool exact = false;
+  app.add_option("-o,--output", folder, "folder for femur.stl and tibia.stl")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--resolution", resolution, "grid cell [mm]")
+      ->capture_default_str()
+      ->check(finite)
+      ->check(CLI::Range(0.2, 8.0));
+  app.add_option("--roughness", roughness.rms, "rms [mm]")
+      ->capture_default_str()
+      ->check(finite)
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--correlation", roughness.correlation, "correlation length [mm]")
+      ->capture_default_str()
+      ->check(finite)
+      ->check(CLI::Range(0.1, 50.0));
+  app.add_option("--seed", roughness.seed, "of the roughness")->capture_default_str();
+  app.add_flag("--exact", exact, "no roughness");
+  CLI11_PARSE(app, argc, argv);
+  if (exact) roughness.rms = 0;
+
+  for (const Bone bone : {Bone::kFemur, Bone::kTibia}) {
+    condyle::TriangleMesh mesh = mesh_bone(bone, resolution);
+    roughen(bone, roughness, mesh);
+    const std::string name = bone_name(bone);
+    const std::filesystem::path file = folder / (name + ".stl");
+    std::ofstream out(file, std::ios::binary);
+    const std::string bytes = binary_stl(mesh, "condyle phantom " + name + ", right knee, mm");
+    if (!out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush()) {
+      std::fprintf(stderr, "condyle_phantom: cannot write %s\n", file.string().c_str());
+      return 1;
+    }
+    std::printf("%s: %zu vertices, %zu triangles\n", file.string().c_str(), mesh.vertices.size(),
+                mesh.triangles.size());
+  }
+  return 0;
+}

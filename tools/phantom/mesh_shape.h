@@ -1,0 +1,18 @@
+#pragma once
+
+/// Triangle meshes of the implicit bones: closed, two-manifold, facing outward, every vertex on the
+/// exact surface.
+
+#include "mesh/triangle_mesh.h"
+#include "phantom/phantom_shape.h"
+
+namespace condyle::phantom {
+
+/// The grid of the shipped meshes [mm].
+inline constexpr double kResolution = 1.4;
+
+/// Surface nets [Gibson 1998] on a grid of `cell` mm, vertices relaxed along the surface and
+/// dropped onto it.
+[[nodiscard]] TriangleMesh mesh_bone(Bone bone, double cell);
+
+}  // namespace condyle::phantom

@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# Builds condyle, sweeps the phantom knee from 0 to 120 degrees and draws it: everything goes into out/.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source tools/packages.sh
+
+install_packages
+TARGET=condyle build build -DCMAKE_BUILD_TYPE=Release
+
+mkdir -p out
+build/condyle sweep data/phantom/knee.toml -o out/phantom.h5
+build/condyle render out/phantom.h5 -o out
+build/condyle plot out/phantom.h5 -o out
