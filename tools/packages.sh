@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Sourced by run.sh and test.sh: the Debian packages that condyle is built from, and the way to get them.
 # Only what is missing is installed; where there is no apt the list is shown and CMake has the last word.
 
@@ -40,9 +41,20 @@ install_packages() {
   local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=600 -qq)
   # The lists are fetched only where they do not know a package yet.
   "${apt[@]}" install --yes --no-install-recommends "${missing[@]}" >/dev/null 2>&1 || {
-    "${apt[@]}" update
+    update_package_lists "${apt[@]}"
     "${apt[@]}" install --yes --no-install-recommends "${missing[@]}" >/dev/null
   }
+}
+
+# apt waits for a busy package lock by itself, but not for the lock of its lists.
+update_package_lists() {
+  local attempt
+  for attempt in $(seq 60); do
+    "$@" update && return 0
+    echo "The package lists are busy or out of reach; trying again ($attempt of 60)." >&2
+    sleep 10
+  done
+  return 1
 }
 
 # build FOLDER [CMAKE ARGUMENT...]: configures where needed and builds everything, quietly while all is well.

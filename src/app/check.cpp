@@ -33,8 +33,8 @@ void check_mesh(const std::string& owner, const MeshFile& file) {
   body.mesh = file;
   const TriangleMesh mesh = load_body_mesh(body);
   const Eigen::Vector3d size = extent(mesh);
-  fmt::print("mesh       {}: {} triangles, {:.4g} x {:.4g} x {:.4g} mm\n", file.path.filename().string(), mesh.triangles.size(),
-             size.x(), size.y(), size.z());
+  fmt::print("mesh       {}: {} triangles, {:.4g} x {:.4g} x {:.4g} mm\n",
+             file.path.filename().string(), mesh.triangles.size(), size.x(), size.y(), size.z());
 }
 
 int run_check(const CheckOptions& options) {
@@ -55,7 +55,8 @@ int run_check(const CheckOptions& options) {
 
 void setup_check(CLI::App& program, int& status) {
   const auto options = std::make_shared<CheckOptions>();
-  CLI::App* command = program.add_subcommand("check", "Read a scene and its meshes, and say what they hold");
+  CLI::App* command =
+      program.add_subcommand("check", "Read a scene and its meshes, and say what they hold");
   command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
   command->callback([options, &status] { status = run_check(*options); });
 }

@@ -1,8 +1,8 @@
 #pragma once
 
-/// The subcommands of condyle, each in a file of its own. A setup function adds its subcommand to the program;
-/// when that is called it puts its exit code into `status`: 0 all done, 2 some pose did not succeed. Bad input leaves as
-/// an exception.
+/// The subcommands of condyle, each in a file of its own. A setup function adds its subcommand to
+/// the program; when that is called it puts its exit code into `status`: 0 all done, 2 some pose
+/// did not succeed. Bad input leaves as an exception.
 
 namespace CLI {
 class App;

@@ -21,10 +21,11 @@ struct FitOptions {
 int run_fit(const FitOptions& options) {
   check_output_file(options.output);
   const Scene scene = read_scene(options.scene);
-  const bool has_patches = std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [](const SurfaceDescription& surface) {
-    return surface.kind == SurfaceKind::kPatch;
-  });
-  if (!has_patches) throw InputError(options.scene + ": no surface has kind = \"patch\", expected one to fit");
+  const bool has_patches = std::any_of(
+      scene.surfaces.begin(), scene.surfaces.end(),
+      [](const SurfaceDescription& surface) { return surface.kind == SurfaceKind::kPatch; });
+  if (!has_patches)
+    throw InputError(options.scene + ": no surface has kind = \"patch\", expected one to fit");
   const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
   print_fit(surfaces);
   write_run(options.output, make_run(scene, surfaces));

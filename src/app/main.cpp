@@ -1,5 +1,5 @@
-/// condyle: the equilibrium of a knee, from meshes to a sweep. Exit codes: 0 all done, 1 bad input, 2 some pose did
-/// not succeed.
+/// condyle: the equilibrium of a knee, from meshes to a sweep. Exit codes: 0 all done, 1 bad input,
+/// 2 some pose did not succeed.
 
 #include <fmt/format.h>
 

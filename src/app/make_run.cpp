@@ -11,7 +11,8 @@ std::vector<RunPatch> patches_of(const Scene& scene, const std::vector<FittedSur
     const auto* patch = dynamic_cast<const Patch*>(surfaces[i].surface.get());
     if (patch == nullptr) continue;
     const SurfaceDescription& description = scene.surfaces[i];
-    patches.push_back({description.name, description.body, patch->data(), surfaces[i].report.value_or(FitReport{})});
+    patches.push_back({description.name, description.body, patch->data(),
+                       surfaces[i].report.value_or(FitReport{})});
   }
   return patches;
 }

@@ -11,6 +11,8 @@
 namespace condyle {
 
 /// Scene, patches and the meshes of the bodies, with a sweep or, after a fit, with none.
-[[nodiscard]] Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces, SweepResult sweep = {});
+[[nodiscard]] Run make_run(const Scene& scene,
+                           const std::vector<FittedSurface>& surfaces,
+                           SweepResult sweep = {});
 
 }  // namespace condyle

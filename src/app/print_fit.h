@@ -1,6 +1,7 @@
 #pragma once
 
-/// How the patches of a scene came out, as a table on the standard output; nothing where there is no patch.
+/// How the patches of a scene came out, as a table on the standard output; nothing where there is
+/// no patch.
 
 #include <vector>
 

@@ -28,14 +28,15 @@ struct SweepCommand {
 
 // What the command line says about the range stands in for what the scene says.
 void override_range(const SweepCommand& command, Scene& scene) {
-  if (!scene.sweep) throw InputError(command.scene + ": [sweep] is missing, expected what to vary and how far");
+  if (!scene.sweep)
+    throw InputError(command.scene + ": [sweep] is missing, expected what to vary and how far");
   if (!command.from && !command.to && !command.step) return;
   std::vector<double>& values = scene.sweep->values;
   const double unit = declared_sweep_unit(scene).factor;
   const double step = values.size() > 1 ? (values[1] - values[0]) / unit : 1;
   try {
-    values = range_values(command.from.value_or(values.front() / unit), command.to.value_or(values.back() / unit),
-                          command.step.value_or(step));
+    values = range_values(command.from.value_or(values.front() / unit),
+                          command.to.value_or(values.back() / unit), command.step.value_or(step));
   } catch (const InputError& error) {
     throw InputError(fmt::format("--from, --to, --step: {}", error.what()));
   }
@@ -69,7 +70,8 @@ int run_sweep(const SweepCommand& command) {
 
 void setup_sweep(CLI::App& program, int& status) {
   const auto options = std::make_shared<SweepCommand>();
-  CLI::App* command = program.add_subcommand("sweep", "Find the positions of equilibrium over a range of motion or load");
+  CLI::App* command = program.add_subcommand(
+      "sweep", "Find the positions of equilibrium over a range of motion or load");
   command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
   command->add_option("-o,--output", options->output, "result file to write (HDF5)")->required();
   command->add_option("--from", options->from, "first value, in the unit of the scene");

@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kLeafSize = 8;
+constexpr double kBeyondEdge = 2;  // how far beyond the known part a minimum may lie, in sample spacings
+constexpr double kSteep = 0.7;   // sine of the angle between two surfaces beyond which curvature bounds say nothing
 constexpr double kDeepest = 12;  // overlap that is still taken for one, in sample spacings
 
 struct PointCloud {
@@ -26,6 +28,13 @@ struct PointCloud {
   template <class Box>
   bool kdtree_get_bbox(Box&) const { return false; }
 };
+
+/// The greater of the two principal values off the normal of a curvature tensor: where the sum of two is positive, the
+/// gap closes sideways.
+double largest_principal(const Eigen::Matrix3d& K) {
+  const double trace = K.trace();
+  return 0.5 * (trace + std::sqrt(std::max(0.0, 2 * K.squaredNorm() - trace * trace)));
+}
 
 }  // namespace
 
@@ -168,35 +177,37 @@ double ContactSearch::gap_of(int sample, const RigidTransform& X_from_to) {
 
 /// Below the gap at the centre by the slope over the radius, and by the relative curvature there with an allowance for
 /// how it varies within the cluster; never by more than the radius, since a distance is 1-Lipschitz.
-double ContactSearch::lowest_possible(const Cluster& cluster, const RigidTransform& X_from_to) const {
-  const Surface& other = sampled_on_A_ ? *on_B_ : *on_A_;
-  const double r = cluster.radius;
-  double lowest = gap_[cluster.center] - r;
-  if (slope_[cluster.center] > 0.7 || r == 0) return lowest;
-  const Eigen::Matrix3d K_other = other.evaluate(feet_[cluster.center]).K;
-  const Eigen::Matrix3d K = K_other + X_from_to.R * curvatures_[cluster.center] * X_from_to.R.transpose();
-  // The greater of the two eigenvalues of K off the normal: where it is positive the gap closes sideways.
-  const double trace = K.trace(), square = K.squaredNorm();
-  const double closing = 0.5 * (trace + std::sqrt(std::max(0.0, 2 * square - trace * trace)));
-  const double allowance = cluster.spread + 0.5 * K_other.norm();
-  return std::max(lowest, gap_[cluster.center] - slope_[cluster.center] * r -
-                              0.5 * std::max(0.0, closing + allowance) * r * r);
+double ContactSearch::lowest_possible(const Cluster& cluster, const Eigen::Matrix3d& K_other, const Eigen::Matrix3d& R) const {
+  const double r = cluster.radius, gap = gap_[cluster.center], slope = slope_[cluster.center];
+  if (slope > kSteep) return gap - r;
+  const Eigen::Matrix3d K = K_other + R * curvatures_[cluster.center] * R.transpose();
+  const double closing = largest_principal(K) + cluster.spread + 0.5 * K_other.norm();
+  return gap - std::min(r, slope * r + 0.5 * std::max(0.0, closing) * r * r);
 }
 
 void ContactSearch::visit(int index, const RigidTransform& X_from_to, double cutoff) {
   const Cluster& cluster = clusters_[index];
   const double gap = gap_of(cluster.center, X_from_to);
   // Far behind an open patch is not inside the solid.
-  if (gap - cluster.radius > cutoff || lowest_possible(cluster, X_from_to) > cutoff || gap + cluster.radius < -kDeepest * spacing_) return;
+  const double deepest = -kDeepest * spacing_;
+  if (gap - cluster.radius > cutoff || gap + cluster.radius < deepest) return;
+  const Surface& other = sampled_on_A_ ? *on_B_ : *on_A_;
+  const SurfacePoint at = other.evaluate(feet_[cluster.center]);
+  if (lowest_possible(cluster, at.K, X_from_to.R) > cutoff) return;
   if (cluster.child[0] >= 0) {
     visit(cluster.child[0], X_from_to, cutoff);
     visit(cluster.child[1], X_from_to, cutoff);
     return;
   }
+  // A sample is at least as far as from the tangent plane at the centre's foot, less what the other surface can bulge.
+  const Eigen::Vector3d n = X_from_to.R.transpose() * at.n;
+  const double bulge = 0.5 * std::max(0.0, largest_principal(at.K) + 0.5 * at.K.norm());
   for (int k = cluster.first; k < cluster.last; ++k) {
     const int sample = order_[k];
+    const Eigen::Vector3d d = points_[sample] - points_[cluster.center];
+    if (slope_[cluster.center] < kSteep && gap + n.dot(d) - bulge * d.squaredNorm() > cutoff) continue;
     const double sample_gap = gap_of(sample, X_from_to);
-    if (sample_gap < cutoff && sample_gap > -kDeepest * spacing_) near_.push_back(sample);
+    if (sample_gap < cutoff && sample_gap > deepest) near_.push_back(sample);
   }
 }
 
@@ -208,12 +219,15 @@ bool ContactSearch::is_lowest_of_neighbours(int sample) const {
   return true;
 }
 
+/// Newton to the minimum near a sample. Where that does not settle, or leads beyond the known part while the sample
+/// itself is within, the sample stands for it.
 GapMinimum ContactSearch::refine(int sample, const RigidTransform& X_BA) const {
   GapMinimum minimum;
   minimum.on_A = sampled_on_A_ ? places_[sample] : feet_[sample];
   minimum.on_B = sampled_on_A_ ? feet_[sample] : places_[sample];
   Place refined_B = minimum.on_B, refined_A = minimum.on_A;
-  minimum.refined = refine_minimum(*on_B_, refined_B, *on_A_, refined_A, X_BA, 4 * spacing_);
+  minimum.refined = refine_minimum(*on_B_, refined_B, *on_A_, refined_A, X_BA, 4 * spacing_) &&
+                    edge_of(refined_B, refined_A) > -kBeyondEdge * spacing_;
   if (minimum.refined) {
     minimum.on_B = refined_B;
     minimum.on_A = refined_A;
@@ -228,8 +242,12 @@ GapMinimum ContactSearch::refine(int sample, const RigidTransform& X_BA) const {
   minimum.n = B.n;
   minimum.s = X_BA.R * A.c;
   minimum.gap = B.n.dot(X_BA.p + minimum.s - B.c);
-  minimum.edge = std::min(on_B_->edge_distance(minimum.on_B), on_A_->edge_distance(minimum.on_A));
+  minimum.edge = edge_of(minimum.on_B, minimum.on_A);
   return minimum;
+}
+
+double ContactSearch::edge_of(const Place& on_B, const Place& on_A) const {
+  return std::min(on_B_->edge_distance(on_B), on_A_->edge_distance(on_A));
 }
 
 void ContactSearch::find(const RigidTransform& X_BA,
@@ -250,7 +268,7 @@ void ContactSearch::find(const RigidTransform& X_BA,
     lowest_ = std::min(lowest_, gap_[sample]);
     if (!is_lowest_of_neighbours(sample)) continue;
     const GapMinimum minimum = refine(sample, X_BA);
-    if (minimum.gap < cutoff && minimum.edge > -spacing_) minima.push_back(minimum);
+    if (minimum.gap < cutoff) minima.push_back(minimum);
   }
   std::sort(minima.begin(), minima.end(),
             [](const GapMinimum& a, const GapMinimum& b) { return a.gap < b.gap; });

@@ -48,9 +48,12 @@ class ContactSearch {
   void link_neighbours(double radius);
   void visit(int cluster, const RigidTransform& X_from_to, double cutoff);
   double gap_of(int sample, const RigidTransform& X_from_to);
-  [[nodiscard]] double lowest_possible(const Cluster& cluster, const RigidTransform& X_from_to) const;
+  [[nodiscard]] double lowest_possible(const Cluster& cluster,
+                                       const Eigen::Matrix3d& K_other,
+                                       const Eigen::Matrix3d& R) const;
   [[nodiscard]] bool is_lowest_of_neighbours(int sample) const;
   [[nodiscard]] GapMinimum refine(int sample, const RigidTransform& X_BA) const;
+  [[nodiscard]] double edge_of(const Place& on_B, const Place& on_A) const;
 
   const Surface* on_B_;
   const Surface* on_A_;

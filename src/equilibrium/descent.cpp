@@ -17,6 +17,7 @@ constexpr std::size_t kMemorySize = 24;
 constexpr std::size_t kMostMinima = 12;     // of one pair
 constexpr double kCompliance = 1e-8;        // of the constraints, relative
 constexpr double kNewtonReach = 0.05;       // a step shorter than this [L] is worth an attempt of Newton
+constexpr double kLeastReach = 1e-6;        // of a step [L]: below, nothing more is gained
 
 double weight(const Model& model, std::size_t condition) {
   return is_angle(model.conditions[condition].kind) ? model.length : 1;
@@ -72,7 +73,7 @@ void Descent::start(const RigidTransform& X) {
   X_ = X;
   memory_.clear();
   reach_ = options_.longest_step * model_.length;
-  shift_ = penalty_ = 0;
+  penalty_ = 0;
   patience_ = 0;
   gather(X_, constraints_);
 }
@@ -81,36 +82,54 @@ void Descent::start(const RigidTransform& X) {
 bool Descent::iterate(const Accept& accept, DescentReport& report) {
   ++report.steps;
   ++report.iterations;
+  const double L = model_.length;
   Programme programme;
   set_forces(programme);
   set_rows(programme);
   SmallQpSolution solution = solve_qp(programme.qp);
   add_contact_curvature(programme, solution);
   solution = solve_qp(programme.qp);
-  Vector6 step = solution.x;
-  if (!step.allFinite()) return false;
+  if (!solution.x.allFinite()) return false;
   const Multipliers forces = multipliers(programme, solution);
 
-  const double L = model_.length;
-  if (step.norm() < kNewtonReach * L && patience_-- <= 0) {
+  const double full = solution.x.norm();
+  const bool settled = full < kNewtonReach * L && patience_-- <= 0;
+  if (settled || reach_ < kLeastReach * L) {
     if (try_newton(forces, constraints_, accept, report)) return false;
     patience_ = 2;
+    if (full < 1e-11 * L) return false;
   }
-  if (step.norm() < 1e-11 * L) return false;
-  if (step.norm() > reach_) step *= reach_ / step.norm();
-
+  if (reach_ < kLeastReach * L) {
+    // Material points that are kept too long spoil the convergence: once more without them.
+    if (memory_.empty()) return false;
+    memory_.clear();
+    gather(X_, constraints_);
+    reach_ = 0.1 * options_.longest_step * L;
+    return true;
+  }
+  const Vector6 step = full > reach_ ? step_within_reach(programme) : solution.x;
+  penalty_ = std::max(0.9 * penalty_, 1.5 * std::max(forces.largest, 0.1 * programme.force_scale));
   remember(constraints_);
-  penalty_ = std::max(0.7 * penalty_, 1.5 * std::max(forces.largest, 0.1 * programme.force_scale));
-  const std::vector<Constraint> carrying = constraints_;
   gather(X_, constraints_);  // with what was just remembered
-  if (take_step(programme, step, penalty_, report)) return true;
-
-  if (try_newton(forces, carrying, accept, report)) return false;
-  reach_ = std::max(reach_, 1e-4 * L);
-  if (memory_.empty() || report.steps > options_.max_steps / 2) return false;
-  memory_.clear();  // material points that are kept too long spoil the convergence
-  gather(X_, constraints_);
+  take_step(programme, step, report);
   return true;
+}
+
+/// The programme for a step no longer than the reach: conditions and gaps are asked to close no farther than that, and
+/// the stiffness is raised until the step fits [Levenberg].
+Descent::Vector6 Descent::step_within_reach(Programme& programme) const {
+  SmallQp& qp = programme.qp;
+  const double demand = 0.7 * reach_;
+  if (qp.b.norm() > demand) qp.b *= demand / qp.b.norm();
+  qp.d = qp.d.cwiseMin(demand);
+  Vector6 step = solve_qp(qp).x;
+  qp.floor = std::max(qp.floor, 1e-2 * programme.stiffness_scale);
+  for (int k = 0; k < 12 && step.norm() > 1.1 * reach_; ++k) {
+    qp.floor *= 4;
+    step = solve_qp(qp).x;
+  }
+  if (step.norm() > reach_) step *= reach_ / step.norm();
+  return step;
 }
 
 Descent::Constraint Descent::constrain(int pair,
@@ -192,7 +211,7 @@ void Descent::set_forces(Programme& programme) const {
   qp.H = stiffness(wrench, L);
   qp.g = -scaled(wrench, L);
   programme.stiffness_scale = std::max(qp.H.cwiseAbs().maxCoeff(), programme.force_scale / (3 * L));
-  qp.floor = std::max(1e-4 * programme.stiffness_scale, shift_);
+  qp.floor = 1e-4 * programme.stiffness_scale;
   qp.compliance = kCompliance;
 }
 
@@ -298,41 +317,38 @@ Vector6 Descent::corrected_step(const Programme& programme,
   return solve_qp(qp).x;
 }
 
-bool Descent::take_step(const Programme& programme, Vector6 step, double penalty, DescentReport& report) {
-  constexpr int kAttempts = 12;
+/// Goes where the merit falls: the step itself, or with a second-order correction; else the reach shrinks.
+void Descent::take_step(const Programme& programme, const Vector6& step, DescentReport& report) {
   const double L = model_.length;
   const double violation_before = violation(constraints_, X_);
+  double energy = 0, violation_after = 0;
   const auto improves = [&](const RigidTransform& to, double tolerance) {
     gather(to, trial_);
-    return energy_change(X_, to) + penalty * (violation(trial_, to) - violation_before) < tolerance;
+    energy = energy_change(X_, to);
+    violation_after = violation(trial_, to);
+    return energy + penalty_ * (violation_after - violation_before) < tolerance;
   };
   const auto accept = [&](const RigidTransform& to, double length) {
     X_ = to;
     constraints_.swap(trial_);
     report.step = length;
-    return true;
+    // Where nothing is near, nothing limits the next step but patience.
+    const double longest = constraints_.empty() ? 10 * L : options_.longest_step * L;
+    reach_ = std::min(2 * reach_, longest);
   };
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    const RigidTransform to = moved(X_, step, L);
-    if (improves(to, 1e-10 * programme.force_scale * step.norm())) {
-      if (attempt == 0) {
-        reach_ = std::min(2 * reach_, options_.longest_step * L);
-        shift_ *= 0.25;
-      }
-      return accept(to, step.norm());
-    }
-    if (attempt == 0) {
-      const Vector6 second = corrected_step(programme, step, to, trial_);
-      if (second.allFinite() && second.norm() < 2 * step.norm()) {
-        const RigidTransform corrected = moved(X_, second, L);
-        if (improves(corrected, 0)) return accept(corrected, second.norm());
-      }
-    }
-    step *= 0.5;
-    reach_ = step.norm();
-    shift_ = std::max(2 * shift_, 1e-2 * programme.stiffness_scale);
+  const RigidTransform to = moved(X_, step, L);
+  if (improves(to, 1e-10 * programme.force_scale * step.norm())) return accept(to, step.norm());
+  // Restoring the constraints may cost more energy than the forces of this moment suggest.
+  if (violation_after < 0.9 * violation_before) {
+    penalty_ *= 2;
+    if (energy + penalty_ * (violation_after - violation_before) < 0) return accept(to, step.norm());
   }
-  return false;
+  const Vector6 second = corrected_step(programme, step, to, trial_);
+  if (second.allFinite() && second.norm() < 2 * step.norm()) {
+    const RigidTransform corrected = moved(X_, second, L);
+    if (improves(corrected, 0)) return accept(corrected, second.norm());
+  }
+  reach_ = 0.35 * std::min(reach_, step.norm());
 }
 
 bool Descent::try_newton(const Multipliers& multipliers,

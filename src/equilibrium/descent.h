@@ -22,7 +22,7 @@
 namespace condyle {
 
 struct DescentOptions {
-  int max_steps = 80;
+  int max_steps = 150;
   double longest_step = 0.1;  ///< of one iteration, in units of L
 };
 
@@ -85,7 +85,8 @@ class Descent {
                                        const Vector6& step,
                                        const RigidTransform& to,
                                        const std::vector<Constraint>& there) const;
-  bool take_step(const Programme& programme, Vector6 step, double penalty, DescentReport& report);
+  [[nodiscard]] Vector6 step_within_reach(Programme& programme) const;
+  void take_step(const Programme& programme, const Vector6& step, DescentReport& report);
   bool try_newton(const Multipliers& multipliers,
                   const std::vector<Constraint>& constraints,
                   const Accept& accept,
@@ -104,7 +105,6 @@ class Descent {
   std::vector<std::pair<int, Place>> memory_;  ///< pair and place on A
   std::vector<GapMinimum> minima_;
   double reach_ = 0;    ///< longest step allowed now [mm]
-  double shift_ = 0;    ///< least stiffness allowed now [N/mm]
   double penalty_ = 0;  ///< weight of a violation in the merit [N]
   int patience_ = 0;    ///< iterations before Newton is tried again
 };

@@ -35,7 +35,23 @@ EquilibriumSolver::EquilibriumSolver(Model model, EquilibriumOptions options)
 
 void EquilibriumSolver::set_state(const EquilibriumState& state) {
   state_ = state;
+  solved_ = drive();
   has_state_ = true;
+}
+
+EquilibriumSolver::Drive EquilibriumSolver::drive() const {
+  Drive drive;
+  for (const KinematicCondition& condition : model_->conditions) drive.values.push_back(condition.value);
+  for (const Load& load : model_->loads) drive.scales.push_back(load.scale);
+  return drive;
+}
+
+void EquilibriumSolver::set_drive(const Drive& from, const Drive& to, double t) {
+  const auto between = [t](double a, double b) { return t == 1 ? b : a + t * (b - a); };
+  for (std::size_t i = 0; i < to.values.size(); ++i)
+    model_->conditions[i].value = between(from.values[i], to.values[i]);
+  for (std::size_t i = 0; i < to.scales.size(); ++i)
+    model_->loads[i].scale = between(from.scales[i], to.scales[i]);
 }
 
 bool EquilibriumSolver::release_pulling(EquilibriumState& state) const {
@@ -96,12 +112,12 @@ bool EquilibriumSolver::carries_and_clear(EquilibriumState& state) {
   return on_minima(state) && !release_pulling(copy) && !add_overlaps(copy, too_many) && !too_many;
 }
 
-bool EquilibriumSolver::settle(EquilibriumState& state, NewtonReport& report, int& iterations) {
+bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
   constexpr int kRounds = 8;
   for (int round = 0; round < kRounds; ++round) {
-    report = newton_.solve(state);
-    iterations += report.iterations;
-    if (report.outcome != NewtonOutcome::kConverged) return false;
+    attempt.newton = newton_.solve(state);
+    attempt.iterations += attempt.newton.iterations;
+    if (attempt.newton.outcome != NewtonOutcome::kConverged) return false;
     if (release_pulling(state)) continue;
     bool too_many = false;
     if (add_overlaps(state, too_many)) continue;
@@ -110,32 +126,82 @@ bool EquilibriumSolver::settle(EquilibriumState& state, NewtonReport& report, in
   return false;
 }
 
+bool EquilibriumSolver::descend(EquilibriumState& state, Attempt& attempt) {
+  attempt.descent = descent_.solve(state, [this](EquilibriumState& s) { return carries_and_clear(s); });
+  attempt.newton = attempt.descent.newton;
+  attempt.iterations += attempt.descent.iterations;
+  return attempt.descent.converged;
+}
+
+/// From a solved state to another drive in parts: halved where a part fails, doubled where it succeeds.
+bool EquilibriumSolver::advance(EquilibriumState& state, const Drive& from, const Drive& to, Attempt& attempt) {
+  constexpr double kLongest = 0.5, kShortest = 1.0 / 256, kDescend = 1.0 / 32;
+  double part = kLongest;
+  for (double t = 0; t < 1;) {
+    const double next = std::min(1.0, t + part);
+    set_drive(from, to, next);
+    EquilibriumState trial = state;
+    bool solved = settle(trial, attempt);
+    if (!solved && part <= kDescend) {
+      trial = state;
+      solved = descend(trial, attempt);
+    }
+    if (solved) {
+      state = trial;
+      t = next;
+      part = std::min(2 * part, kLongest);
+    } else if ((part /= 2) < kShortest) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// The first pose: where the start is far from what the conditions prescribe, the equilibrium at the start's own values
+/// comes first.
+bool EquilibriumSolver::solve_first(EquilibriumState& state, const Drive& target, Attempt& attempt) {
+  constexpr double kFar = 0.1;  // of L
+  Drive own = target;
+  bool far = false;
+  for (std::size_t i = 0; i < model_->conditions.size(); ++i) {
+    const KinematicCondition& condition = model_->conditions[i];
+    const double k = evaluate(condition, state.X).k;
+    own.values[i] = target.values[i] + k;
+    far |= std::abs(k) * (is_angle(condition.kind) ? model_->length : 1) > kFar * model_->length;
+  }
+  if (!far) return descend(state, attempt);
+  set_drive(own, own, 1);
+  return descend(state, attempt) && advance(state, own, target, attempt);
+}
+
 PoseResult EquilibriumSolver::solve() {
   const auto begin = std::chrono::steady_clock::now();
-  PoseResult result;
+  const Drive target = drive();
+  Attempt attempt;
+  state_.X.R = orthonormalized(state_.X.R);
   EquilibriumState state = state_;
-  state.X.R = orthonormalized(state.X.R);
-  NewtonReport newton;
-  bool solved = has_state_ && settle(state, newton, result.iterations);
-  DescentReport descent;
-  if (!solved) {
-    state = state_;
-    state.X.R = orthonormalized(state.X.R);
-    descent = descent_.solve(state, [this](EquilibriumState& s) { return carries_and_clear(s); });
-    result.iterations += descent.iterations;
-    newton = descent.newton;
-    solved = descent.converged;
+  bool solved = false;
+  if (has_state_) {
+    solved = settle(state, attempt);
+    if (!solved) solved = descend(state = state_, attempt);
+    if (!solved) solved = advance(state = state_, solved_, target, attempt);
+    set_drive(target, target, 1);
+  } else {
+    solved = solve_first(state, target, attempt);
+    set_drive(target, target, 1);
+    if (!solved) solved = descend(state = state_, attempt);
   }
-  result.residual = newton.residual;
+  PoseResult result;
+  result.iterations = attempt.iterations;
+  result.residual = attempt.newton.residual;
   if (solved) {
     result.status = PoseStatus::kConverged;
     newton_.system().assemble(state);
     fill(result, state);
     judge(result);
-    state_ = state;  // beyond the patch as well: the next pose may come back
-    has_state_ = true;
+    set_state(state);  // beyond the patch as well: the next pose may come back
   } else {
-    explain_failure(result, descent);
+    explain_failure(result, attempt);
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
@@ -214,9 +280,9 @@ void EquilibriumSolver::judge(PoseResult& result) const {
   }
 }
 
-void EquilibriumSolver::explain_failure(PoseResult& result, const DescentReport& report) const {
-  const NewtonReport& newton = report.newton;
-  if (report.ran_away) {
+void EquilibriumSolver::explain_failure(PoseResult& result, const Attempt& attempt) const {
+  const NewtonReport& newton = attempt.newton;
+  if (attempt.descent.ran_away) {
     result.status = PoseStatus::kNoEquilibrium;
     result.reason = "the body runs away: nothing carries the load";
   } else if (newton.outcome == NewtonOutcome::kZeroLength) {
@@ -233,7 +299,7 @@ void EquilibriumSolver::explain_failure(PoseResult& result, const DescentReport&
     result.reason = "Newton's method diverged";
   } else {
     result.status = PoseStatus::kIterationLimit;
-    result.reason = "no equilibrium within the iteration limit; last step " + std::to_string(report.step) + " mm";
+    result.reason = "no equilibrium within the iteration limit; last step " + std::to_string(attempt.descent.step) + " mm";
   }
 }
 

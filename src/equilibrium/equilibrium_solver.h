@@ -4,7 +4,8 @@
 ///
 /// Newton on the contacts of the pose before comes first; then contacts that pull are released, overlaps that the
 /// search finds become contacts, and Newton goes on, until forces and gaps agree (Dortmans repeats the increment
-/// likewise [1986, 4.6], but cannot find a new contact). Where this does not settle, the descent finds the way.
+/// likewise [1986, 4.6], but cannot find a new contact). Where this does not settle, the step from the last pose is
+/// taken in parts, halved as needed; where no part settles, and for the first pose, the descent finds the way.
 /// A pose is converged only when no part of the known surfaces overlaps by more than `overlap`.
 
 #include <memory>
@@ -38,12 +39,27 @@ class EquilibriumSolver {
   /// the pose converges.
   PoseResult solve();
 
-  /// The last converged state; set_state restores one.
+  /// The last converged state; set_state restores one, solved with the model's present values.
   [[nodiscard]] const EquilibriumState& state() const { return state_; }
   void set_state(const EquilibriumState& state);
 
  private:
-  bool settle(EquilibriumState& state, NewtonReport& report, int& iterations);
+  /// What the user may change between poses: values of conditions and scales of loads.
+  struct Drive {
+    std::vector<double> values, scales;
+  };
+  /// What an attempt to solve a pose leaves behind, whether it succeeds or not.
+  struct Attempt {
+    int iterations = 0;
+    NewtonReport newton;
+    DescentReport descent;
+  };
+  [[nodiscard]] Drive drive() const;
+  void set_drive(const Drive& from, const Drive& to, double t);
+  bool solve_first(EquilibriumState& state, const Drive& target, Attempt& attempt);
+  bool advance(EquilibriumState& state, const Drive& from, const Drive& to, Attempt& attempt);
+  bool descend(EquilibriumState& state, Attempt& attempt);
+  bool settle(EquilibriumState& state, Attempt& attempt);
   bool release_pulling(EquilibriumState& state) const;
   bool add_overlaps(EquilibriumState& state, bool& too_many);
   [[nodiscard]] bool carries_and_clear(EquilibriumState& state);
@@ -51,7 +67,7 @@ class EquilibriumSolver {
   void fill(PoseResult& result, const EquilibriumState& state);
   void fill_contacts(PoseResult& result, const EquilibriumState& state);
   void judge(PoseResult& result) const;
-  void explain_failure(PoseResult& result, const DescentReport& report) const;
+  void explain_failure(PoseResult& result, const Attempt& attempt) const;
 
   std::unique_ptr<Model> model_;
   EquilibriumOptions options_;
@@ -59,6 +75,7 @@ class EquilibriumSolver {
   Newton newton_;
   Descent descent_;
   EquilibriumState state_;
+  Drive solved_;  ///< at which state_ was solved
   bool has_state_ = false;
   std::vector<GapMinimum> minima_;
 };

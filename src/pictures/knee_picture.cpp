@@ -64,7 +64,7 @@ struct KneePictures::State {
     seen = seen_from_above(run.scene, all);
     for (const BodyShape& shape : all) {
       shapes.push_back({shape.body,
-                        {renderer.add(shape.mesh), {}, shape.layer, shape.gloss},
+                        {renderer.add(shape.mesh), {}, shape.layer, shape.gloss, shape.closed},
                         some_vertices(shape.mesh)});
     }
     path = renderer.add(contact_paths(run, scales));

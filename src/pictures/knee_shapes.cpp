@@ -64,13 +64,13 @@ std::vector<BodyShape> body_shapes(const Run& run) {
   for (const BodyMesh& bone : run.bodies) {
     const int body = body_named(run.scene, bone.name);
     if (body < 0 || bone.mesh.triangles.empty()) continue;
-    shapes.push_back({body, Layer::kBone, 0.05, shade(bone.mesh, kBone)});
+    shapes.push_back({body, Layer::kBone, 0.05, is_closed(bone.mesh), shade(bone.mesh, kBone)});
   }
   for (const SurfaceDescription& surface : run.scene.surfaces) {
     const RunPatch* patch = patch_of(run, surface.name);
     if (surface.kind == SurfaceKind::kPatch && !patch) continue;
     shapes.push_back(
-        {surface.body, Layer::kSolid, 0.16,
+        {surface.body, Layer::kSolid, 0.16, false,
          patch ? patch_shape(Patch(patch->data), kCartilage)
                : exact_shape(surface, kCartilage, place_of_interest(run, surface.body))});
   }

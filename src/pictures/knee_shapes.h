@@ -25,6 +25,7 @@ struct BodyShape {
   int body = -1;
   Layer layer = Layer::kSolid;
   double gloss = 0.1;
+  bool closed = false;
   ShadedMesh mesh;  ///< body frame
 };
 /// Bones and articular surfaces of all bodies. Works on runs without meshes or patches: then there

@@ -10,13 +10,11 @@ std::filesystem::path make_picture_folder(const std::string& folder) {
   if (std::filesystem::is_directory(path)) return path;
   const std::filesystem::path parent = path.has_parent_path() ? path.parent_path() : ".";
   std::error_code error;
+  if (std::filesystem::exists(path)) throw InputError(folder + ": expected a folder");
   if (!std::filesystem::is_directory(parent))
     throw InputError(folder + ": the folder " + parent.string() + " does not exist");
   std::filesystem::create_directory(path, error);
-  if (error || !std::filesystem::is_directory(path)) {
-    throw InputError(folder + ": cannot make this folder: " +
-                     (error ? error.message() : "a file is in its place"));
-  }
+  if (error) throw InputError(folder + ": cannot make this folder: " + error.message());
   return path;
 }
 

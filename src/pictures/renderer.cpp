@@ -35,8 +35,8 @@ struct Renderer::State {
   Target surfaces{half(width), half(height), GL_RGBA32F, true};
   Target noisy{half(width), half(height), GL_RG32F, false};
   Target light{half(width), half(height), GL_R8, false};
-  Target page{width, height, GL_SRGB8_ALPHA8, true, available_samples(kSamplesPerPixel)};
-  Target resolved{width, height, GL_SRGB8_ALPHA8, false};
+  Target page{width, height, GL_RGBA8, true, available_samples(kSamplesPerPixel)};
+  Target resolved{width, height, GL_RGBA8, false};
   GLuint no_vertices = 0;
   std::vector<std::unique_ptr<MeshBuffer>> meshes;
 
@@ -117,7 +117,6 @@ void Renderer::State::find_light(const Camera& camera, const std::vector<Item>& 
 
 void Renderer::State::draw_page(const Camera& camera, const std::vector<Item>& items) const {
   page.bind();
-  glEnable(GL_FRAMEBUFFER_SRGB);
   glClearColor(1, 1, 1, 0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glEnable(GL_DEPTH_TEST);
@@ -153,7 +152,6 @@ Image Renderer::State::read_back() const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, page.framebuffer());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved.framebuffer());
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  glDisable(GL_FRAMEBUFFER_SRGB);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved.framebuffer());
   std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(width) *
                                  static_cast<std::size_t>(height));

@@ -62,6 +62,25 @@ ShadedMesh shade(const TriangleMesh& mesh, const Paint& paint, int smoothing) {
   return shaded;
 }
 
+bool is_closed(const TriangleMesh& mesh) {
+  std::vector<std::uint64_t> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  double volume = 0;
+  const auto edge = [](int a, int b) {
+    return (static_cast<std::uint64_t>(a) << 32) | static_cast<std::uint64_t>(b);
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    for (const auto& [i, j] : {std::pair{a, b}, {b, c}, {c, a}}) edges.push_back(edge(i, j));
+    volume += mesh.vertices[a].dot(mesh.vertices[b].cross(mesh.vertices[c]));
+  }
+  std::sort(edges.begin(), edges.end());
+  if (std::adjacent_find(edges.begin(), edges.end()) != edges.end() || !(volume > 0)) return false;
+  return std::all_of(edges.begin(), edges.end(), [&](std::uint64_t e) {
+    const auto a = static_cast<int>(e >> 32), b = static_cast<int>(e & 0xFFFFFFFFu);
+    return std::binary_search(edges.begin(), edges.end(), edge(b, a));
+  });
+}
+
 void append(ShadedMesh& whole, const ShadedMesh& part) {
   const auto first = static_cast<std::uint32_t>(whole.vertices.size());
   whole.vertices.insert(whole.vertices.end(), part.vertices.begin(), part.vertices.end());

@@ -37,6 +37,10 @@ struct Paint {
 /// roughness of segmentation does not glitter.
 [[nodiscard]] ShadedMesh shade(const TriangleMesh& mesh, const Paint& paint, int smoothing = 2);
 
+/// Every edge has two triangles, which run along it in opposite directions, and the volume is positive: from outside no
+/// back face is ever seen.
+[[nodiscard]] bool is_closed(const TriangleMesh& mesh);
+
 /// Adds `part` to `whole`.
 void append(ShadedMesh& whole, const ShadedMesh& part);
 

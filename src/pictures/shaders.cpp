@@ -129,7 +129,7 @@ void main() {
   lit *= mix(0.62, 1.0, smoothstep(0.0, 0.45, facing));
   vec2 inward = min(gl_FragCoord.xy, page - gl_FragCoord.xy);
   float ink = smoothstep(0.1, 1.0, min(inward.x, inward.y) / fade);
-  color = vec4(mix(vec3(1.0), min(lit, vec3(1.0)), ink), paint.a);
+  color = vec4(mix(vec3(1.0), pow(min(lit, vec3(1.0)), vec3(1.0 / 2.2)), ink), paint.a);
 })";
 
 }  // namespace condyle::shaders

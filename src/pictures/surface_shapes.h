@@ -10,7 +10,7 @@
 namespace condyle {
 
 /// A patch within its known region, body frame; about `spacing` [mm] between vertices.
-[[nodiscard]] ShadedMesh patch_shape(const Patch& patch, const Paint& paint, double spacing = 0.8);
+[[nodiscard]] ShadedMesh patch_shape(const Patch& patch, const Paint& paint, double spacing = 1.2);
 
 /// An exact surface, body frame. Those without bounds are drawn as a piece of about `extent` [mm]
 /// around `near`.

@@ -4,6 +4,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numeric>
 #include <type_traits>
@@ -39,7 +40,8 @@ Hdf5Handle data_space(const Shape& shape) {
 }
 
 Shape shape_of(const Hdf5Handle& space) {
-  std::vector<hsize_t> sizes(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.id()))));
+  std::vector<hsize_t> sizes(
+      static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.id()))));
   H5Sget_simple_extent_dims(space.id(), sizes.data(), nullptr);
   return {sizes.begin(), sizes.end()};
 }
@@ -74,9 +76,13 @@ Hdf5Handle ordered_group_properties(hid_t kind) {
 
 }  // namespace
 
-void Hdf5Group::fail(const std::string& message) const { throw InputError(fmt::format("{}: {}", place_, message)); }
+void Hdf5Group::fail(const std::string& message) const {
+  throw InputError(fmt::format("{}: {}", place_, message));
+}
 
-Hdf5Handle Hdf5Group::checked(std::int64_t id, Hdf5Handle::Close close, const std::string& what) const {
+Hdf5Handle Hdf5Group::checked(std::int64_t id,
+                              Hdf5Handle::Close close,
+                              const std::string& what) const {
   if (id < 0) fail(what);
   return {id, close};
 }
@@ -87,7 +93,8 @@ void Hdf5Group::check(int status, const std::string& what) const {
 
 Hdf5Group Hdf5Group::create(const std::string& name) const {
   const Hdf5Handle properties = ordered_group_properties(H5P_GROUP_CREATE);
-  const hid_t id = H5Gcreate2(handle_.id(), name.c_str(), H5P_DEFAULT, properties.id(), H5P_DEFAULT);
+  const hid_t id =
+      H5Gcreate2(handle_.id(), name.c_str(), H5P_DEFAULT, properties.id(), H5P_DEFAULT);
   return {checked(id, H5Gclose, fmt::format("group {} cannot be made", name)), place_ + name + "/"};
 }
 
@@ -96,7 +103,9 @@ Hdf5Group Hdf5Group::open(const std::string& name) const {
   return {checked(id, H5Gclose, fmt::format("group {} is missing", name)), place_ + name + "/"};
 }
 
-bool Hdf5Group::has(const std::string& name) const { return H5Lexists(handle_.id(), name.c_str(), H5P_DEFAULT) > 0; }
+bool Hdf5Group::has(const std::string& name) const {
+  return H5Lexists(handle_.id(), name.c_str(), H5P_DEFAULT) > 0;
+}
 
 bool Hdf5Group::is_group(const std::string& name) const {
   const Hdf5Handle object(H5Oopen(handle_.id(), name.c_str(), H5P_DEFAULT), H5Oclose);
@@ -109,46 +118,67 @@ std::vector<std::string> Hdf5Group::names() const {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
     return 0;
   };
-  if (H5Literate(handle_.id(), H5_INDEX_CRT_ORDER, H5_ITER_INC, nullptr, add, &out) >= 0) return out;
+  if (H5Literate(handle_.id(), H5_INDEX_CRT_ORDER, H5_ITER_INC, nullptr, add, &out) >= 0)
+    return out;
   out.clear();  // written by a program that keeps no order of creation
-  check(H5Literate(handle_.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &out), "cannot be listed");
+  check(H5Literate(handle_.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &out),
+        "cannot be listed");
   return out;
 }
 
-Hdf5Handle Hdf5Group::create_dataset(const std::string& name, std::int64_t type, const Shape& shape, const std::string& units) const {
+Hdf5Handle Hdf5Group::create_dataset(const std::string& name,
+                                     std::int64_t type,
+                                     const Shape& shape,
+                                     const std::string& units) const {
   const Hdf5Handle space = data_space(shape);
   const Hdf5Handle properties = creation_properties(shape);
-  const hid_t id = H5Dcreate2(handle_.id(), name.c_str(), type, space.id(), H5P_DEFAULT, properties.id(), H5P_DEFAULT);
+  const hid_t id = H5Dcreate2(handle_.id(), name.c_str(), type, space.id(), H5P_DEFAULT,
+                              properties.id(), H5P_DEFAULT);
   Hdf5Handle dataset = checked(id, H5Dclose, fmt::format("dataset {} cannot be made", name));
   attach(dataset, "units", {units}, true);
   return dataset;
 }
 
-void Hdf5Group::write(const std::string& name, const std::vector<double>& values, const Shape& shape, const std::string& units) const {
+void Hdf5Group::write(const std::string& name,
+                      const std::vector<double>& values,
+                      const Shape& shape,
+                      const std::string& units) const {
   const Hdf5Handle dataset = create_dataset(name, H5T_IEEE_F64LE, shape, units);
-  check(values.size() == count(shape) ? 0 : -1, fmt::format("dataset {} has not the shape {}", name, written(shape)));
-  check(H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name + " cannot be written");
+  check(values.size() == count(shape) ? 0 : -1,
+        fmt::format("dataset {} has not the shape {}", name, written(shape)));
+  check(H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+        name + " cannot be written");
 }
 
-void Hdf5Group::write(const std::string& name, const std::vector<int>& values, const Shape& shape, const std::string& units) const {
+void Hdf5Group::write(const std::string& name,
+                      const std::vector<int>& values,
+                      const Shape& shape,
+                      const std::string& units) const {
   const Hdf5Handle dataset = create_dataset(name, H5T_STD_I32LE, shape, units);
-  check(values.size() == count(shape) ? 0 : -1, fmt::format("dataset {} has not the shape {}", name, written(shape)));
-  check(H5Dwrite(dataset.id(), H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name + " cannot be written");
+  check(values.size() == count(shape) ? 0 : -1,
+        fmt::format("dataset {} has not the shape {}", name, written(shape)));
+  check(H5Dwrite(dataset.id(), H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+        name + " cannot be written");
 }
 
 void Hdf5Group::write(const std::string& name, const std::vector<std::string>& values) const {
   const Hdf5Handle type = text_type();
   const Hdf5Handle dataset = create_dataset(name, type.id(), {values.size()}, "1");
   if (values.empty()) return;
-  check(H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers(values).data()), name + " cannot be written");
+  check(H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers(values).data()),
+        name + " cannot be written");
 }
 
-void Hdf5Group::attach(const Hdf5Handle& object, const std::string& name, const std::vector<std::string>& texts, bool scalar) const {
+void Hdf5Group::attach(const Hdf5Handle& object,
+                       const std::string& name,
+                       const std::vector<std::string>& texts,
+                       bool scalar) const {
   const Hdf5Handle type = text_type();
   const Hdf5Handle space = data_space(scalar ? Shape{} : Shape{texts.size()});
   const std::string what = fmt::format("attribute {} cannot be written", name);
-  const Hdf5Handle attribute =
-      checked(H5Acreate2(object.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, what);
+  const Hdf5Handle attribute = checked(
+      H5Acreate2(object.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose, what);
   check(H5Awrite(attribute.id(), type.id(), pointers(texts).data()), what);
 }
 
@@ -156,7 +186,9 @@ void Hdf5Group::write_attribute(const std::string& name, const std::string& text
   attach(handle_, name, {text}, true);
 }
 
-void Hdf5Group::write_attribute(const std::string& dataset, const std::string& name, const std::vector<std::string>& texts) const {
+void Hdf5Group::write_attribute(const std::string& dataset,
+                                const std::string& name,
+                                const std::vector<std::string>& texts) const {
   attach(open_dataset(dataset), name, texts, false);
 }
 
@@ -171,21 +203,28 @@ Hdf5Array Hdf5Group::read(const std::string& name) const {
   Hdf5Array array;
   array.shape = shape_of(space);
   array.values.resize(count(array.shape));
-  check(H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.values.data()),
-        fmt::format("dataset {} cannot be read as numbers", name));
+  check(
+      H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.values.data()),
+      fmt::format("dataset {} cannot be read as numbers", name));
   return array;
 }
 
 std::vector<double> Hdf5Group::read(const std::string& name, const Shape& shape) const {
   Hdf5Array array = read(name);
   if (array.shape != shape) {
-    fail(fmt::format("dataset {} has shape {}, expected {}", name, written(array.shape), written(shape)));
+    fail(fmt::format("dataset {} has shape {}, expected {}", name, written(array.shape),
+                     written(shape)));
   }
   return std::move(array.values);
 }
 
 std::vector<int> Hdf5Group::read_integers(const std::string& name, const Shape& shape) const {
   const std::vector<double> values = read(name, shape);
+  const auto whole = [](double value) {
+    return std::trunc(value) == value && std::abs(value) < 2e9;
+  };
+  if (!std::all_of(values.begin(), values.end(), whole))
+    fail(fmt::format("dataset {} does not hold whole numbers", name));
   return {values.begin(), values.end()};
 }
 
@@ -203,14 +242,18 @@ std::vector<std::string> Hdf5Group::read_texts(const std::string& name) const {
   return texts;
 }
 
-std::string Hdf5Group::read_attribute(const std::string& name) const { return read_attribute_of(handle_, name); }
+std::string Hdf5Group::read_attribute(const std::string& name) const {
+  return read_attribute_of(handle_, name);
+}
 
 std::string Hdf5Group::read_attribute(const std::string& dataset, const std::string& name) const {
   return read_attribute_of(open_dataset(dataset), name);
 }
 
 std::string Hdf5Group::read_attribute_of(const Hdf5Handle& object, const std::string& name) const {
-  const hid_t id = H5Aexists(object.id(), name.c_str()) > 0 ? H5Aopen(object.id(), name.c_str(), H5P_DEFAULT) : -1;
+  const hid_t id = H5Aexists(object.id(), name.c_str()) > 0
+                       ? H5Aopen(object.id(), name.c_str(), H5P_DEFAULT)
+                       : -1;
   const Hdf5Handle attribute = checked(id, H5Aclose, fmt::format("attribute {} is missing", name));
   const Hdf5Handle type = text_type();
   const Hdf5Handle space(H5Aget_space(attribute.id()), H5Sclose);
@@ -250,9 +293,11 @@ std::string Hdf5Builder::bytes() const {
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : name_(file.string()) {
   silence();
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) throw InputError(name_ + ": no such file, expected a run (HDF5)");
+  if (!std::filesystem::is_regular_file(file, error))
+    throw InputError(name_ + ": no such file, expected a run (HDF5)");
   file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (file_.id() < 0) throw InputError(name_ + ": cannot be opened, expected a run (HDF5), whole and readable");
+  if (file_.id() < 0)
+    throw InputError(name_ + ": cannot be opened, expected a run (HDF5), whole and readable");
 }
 
 Hdf5Group Hdf5Reader::root() const {

@@ -1,10 +1,10 @@
 #pragma once
 
-/// A small door to HDF5: groups, datasets with their units, attributes. Every failure throws InputError naming the
-/// file and the place in it; nothing of HDF5 is printed.
+/// A small door to HDF5: groups, datasets with their units, attributes. Every failure throws
+/// InputError naming the file and the place in it; nothing of HDF5 is printed.
 ///
-/// Files are built in memory and handed out as bytes, so that a full disk is met by a plain write and never by
-/// HDF5 half-way through its own.
+/// Files are built in memory and handed out as bytes, so that a full disk is met by a plain write
+/// and never by HDF5 half-way through its own.
 
 #include <cstdint>
 #include <filesystem>
@@ -46,20 +46,30 @@ struct Hdf5Array {
 class Hdf5Group {
  public:
   /// `place` names the group in messages: "run.h5: /sweep".
-  Hdf5Group(Hdf5Handle handle, std::string place) : handle_(std::move(handle)), place_(std::move(place)) {}
+  Hdf5Group(Hdf5Handle handle, std::string place)
+      : handle_(std::move(handle)), place_(std::move(place)) {}
 
   [[nodiscard]] Hdf5Group create(const std::string& name) const;
   [[nodiscard]] Hdf5Group open(const std::string& name) const;
   [[nodiscard]] bool has(const std::string& name) const;
   [[nodiscard]] bool is_group(const std::string& name) const;
-  [[nodiscard]] std::vector<std::string> names() const;  ///< of what it holds, in the order of creation
+  [[nodiscard]] std::vector<std::string> names()
+      const;  ///< of what it holds, in the order of creation
 
-  void write(const std::string& name, const std::vector<double>& values, const Shape& shape, const std::string& units) const;
-  void write(const std::string& name, const std::vector<int>& values, const Shape& shape, const std::string& units) const;
+  void write(const std::string& name,
+             const std::vector<double>& values,
+             const Shape& shape,
+             const std::string& units) const;
+  void write(const std::string& name,
+             const std::vector<int>& values,
+             const Shape& shape,
+             const std::string& units) const;
   void write(const std::string& name, const std::vector<std::string>& values) const;
   void write_attribute(const std::string& name, const std::string& text) const;
   /// An attribute of a dataset of this group.
-  void write_attribute(const std::string& dataset, const std::string& name, const std::vector<std::string>& texts) const;
+  void write_attribute(const std::string& dataset,
+                       const std::string& name,
+                       const std::vector<std::string>& texts) const;
 
   [[nodiscard]] Hdf5Array read(const std::string& name) const;
   /// The same, of a shape that must be met.
@@ -67,18 +77,28 @@ class Hdf5Group {
   [[nodiscard]] std::vector<int> read_integers(const std::string& name, const Shape& shape) const;
   [[nodiscard]] std::vector<std::string> read_texts(const std::string& name) const;
   [[nodiscard]] std::string read_attribute(const std::string& name) const;
-  [[nodiscard]] std::string read_attribute(const std::string& dataset, const std::string& name) const;
+  [[nodiscard]] std::string read_attribute(const std::string& dataset,
+                                           const std::string& name) const;
 
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
-  [[nodiscard]] Hdf5Handle checked(std::int64_t id, Hdf5Handle::Close close, const std::string& what) const;
+  [[nodiscard]] Hdf5Handle checked(std::int64_t id,
+                                   Hdf5Handle::Close close,
+                                   const std::string& what) const;
   void check(int status, const std::string& what) const;
-  [[nodiscard]] Hdf5Handle create_dataset(const std::string& name, std::int64_t type, const Shape& shape, const std::string& units) const;
-  void attach(const Hdf5Handle& object, const std::string& name, const std::vector<std::string>& texts, bool scalar) const;
+  [[nodiscard]] Hdf5Handle create_dataset(const std::string& name,
+                                          std::int64_t type,
+                                          const Shape& shape,
+                                          const std::string& units) const;
+  void attach(const Hdf5Handle& object,
+              const std::string& name,
+              const std::vector<std::string>& texts,
+              bool scalar) const;
 
   [[nodiscard]] Hdf5Handle open_dataset(const std::string& name) const;
-  [[nodiscard]] std::string read_attribute_of(const Hdf5Handle& object, const std::string& name) const;
+  [[nodiscard]] std::string read_attribute_of(const Hdf5Handle& object,
+                                              const std::string& name) const;
 
   Hdf5Handle handle_;
   std::string place_;

@@ -60,15 +60,19 @@ class TemporaryFile {
 void check_output_file(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::error_code error;
-  if (!path.has_filename()) throw InputError(fmt::format("{}: expected the name of a file", path.string()));
+  if (!path.has_filename())
+    throw InputError(fmt::format("{}: expected the name of a file", path.string()));
   if (!fs::is_directory(folder, error)) {
-    throw InputError(fmt::format("{}: there is no folder {}, expected one that exists", path.string(), folder.string()));
+    throw InputError(fmt::format("{}: there is no folder {}, expected one that exists",
+                                 path.string(), folder.string()));
   }
   if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
-    throw InputError(fmt::format("{}: is not a file, expected the name of a file to write", path.string()));
+    throw InputError(
+        fmt::format("{}: is not a file, expected the name of a file to write", path.string()));
   }
   if (::access(folder.c_str(), W_OK) != 0) {
-    throw InputError(fmt::format("{}: cannot write into folder {}: {}", path.string(), folder.string(), reason(errno)));
+    throw InputError(fmt::format("{}: cannot write into folder {}: {}", path.string(),
+                                 folder.string(), reason(errno)));
   }
 }
 
@@ -78,7 +82,8 @@ void write_output_file(const fs::path& path, const std::string& bytes) {
   int code = file.opened();
   if (code == 0) code = file.write(bytes);
   if (code == 0) code = file.keep_as(path);
-  if (code != 0) throw InputError(fmt::format("{}: cannot be written: {}", path.string(), reason(code)));
+  if (code != 0)
+    throw InputError(fmt::format("{}: cannot be written: {}", path.string(), reason(code)));
 }
 
 }  // namespace condyle

@@ -7,12 +7,12 @@
 
 namespace condyle {
 
-/// Throws InputError where `path` cannot become a file: its folder does not exist or cannot be written, or
-/// something that is no file stands there. To be asked before a long computation.
+/// Throws InputError where `path` cannot become a file: its folder does not exist or cannot be
+/// written, or something that is no file stands there. To be asked before a long computation.
 void check_output_file(const std::filesystem::path& path);
 
-/// Writes a file beside `path` and renames it when all of it is on the disk. Throws InputError (no such folder, disk
-/// full, ...) and then leaves nothing behind.
+/// Writes a file beside `path` and renames it when all of it is on the disk. Throws InputError (no
+/// such folder, disk full, ...) and then leaves nothing behind.
 void write_output_file(const std::filesystem::path& path, const std::string& bytes);
 
 }  // namespace condyle

@@ -8,6 +8,7 @@
 #include "results/run_layout.h"
 #include "scene/read_scene.h"
 #include "scene/sweep_range.h"
+#include "surface/bspline_basis.h"
 
 namespace condyle {
 namespace {
@@ -16,15 +17,28 @@ using Poses = std::vector<PoseResult>;
 
 // Hands one row of numbers to each pose.
 using TakeRow = std::function<void(PoseResult& pose, const double* row)>;
-void take(const Hdf5Group& group, const char* name, const Shape& shape, Poses& poses, const TakeRow& take_row) {
+void take(const Hdf5Group& group,
+          const char* name,
+          const Shape& shape,
+          Poses& poses,
+          const TakeRow& take_row) {
   const std::vector<double> values = group.read(name, shape);
   const std::size_t width = values.size() / poses.size();
   for (std::size_t i = 0; i < poses.size(); ++i) take_row(poses[i], &values[i * width]);
 }
 
+void take_integers(const Hdf5Group& group,
+                   const char* name,
+                   Poses& poses,
+                   void (*take_one)(PoseResult&, int)) {
+  const std::vector<int> values = group.read_integers(name, {poses.size()});
+  for (std::size_t i = 0; i < poses.size(); ++i) take_one(poses[i], values[i]);
+}
+
 Scene read_head(const Hdf5Group& root) {
   const std::string format = root.read_attribute("format");
-  if (format != kRunFormat) root.fail(fmt::format("format = \"{}\", expected \"{}\"", format, kRunFormat));
+  if (format != kRunFormat)
+    root.fail(fmt::format("format = \"{}\", expected \"{}\"", format, kRunFormat));
   return parse_scene(root.read_attribute("scene"), root.read_attribute("scene_file"));
 }
 
@@ -33,7 +47,8 @@ void read_status(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
   const Shape n = {poses.size()};
   take(sweep, "value", n, poses, [&](PoseResult& p, const double* row) { p.value = *row * unit; });
   take(sweep, "status", n, poses, [&](PoseResult& p, const double* row) {
-    if (!(*row >= 0 && *row < kPoseStatusCount)) sweep.fail(fmt::format("status = {}, which has no meaning", *row));
+    if (!(*row >= 0 && *row < kPoseStatusCount))
+      sweep.fail(fmt::format("status = {}, which has no meaning", *row));
     p.status = static_cast<PoseStatus>(static_cast<int>(*row));
   });
   const std::vector<std::string> reasons = sweep.read_texts("reason");
@@ -44,33 +59,36 @@ void read_status(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
 void read_pose(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
   const std::size_t n = poses.size();
   const Hdf5Group pose = sweep.open("pose");
-  take(pose, "translation", {n, 3}, poses, [](PoseResult& p, const double* row) { std::copy_n(row, 3, p.X_BA.p.data()); });
+  take(pose, "translation", {n, 3}, poses,
+       [](PoseResult& p, const double* row) { std::copy_n(row, 3, p.X_BA.p.data()); });
   take(pose, "rotation", {n, 3, 3}, poses, [](PoseResult& p, const double* row) {
     for (int i = 0; i < 9; ++i) p.X_BA.R(i / 3, i % 3) = row[i];
   });
   if (!scene.joint) return;
   const Hdf5Group joint = sweep.open("joint");
   for (const auto& column : kJointColumns) {
-    take(joint, column.name, {n}, poses, [&](PoseResult& p, const double* row) {
-      p.joint.*column.member = *row * column.unit;
-    });
+    take(joint, column.name, {n}, poses,
+         [&](PoseResult& p, const double* row) { p.joint.*column.member = *row * column.unit; });
   }
 }
 
 void read_contact(const Hdf5Group& group, std::size_t index, Poses& poses) {
   const std::size_t n = poses.size();
-  take(group, "state", {n}, poses, [&](PoseResult& p, const double* row) { p.contacts[index].closed = *row == 1; });
-  take(group, "force", {n}, poses, [&](PoseResult& p, const double* row) { p.contacts[index].force = *row; });
+  take(group, "state", {n}, poses,
+       [&](PoseResult& p, const double* row) { p.contacts[index].closed = *row == 1; });
+  take(group, "force", {n}, poses,
+       [&](PoseResult& p, const double* row) { p.contacts[index].force = *row; });
   const Hdf5Group points = group.open("points");
-  take(points, "count", {n}, poses, [&](PoseResult& p, const double* row) {
-    p.contacts[index].points.resize(static_cast<std::size_t>(std::clamp(*row, 0.0, 1e6)));
-  });
+  const std::vector<int> counts = points.read_integers("count", {n});
   const Hdf5Array edges = points.read("on_edge");
   const std::size_t slots = edges.shape.size() == 2 && edges.shape[0] == n ? edges.shape[1] : 0;
   for (std::size_t i = 0; i < n; ++i) {
+    if (counts[i] < 0 || static_cast<std::size_t>(counts[i]) > slots)
+      points.fail("count is not the number of points");
     std::vector<ContactPointResult>& list = poses[i].contacts[index].points;
-    if (list.size() > slots) points.fail("dataset on_edge has fewer columns than there are points");
-    for (std::size_t k = 0; k < list.size(); ++k) list[k].on_edge = edges.values[i * slots + k] == 1;
+    list.resize(static_cast<std::size_t>(counts[i]));
+    for (std::size_t k = 0; k < list.size(); ++k)
+      list[k].on_edge = edges.values[i * slots + k] == 1;
   }
   for (const PointColumn& column : kPointColumns) {
     const Shape shape = column.width > 1 ? Shape{n, slots, column.width} : Shape{n, slots};
@@ -91,28 +109,35 @@ void read_elements(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
     pose.conditions.resize(scene.conditions.size());
   }
   const Hdf5Group contacts = sweep.open("contacts"), ligaments = sweep.open("ligaments");
-  for (std::size_t i = 0; i < scene.contacts.size(); ++i) read_contact(contacts.open(scene.contacts[i].name), i, poses);
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i)
+    read_contact(contacts.open(scene.contacts[i].name), i, poses);
   for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
     const Hdf5Group group = ligaments.open(scene.ligaments[i].name);
     for (const auto& column : kLigamentColumns) {
-      take(group, column.name, n, poses, [&](PoseResult& p, const double* row) { p.ligaments[i].*column.member = *row; });
+      take(group, column.name, n, poses,
+           [&](PoseResult& p, const double* row) { p.ligaments[i].*column.member = *row; });
     }
   }
   const Hdf5Group conditions = sweep.open("conditions");
   for (std::size_t i = 0; i < scene.conditions.size(); ++i) {
     const Hdf5Group group = conditions.open(scene.conditions[i].name);
     const double unit = is_angle(scene.conditions[i].kind) ? kDegree : 1;
-    take(group, "value", n, poses, [&](PoseResult& p, const double* row) { p.conditions[i].value = *row * unit; });
-    take(group, "multiplier", n, poses, [&](PoseResult& p, const double* row) { p.conditions[i].multiplier = *row; });
+    take(group, "value", n, poses,
+         [&](PoseResult& p, const double* row) { p.conditions[i].value = *row * unit; });
+    take(group, "multiplier", n, poses,
+         [&](PoseResult& p, const double* row) { p.conditions[i].multiplier = *row; });
   }
 }
 
 void read_solver(const Hdf5Group& sweep, Poses& poses) {
   const Shape n = {poses.size()};
   const Hdf5Group stability = sweep.open("stability"), newton = sweep.open("newton");
-  take(stability, "stable", n, poses, [](PoseResult& p, const double* row) { p.stability = static_cast<int>(*row); });
-  take(stability, "lowest_stiffness", n, poses, [](PoseResult& p, const double* row) { p.lowest_stiffness = *row; });
-  take(newton, "iterations", n, poses, [](PoseResult& p, const double* row) { p.iterations = static_cast<int>(*row); });
+  take_integers(stability, "stable", poses,
+                [](PoseResult& p, int stable) { p.stability = stable; });
+  take(stability, "lowest_stiffness", n, poses,
+       [](PoseResult& p, const double* row) { p.lowest_stiffness = *row; });
+  take_integers(newton, "iterations", poses,
+                [](PoseResult& p, int iterations) { p.iterations = iterations; });
   take(newton, "residual", n, poses, [](PoseResult& p, const double* row) { p.residual = *row; });
   take(newton, "seconds", n, poses, [](PoseResult& p, const double* row) { p.seconds = *row; });
 }
@@ -133,9 +158,11 @@ void read_sweep(const Hdf5Group& sweep, Run& run) {
 std::vector<Eigen::Vector3d> read_points(const Hdf5Group& group, const char* name, Shape& shape) {
   const Hdf5Array array = group.read(name);
   shape = array.shape;
-  if (shape.empty() || shape.back() != 3) group.fail(fmt::format("dataset {} does not hold points", name));
+  if (shape.empty() || shape.back() != 3)
+    group.fail(fmt::format("dataset {} does not hold points", name));
   std::vector<Eigen::Vector3d> points(array.values.size() / 3);
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = Eigen::Map<const Eigen::Vector3d>(&array.values[3 * i]);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] = Eigen::Map<const Eigen::Vector3d>(&array.values[3 * i]);
   return points;
 }
 
@@ -146,7 +173,8 @@ FitReport read_fit(const Hdf5Group& patch, const std::string& surface, const Pat
   report.rms = patch.read("rms_mm", {})[0];
   report.max = patch.read("max_mm", {})[0];
   const Hdf5Group fit = patch.open("fit");
-  for (const auto& column : kFitColumns) report.*column.member = fit.read(column.name, {})[0] * column.unit;
+  for (const auto& column : kFitColumns)
+    report.*column.member = fit.read(column.name, {})[0] * column.unit;
   report.mesh_vertices = fit.read_integers("mesh_vertices", {})[0];
   const std::vector<double> range = fit.read("curvature_range", {2});
   report.curvature_range = {range[0], range[1]};
@@ -166,7 +194,11 @@ RunPatch read_patch(const Hdf5Group& group, const std::string& surface, const Sc
   data.degree = {degree[0], degree[1]};
   Shape net;
   data.control_points = read_points(group, "control_points", net);
-  if (net.size() != 3 || patch.body < 0) group.fail("is not a patch of this scene");
+  const bool sized = net.size() == 3 && std::min(degree[0], degree[1]) >= 1 &&
+                     std::max(degree[0], degree[1]) <= kMaxDegree &&
+                     net[0] > static_cast<std::size_t>(degree[0]) &&
+                     net[1] > static_cast<std::size_t>(degree[1]);
+  if (!sized || patch.body < 0) group.fail("is not a patch of this scene");
   data.nu = static_cast<int>(net[0]);
   data.nv = static_cast<int>(net[1]);
   data.knots_u = group.read("knots_u", {net[0] + static_cast<std::size_t>(degree[0]) + 1});
@@ -190,9 +222,11 @@ BodyMesh read_body(const Hdf5Group& group, const std::string& name) {
   const auto count = static_cast<double>(body.mesh.vertices.size());
   for (std::size_t i = 0; i + 2 < corners.values.size(); i += 3) {
     for (std::size_t k = 0; k < 3; ++k) {
-      if (!(corners.values[i + k] >= 0 && corners.values[i + k] < count)) group.fail("triangles name no vertex");
+      if (!(corners.values[i + k] >= 0 && corners.values[i + k] < count))
+        group.fail("triangles name no vertex");
     }
-    body.mesh.triangles.push_back({static_cast<int>(corners.values[i]), static_cast<int>(corners.values[i + 1]),
+    body.mesh.triangles.push_back({static_cast<int>(corners.values[i]),
+                                   static_cast<int>(corners.values[i + 1]),
                                    static_cast<int>(corners.values[i + 2])});
   }
   return body;
@@ -207,9 +241,11 @@ Run read_run(const std::filesystem::path& path) {
   run.scene = read_head(root);
   if (root.has("sweep")) read_sweep(root.open("sweep"), run);
   const Hdf5Group patches = root.open("patches");
-  for (const std::string& name : patches.names()) run.patches.push_back(read_patch(patches.open(name), name, run.scene));
+  for (const std::string& name : patches.names())
+    run.patches.push_back(read_patch(patches.open(name), name, run.scene));
   const Hdf5Group bodies = root.open("bodies");
-  for (const std::string& name : bodies.names()) run.bodies.push_back(read_body(bodies.open(name), name));
+  for (const std::string& name : bodies.names())
+    run.bodies.push_back(read_body(bodies.open(name), name));
   return run;
 }
 

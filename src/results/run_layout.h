@@ -61,7 +61,8 @@ inline constexpr std::array<PointColumn, 6> kPointColumns = {{
     {"point_moving", "mm", 3, [](ContactPointResult& point) { return point.point_moving.data(); }},
     {"normal_ground", "1", 3, [](ContactPointResult& point) { return point.normal_ground.data(); }},
     {"gap", "mm", 1, [](ContactPointResult& point) { return &point.gap; }},
-    {"relative_curvature", "1/mm", 2, [](ContactPointResult& point) { return point.relative_curvature.data(); }},
+    {"relative_curvature", "1/mm", 2,
+     [](ContactPointResult& point) { return point.relative_curvature.data(); }},
 }};
 
 }  // namespace condyle

@@ -14,18 +14,21 @@ namespace condyle {
 namespace {
 
 std::string without_number(std::string name) {
-  while (name.size() > 1 && std::isdigit(static_cast<unsigned char>(name.back())) != 0) name.pop_back();
+  while (name.size() > 1 && std::isdigit(static_cast<unsigned char>(name.back())) != 0)
+    name.pop_back();
   return name;
 }
 
 // Small letters at the end, as long as capitals stand before them.
 std::string without_part(const std::string& name) {
   std::string stem = without_number(name);
-  while (!stem.empty() && std::islower(static_cast<unsigned char>(stem.back())) != 0) stem.pop_back();
+  while (!stem.empty() && std::islower(static_cast<unsigned char>(stem.back())) != 0)
+    stem.pop_back();
   return stem.size() > 1 ? stem : without_number(name);
 }
 
-std::vector<LigamentColumn> group_by(const std::vector<std::string>& names, std::string (*key)(const std::string&)) {
+std::vector<LigamentColumn> group_by(const std::vector<std::string>& names,
+                                     std::string (*key)(const std::string&)) {
   std::vector<LigamentColumn> groups;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string name = key(names[i]);
@@ -43,7 +46,8 @@ double largest_gap(const SweepResult& sweep) {
     if (!pose.converged()) continue;
     for (const ContactResult& contact : pose.contacts) {
       if (!contact.closed) continue;
-      for (const ContactPointResult& point : contact.points) largest = std::max(largest, std::abs(point.gap));
+      for (const ContactPointResult& point : contact.points)
+        largest = std::max(largest, std::abs(point.gap));
     }
   }
   return largest;
@@ -51,9 +55,11 @@ double largest_gap(const SweepResult& sweep) {
 
 }  // namespace
 
-std::vector<LigamentColumn> ligament_columns(const std::vector<std::string>& names, std::size_t most) {
+std::vector<LigamentColumn> ligament_columns(const std::vector<std::string>& names,
+                                             std::size_t most) {
   if (names.size() <= most) return group_by(names, [](const std::string& name) { return name; });
-  std::vector<LigamentColumn> bundles = group_by(names, [](const std::string& name) { return without_number(name); });
+  std::vector<LigamentColumn> bundles =
+      group_by(names, [](const std::string& name) { return without_number(name); });
   return bundles.size() <= most ? bundles : group_by(names, without_part);
 }
 
@@ -64,48 +70,64 @@ SweepTable::SweepTable(const Scene& scene) {
   if (scene.sweep) {
     unit = border_sweep_unit(scene);
     swept_name = scene.sweep->vary;
-    flexion_is_swept = !scene.sweep->varies_load && scene.conditions[static_cast<std::size_t>(scene.sweep->index)].kind ==
-                                                        ConditionKind::kFlexion;
+    flexion_is_swept = !scene.sweep->varies_load &&
+                       scene.conditions[static_cast<std::size_t>(scene.sweep->index)].kind ==
+                           ConditionKind::kFlexion;
   }
   swept_unit_ = unit.factor;
-  cells_.push_back({swept_name, unit.name, 2, [](const SweepTable& t, const PoseResult& p, std::size_t) {
-                      return p.value / t.swept_unit_;
-                    }});
+  cells_.push_back(
+      {swept_name, unit.name, 2, [](const SweepTable& t, const PoseResult& p, std::size_t) {
+         return p.value / t.swept_unit_;
+       }});
   add_coordinates(scene.joint.has_value(), flexion_is_swept);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     cells_.push_back({scene.contacts[i].name, "N", 1,
-                      [](const SweepTable&, const PoseResult& p, std::size_t k) { return p.contacts.at(k).force; }, i});
+                      [](const SweepTable&, const PoseResult& p, std::size_t k) {
+                        return p.contacts.at(k).force;
+                      },
+                      i});
   }
   std::vector<std::string> names;
   for (const LigamentDescription& ligament : scene.ligaments) names.push_back(ligament.name);
   ligaments_ = ligament_columns(names);
   for (std::size_t i = 0; i < ligaments_.size(); ++i) {
-    cells_.push_back({ligaments_[i].name, "N", 1, [](const SweepTable& t, const PoseResult& p, std::size_t k) {
+    cells_.push_back({ligaments_[i].name, "N", 1,
+                      [](const SweepTable& t, const PoseResult& p, std::size_t k) {
                         double sum = 0;
-                        for (const std::size_t member : t.ligaments_[k].members) sum += p.ligaments.at(member).force;
+                        for (const std::size_t member : t.ligaments_[k].members)
+                          sum += p.ligaments.at(member).force;
                         return sum;
-                      }, i});
+                      },
+                      i});
   }
   cells_.push_back({"iter", "", 0, [](const SweepTable&, const PoseResult& p, std::size_t) {
                       return static_cast<double>(p.iterations);
                     }});
-  cells_.push_back({"time", "us", 0, [](const SweepTable&, const PoseResult& p, std::size_t) { return 1e6 * p.seconds; }});
+  cells_.push_back({"time", "us", 0, [](const SweepTable&, const PoseResult& p, std::size_t) {
+                      return 1e6 * p.seconds;
+                    }});
 }
 
 // Joint coordinates where the scene has a joint, else the pose: place of O_A and rotation vector.
 void SweepTable::add_coordinates(bool joint, bool flexion_is_swept) {
-  static constexpr std::array<const char*, 6> kJoint = {"flex", "adduct", "int.rot", "lat.sh", "ant.dr", "distr"};
+  static constexpr std::array<const char*, 6> kJoint = {"flex",   "adduct", "int.rot",
+                                                        "lat.sh", "ant.dr", "distr"};
   static constexpr std::array<const char*, 6> kPose = {"x", "y", "z", "rot x", "rot y", "rot z"};
   for (std::size_t i = joint && flexion_is_swept ? 1 : 0; i < 6; ++i) {
     if (joint) {
-      cells_.push_back({kJoint[i], kJointColumns[i].units, 2, [](const SweepTable&, const PoseResult& p, std::size_t k) {
+      cells_.push_back({kJoint[i], kJointColumns[i].units, 2,
+                        [](const SweepTable&, const PoseResult& p, std::size_t k) {
                           return p.joint.*kJointColumns[k].member / kJointColumns[k].unit;
-                        }, i});
+                        },
+                        i});
     } else {
-      cells_.push_back({kPose[i], i < 3 ? "mm" : "deg", 2, [](const SweepTable&, const PoseResult& p, std::size_t k) {
+      cells_.push_back({kPose[i], i < 3 ? "mm" : "deg", 2,
+                        [](const SweepTable&, const PoseResult& p, std::size_t k) {
                           return k < 3 ? p.X_BA.p[static_cast<Eigen::Index>(k)]
-                                       : log_rotation(p.X_BA.R)[static_cast<Eigen::Index>(k - 3)] / kDegree;
-                        }, i});
+                                       : log_rotation(p.X_BA.R)[static_cast<Eigen::Index>(k - 3)] /
+                                             kDegree;
+                        },
+                        i});
     }
   }
 }
@@ -127,8 +149,11 @@ std::string SweepTable::head() const {
 std::string SweepTable::row(const PoseResult& pose) const {
   std::string line;
   for (const Cell& cell : cells_) {
-    line += fmt::format("{:>{}.{}f}", cell.value(*this, pose, cell.index), width(cell), cell.decimals);
-    if (!pose.converged()) return line + "  " + name(pose.status) + (pose.reason.empty() ? "" : ": " + pose.reason) + "\n";
+    line +=
+        fmt::format("{:>{}.{}f}", cell.value(*this, pose, cell.index), width(cell), cell.decimals);
+    if (!pose.converged())
+      return line + "  " + name(pose.status) + (pose.reason.empty() ? "" : ": " + pose.reason) +
+             "\n";
   }
   return line + "\n";
 }
@@ -140,9 +165,11 @@ std::string summary(const SweepResult& sweep) {
     if (pose.converged()) residual = std::max(residual, pose.residual);
   }
   const auto n = sweep.poses.size();
-  return fmt::format("{} of {} poses converged, largest residual {:.2g} N, largest gap {:.2g} mm, {:.3g} ms ({:.3g} us a pose)",
-                     sweep.count_converged(), n, residual, largest_gap(sweep), 1e3 * seconds,
-                     1e6 * seconds / static_cast<double>(std::max<std::size_t>(n, 1)));
+  return fmt::format(
+      "{} of {} poses converged, largest residual {:.2g} N, largest gap {:.2g} mm, {:.3g} ms "
+      "({:.3g} us a pose)",
+      sweep.count_converged(), n, residual, largest_gap(sweep), 1e3 * seconds,
+      1e6 * seconds / static_cast<double>(std::max<std::size_t>(n, 1)));
 }
 
 std::vector<std::string> failures(const Scene& scene, const SweepResult& sweep) {
@@ -150,9 +177,9 @@ std::vector<std::string> failures(const Scene& scene, const SweepResult& sweep) 
   const Unit unit = scene.sweep ? border_sweep_unit(scene) : Unit{"1", 1};
   for (const PoseResult& pose : sweep.poses) {
     if (pose.converged()) continue;
-    lines.push_back(fmt::format("{} = {:.6g}{}: {}{}", scene.sweep ? scene.sweep->vary : "value", pose.value / unit.factor,
-                                unit.name == "1" ? "" : " " + unit.name, name(pose.status),
-                                pose.reason.empty() ? "" : ": " + pose.reason));
+    lines.push_back(fmt::format("{} = {:.6g}{}: {}{}", scene.sweep ? scene.sweep->vary : "value",
+                                pose.value / unit.factor, unit.name == "1" ? "" : " " + unit.name,
+                                name(pose.status), pose.reason.empty() ? "" : ": " + pose.reason));
   }
   return lines;
 }

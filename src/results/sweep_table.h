@@ -1,7 +1,7 @@
 #pragma once
 
-/// A sweep as lines of text: one row for each pose, a closing summary, and what went wrong where. Angles in deg,
-/// lengths in mm, forces in N, times in µs.
+/// A sweep as lines of text: one row for each pose, a closing summary, and what went wrong where.
+/// Angles in deg, lengths in mm, forces in N, times in µs.
 
 #include <string>
 #include <vector>
@@ -17,9 +17,10 @@ struct LigamentColumn {
   std::vector<std::size_t> members;  ///< indices into Scene::ligaments
 };
 
-/// Each ligament for itself where there are few. Else by name, first without the number at its end (ACLam3 is of
-/// ACLam), then without the small letters before it too (ACLam is of ACL).
-[[nodiscard]] std::vector<LigamentColumn> ligament_columns(const std::vector<std::string>& names, std::size_t most = 12);
+/// Each ligament for itself where there are few. Else by name, first without the number at its end
+/// (ACLam3 is of ACLam), then without the small letters before it too (ACLam is of ACL).
+[[nodiscard]] std::vector<LigamentColumn> ligament_columns(const std::vector<std::string>& names,
+                                                           std::size_t most = 12);
 
 class SweepTable {
  public:
@@ -43,7 +44,8 @@ class SweepTable {
   std::vector<Cell> cells_;
 };
 
-/// "25 of 25 poses converged, largest residual 1.2e-11 N, largest gap 3e-14 mm, 1.3 ms (52 µs a pose)"
+/// "25 of 25 poses converged, largest residual 1.2e-11 N, largest gap 3e-14 mm, 1.3 ms (52 µs a
+/// pose)"
 [[nodiscard]] std::string summary(const SweepResult& sweep);
 
 /// One line for each pose that did not converge, saying which and why.

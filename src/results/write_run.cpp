@@ -32,7 +32,8 @@ std::vector<int> integers(const Poses& poses, const std::function<int(const Pose
   return out;
 }
 
-std::vector<double> numbers(const Poses& poses, const std::function<double(const PoseResult&)>& of) {
+std::vector<double> numbers(const Poses& poses,
+                            const std::function<double(const PoseResult&)>& of) {
   std::vector<double> out;
   for (const PoseResult& pose : poses) out.push_back(of(pose));
   return out;
@@ -59,10 +60,14 @@ void write_head(const Hdf5Group& root, const Scene& scene) {
 void write_status(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) {
   const std::size_t n = poses.size();
   const Unit unit = scene.sweep ? border_sweep_unit(scene) : Unit{"1", 1};
-  sweep.write("value", numbers(poses, [&](const PoseResult& p) { return p.value / unit.factor; }), {n}, unit.name);
-  sweep.write("status", integers(poses, [](const PoseResult& p) { return static_cast<int>(p.status); }), {n}, "1");
+  sweep.write("value", numbers(poses, [&](const PoseResult& p) { return p.value / unit.factor; }),
+              {n}, unit.name);
+  sweep.write("status",
+              integers(poses, [](const PoseResult& p) { return static_cast<int>(p.status); }), {n},
+              "1");
   std::vector<std::string> meanings;
-  for (int i = 0; i < kPoseStatusCount; ++i) meanings.emplace_back(name(static_cast<PoseStatus>(i)));
+  for (int i = 0; i < kPoseStatusCount; ++i)
+    meanings.emplace_back(name(static_cast<PoseStatus>(i)));
   sweep.write_attribute("status", "meaning", meanings);
   std::vector<std::string> reasons;
   for (const PoseResult& pose : poses) reasons.push_back(pose.reason);
@@ -73,7 +78,9 @@ void write_pose(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) 
   const std::size_t n = poses.size();
   const Hdf5Group pose = sweep.create("pose");
   pose.write("translation",
-             rows(poses, 3, [](const PoseResult& p, double* row) { std::copy_n(p.X_BA.p.data(), 3, row); }), {n, 3}, "mm");
+             rows(poses, 3,
+                  [](const PoseResult& p, double* row) { std::copy_n(p.X_BA.p.data(), 3, row); }),
+             {n, 3}, "mm");
   const FillRow rotation = [](const PoseResult& p, double* row) {
     for (int i = 0; i < 9; ++i) row[i] = p.X_BA.R(i / 3, i % 3);
   };
@@ -81,15 +88,18 @@ void write_pose(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) 
   if (!scene.joint) return;
   const Hdf5Group joint = sweep.create("joint");
   for (const auto& column : kJointColumns) {
-    const FillRow fill = [&](const PoseResult& p, double* row) { *row = p.joint.*column.member / column.unit; };
+    const FillRow fill = [&](const PoseResult& p, double* row) {
+      *row = p.joint.*column.member / column.unit;
+    };
     joint.write(column.name, rows(poses, 1, fill), {n}, column.units);
   }
 }
 
 // The point that stands for a pair of surfaces: the one with the greatest force.
 ContactPointResult main_point(const ContactResult& contact) {
-  ContactPointResult point = *std::max_element(contact.points.begin(), contact.points.end(),
-                                               [](const auto& a, const auto& b) { return a.force < b.force; });
+  ContactPointResult point =
+      *std::max_element(contact.points.begin(), contact.points.end(),
+                        [](const auto& a, const auto& b) { return a.force < b.force; });
   point.force = contact.force;
   return point;
 }
@@ -109,14 +119,19 @@ void write_points(const Hdf5Group& group, const Poses& poses, std::size_t index)
   const auto points_of = [&](const PoseResult& pose) -> const std::vector<ContactPointResult>& {
     return pose.contacts[index].points;
   };
-  group.write("count", integers(poses, [&](const PoseResult& p) {
-    return p.converged() ? static_cast<int>(points_of(p).size()) : 0;
-  }), {n}, "1");
+  group.write("count",
+              integers(poses,
+                       [&](const PoseResult& p) {
+                         return p.converged() ? static_cast<int>(points_of(p).size()) : 0;
+                       }),
+              {n}, "1");
   for (const PointColumn& column : kPointColumns) {
     const FillRow fill = [&](const PoseResult& pose, double* row) {
-      for (ContactPointResult point : points_of(pose)) row = std::copy_n(column.data(point), column.width, row);
+      for (ContactPointResult point : points_of(pose))
+        row = std::copy_n(column.data(point), column.width, row);
     };
-    group.write(column.name, rows(poses, slots * column.width, fill), with_width({n, slots}, column.width), column.units);
+    group.write(column.name, rows(poses, slots * column.width, fill),
+                with_width({n, slots}, column.width), column.units);
   }
   const FillRow edge = [&](const PoseResult& pose, double* row) {
     for (const ContactPointResult& point : points_of(pose)) *row++ = point.on_edge ? 1 : 0;
@@ -126,9 +141,12 @@ void write_points(const Hdf5Group& group, const Poses& poses, std::size_t index)
 
 void write_contact(const Hdf5Group& group, const Poses& poses, std::size_t index) {
   const std::size_t n = poses.size();
-  group.write("state", integers(poses, [&](const PoseResult& p) {
-    return p.converged() ? (p.contacts.at(index).closed ? 1 : 0) : -1;
-  }), {n}, "1");
+  group.write("state",
+              integers(poses,
+                       [&](const PoseResult& p) {
+                         return p.converged() ? (p.contacts.at(index).closed ? 1 : 0) : -1;
+                       }),
+              {n}, "1");
   for (const PointColumn& column : kPointColumns) {
     const FillRow fill = [&](const PoseResult& pose, double* row) {
       const ContactResult& contact = pose.contacts[index];
@@ -136,47 +154,62 @@ void write_contact(const Hdf5Group& group, const Poses& poses, std::size_t index
       ContactPointResult point = main_point(contact);
       std::copy_n(column.data(point), column.width, row);
     };
-    group.write(column.name, rows(poses, column.width, fill), with_width({n}, column.width), column.units);
+    group.write(column.name, rows(poses, column.width, fill), with_width({n}, column.width),
+                column.units);
   }
   write_points(group.create("points"), poses, index);
 }
 
 void write_ligament(const Hdf5Group& group, const Poses& poses, std::size_t index) {
   for (const auto& column : kLigamentColumns) {
-    const FillRow fill = [&](const PoseResult& p, double* row) { *row = p.ligaments.at(index).*column.member; };
+    const FillRow fill = [&](const PoseResult& p, double* row) {
+      *row = p.ligaments.at(index).*column.member;
+    };
     group.write(column.name, rows(poses, 1, fill), {poses.size()}, column.units);
   }
 }
 
 void write_condition(const Hdf5Group& group, const Poses& poses, std::size_t index, bool angle) {
   const double unit = angle ? kDegree : 1;
-  const FillRow value = [&](const PoseResult& p, double* row) { *row = p.conditions.at(index).value / unit; };
-  const FillRow multiplier = [&](const PoseResult& p, double* row) { *row = p.conditions.at(index).multiplier; };
+  const FillRow value = [&](const PoseResult& p, double* row) {
+    *row = p.conditions.at(index).value / unit;
+  };
+  const FillRow multiplier = [&](const PoseResult& p, double* row) {
+    *row = p.conditions.at(index).multiplier;
+  };
   group.write("value", rows(poses, 1, value), {poses.size()}, angle ? "deg" : "mm");
   group.write("multiplier", rows(poses, 1, multiplier), {poses.size()}, angle ? "N mm" : "N");
 }
 
 void write_elements(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) {
   const Hdf5Group contacts = sweep.create("contacts");
-  for (std::size_t i = 0; i < scene.contacts.size(); ++i) write_contact(contacts.create(scene.contacts[i].name), poses, i);
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i)
+    write_contact(contacts.create(scene.contacts[i].name), poses, i);
   const Hdf5Group ligaments = sweep.create("ligaments");
   for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
     write_ligament(ligaments.create(scene.ligaments[i].name), poses, i);
   }
   const Hdf5Group conditions = sweep.create("conditions");
   for (std::size_t i = 0; i < scene.conditions.size(); ++i) {
-    write_condition(conditions.create(scene.conditions[i].name), poses, i, is_angle(scene.conditions[i].kind));
+    write_condition(conditions.create(scene.conditions[i].name), poses, i,
+                    is_angle(scene.conditions[i].kind));
   }
 }
 
 void write_solver(const Hdf5Group& sweep, const Poses& poses) {
   const Shape n = {poses.size()};
   const Hdf5Group stability = sweep.create("stability");
-  stability.write("stable", integers(poses, [](const PoseResult& p) { return p.converged() ? p.stability : -1; }), n, "1");
-  stability.write("lowest_stiffness",
-                  rows(poses, 1, [](const PoseResult& p, double* row) { *row = p.lowest_stiffness; }), n, "N/mm");
+  stability.write(
+      "stable",
+      integers(poses, [](const PoseResult& p) { return p.converged() ? p.stability : -1; }), n,
+      "1");
+  stability.write(
+      "lowest_stiffness",
+      rows(poses, 1, [](const PoseResult& p, double* row) { *row = p.lowest_stiffness; }), n,
+      "N/mm");
   const Hdf5Group newton = sweep.create("newton");
-  newton.write("iterations", integers(poses, [](const PoseResult& p) { return p.iterations; }), n, "1");
+  newton.write("iterations", integers(poses, [](const PoseResult& p) { return p.iterations; }), n,
+               "1");
   newton.write("residual", numbers(poses, [](const PoseResult& p) { return p.residual; }), n, "N");
   newton.write("seconds", numbers(poses, [](const PoseResult& p) { return p.seconds; }), n, "s");
 }
@@ -186,10 +219,13 @@ void write_fit(const Hdf5Group& patch, const FitReport& report) {
   patch.write("max_mm", std::vector<double>{report.max}, {}, "mm");
   const Hdf5Group fit = patch.create("fit");
   for (const auto& column : kFitColumns) {
-    fit.write(column.name, std::vector<double>{report.*column.member / column.unit}, {}, column.units);
+    fit.write(column.name, std::vector<double>{report.*column.member / column.unit}, {},
+              column.units);
   }
   fit.write("mesh_vertices", std::vector<int>{report.mesh_vertices}, {}, "1");
-  fit.write("curvature_range", std::vector<double>(report.curvature_range.begin(), report.curvature_range.end()), {2}, "1/mm");
+  fit.write("curvature_range",
+            std::vector<double>(report.curvature_range.begin(), report.curvature_range.end()), {2},
+            "1/mm");
   fit.write("notes", report.notes);
 }
 
@@ -207,9 +243,11 @@ void write_patch(const Hdf5Group& group, const RunPatch& patch, const Scene& sce
   group.write("degree", std::vector<int>(data.degree.begin(), data.degree.end()), {2}, "1");
   group.write("knots_u", data.knots_u, {data.knots_u.size()}, "mm");
   group.write("knots_v", data.knots_v, {data.knots_v.size()}, "mm");
-  group.write("control_points", coordinates(data.control_points), {size(data.nu), size(data.nv), 3}, "mm");
+  group.write("control_points", coordinates(data.control_points), {size(data.nu), size(data.nv), 3},
+              "mm");
   group.write("orientation", std::vector<int>{data.orientation}, {}, "1");
-  const Shape mask = data.mask.empty() ? Shape{0, 0} : Shape{size(data.mask_nu) + 1, size(data.mask_nv) + 1};
+  const Shape mask =
+      data.mask.empty() ? Shape{0, 0} : Shape{size(data.mask_nu) + 1, size(data.mask_nv) + 1};
   group.write("mask", data.mask, mask, "mm");
   write_fit(group, patch.report);
 }
@@ -218,7 +256,8 @@ void write_body(const Hdf5Group& group, const TriangleMesh& mesh) {
   group.write("vertices", coordinates(mesh.vertices), {mesh.vertices.size(), 3}, "mm");
   std::vector<int> corners;
   corners.reserve(3 * mesh.triangles.size());
-  for (const std::array<int, 3>& triangle : mesh.triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
+  for (const std::array<int, 3>& triangle : mesh.triangles)
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
   group.write("triangles", corners, {mesh.triangles.size(), 3}, "1");
 }
 
@@ -232,7 +271,8 @@ void write_all(const Hdf5Group& root, const Run& run) {
     write_solver(sweep, run.sweep.poses);
   }
   const Hdf5Group patches = root.create("patches");
-  for (const RunPatch& patch : run.patches) write_patch(patches.create(patch.surface), patch, run.scene);
+  for (const RunPatch& patch : run.patches)
+    write_patch(patches.create(patch.surface), patch, run.scene);
   const Hdf5Group bodies = root.create("bodies");
   for (const BodyMesh& body : run.bodies) write_body(bodies.create(body.name), body.mesh);
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 
 #include "scene/start_pose.h"
@@ -16,50 +17,71 @@ constexpr double kDegree = M_PI / 180;
 
 const char* word(SurfaceKind kind) {
   switch (kind) {
-    case SurfaceKind::kPatch: return "patch";
-    case SurfaceKind::kPlane: return "plane";
-    case SurfaceKind::kSphere: return "sphere";
-    case SurfaceKind::kCylinder: return "cylinder";
-    case SurfaceKind::kEllipsoid: return "ellipsoid";
-    case SurfaceKind::kTorus: return "torus";
-    case SurfaceKind::kPolynomial: return "polynomial";
+    case SurfaceKind::kPatch:
+      return "patch";
+    case SurfaceKind::kPlane:
+      return "plane";
+    case SurfaceKind::kSphere:
+      return "sphere";
+    case SurfaceKind::kCylinder:
+      return "cylinder";
+    case SurfaceKind::kEllipsoid:
+      return "ellipsoid";
+    case SurfaceKind::kTorus:
+      return "torus";
+    case SurfaceKind::kPolynomial:
+      return "polynomial";
   }
   return "";
 }
 
 const char* word(ConditionKind kind) {
   switch (kind) {
-    case ConditionKind::kFlexion: return "flexion";
-    case ConditionKind::kAdduction: return "adduction";
-    case ConditionKind::kInternalRotation: return "internal rotation";
-    case ConditionKind::kLateralShift: return "lateral shift";
-    case ConditionKind::kAnteriorDrawer: return "anterior drawer";
-    case ConditionKind::kDistraction: return "distraction";
-    case ConditionKind::kTranslation: return "translation";
-    case ConditionKind::kRotation: return "rotation";
-    case ConditionKind::kDistance: return "distance";
+    case ConditionKind::kFlexion:
+      return "flexion";
+    case ConditionKind::kAdduction:
+      return "adduction";
+    case ConditionKind::kInternalRotation:
+      return "internal rotation";
+    case ConditionKind::kLateralShift:
+      return "lateral shift";
+    case ConditionKind::kAnteriorDrawer:
+      return "anterior drawer";
+    case ConditionKind::kDistraction:
+      return "distraction";
+    case ConditionKind::kTranslation:
+      return "translation";
+    case ConditionKind::kRotation:
+      return "rotation";
+    case ConditionKind::kDistance:
+      return "distance";
   }
   return "";
 }
 
 const char* word(ContactState state) {
-  return state == ContactState::kAuto ? "opens and closes" : state == ContactState::kClosed ? "closed" : "open";
+  return state == ContactState::kAuto     ? "opens and closes"
+         : state == ContactState::kClosed ? "closed"
+                                          : "open";
 }
 
 const char* word(const ForceLaw& law) {
-  constexpr std::array<const char*, 5> kWords = {"toe-linear", "quadratic", "polynomial", "table", "custom"};
+  constexpr std::array<const char*, 5> kWords = {"toe-linear", "quadratic", "polynomial", "table",
+                                                 "custom"};
   return kWords[law.index()];
 }
 
-const std::string& body_name(const Scene& scene, int body) { return scene.bodies[static_cast<std::size_t>(body)].name; }
+const std::string& body_name(const Scene& scene, int body) {
+  return scene.bodies[static_cast<std::size_t>(body)].name;
+}
 
 std::string source_of(const Scene& scene, const SurfaceDescription& surface) {
   if (surface.kind != SurfaceKind::kPatch) return surface.solid_inside ? "" : ", solid outside";
   const PatchDescription& patch = surface.patch;
   const BodyDescription& body = scene.bodies[static_cast<std::size_t>(surface.body)];
-  const std::string part = !patch.compartment                              ? "region"
+  const std::string part = !patch.compartment                           ? "region"
                            : *patch.compartment == Compartment::kMedial ? "medial compartment"
-                                                                           : "lateral compartment";
+                                                                        : "lateral compartment";
   const MeshFile& mesh = patch.mesh ? *patch.mesh : *body.mesh;
   return fmt::format(", {} of {}", part, mesh.path.filename().string());
 }
@@ -71,15 +93,16 @@ void describe_bodies(const Scene& scene, Out out) {
   }
   if (scene.joint) {
     fmt::format_to(out, "joint      {} knee, femur \"{}\", tibia \"{}\"\n",
-                   scene.joint->side == Side::kRight ? "right" : "left", body_name(scene, scene.joint->femur.body),
+                   scene.joint->side == Side::kRight ? "right" : "left",
+                   body_name(scene, scene.joint->femur.body),
                    body_name(scene, scene.joint->tibia.body));
   }
 }
 
 void describe_contacts(const Scene& scene, Out out) {
   for (const SurfaceDescription& surface : scene.surfaces) {
-    fmt::format_to(out, "surface    {}: {} on {}{}\n", surface.name, word(surface.kind), body_name(scene, surface.body),
-                   source_of(scene, surface));
+    fmt::format_to(out, "surface    {}: {} on {}{}\n", surface.name, word(surface.kind),
+                   body_name(scene, surface.body), source_of(scene, surface));
   }
   for (const ContactDescription& contact : scene.contacts) {
     const auto name = [&](int i) { return scene.surfaces[static_cast<std::size_t>(i)].name; };
@@ -93,8 +116,12 @@ void describe_ligaments(const Scene& scene, Out out) {
   for (const LigamentDescription& ligament : scene.ligaments) {
     const double length = distance_between(scene, ligament.ends, X_BA);
     const double slack = slack_length(ligament.law);
-    fmt::format_to(out, "ligament   {}: {}, {:.4g} mm at the start pose", ligament.name, word(ligament.law), length);
-    if (slack > 0) fmt::format_to(out, ", slack length {:.4g} mm, strain {:+.1f} %", slack, 100 * (length / slack - 1));
+    fmt::format_to(out, "ligament   {}: {}, {:.4g} mm at the start pose", ligament.name,
+                   word(ligament.law), length);
+    if (slack > 0) {
+      const double strain = std::round(1000 * (length / slack - 1)) / 10 + 0.0;  // never "-0.0"
+      fmt::format_to(out, ", slack length {:.4g} mm, strain {:+.1f} %", slack, strain);
+    }
     fmt::format_to(out, ", {:.4g} N\n", tension(ligament.law, length).force);
   }
 }
@@ -107,15 +134,16 @@ void describe_motion(const Scene& scene, Out out) {
   }
   for (const LoadDescription& load : scene.loads) {
     fmt::format_to(out, "load       {}: {} on {}, ({:.6g}, {:.6g}, {:.6g}) {}, {}\n", load.name,
-                   load.moment ? "moment" : "force", body_name(scene, load.body), load.vector.x(), load.vector.y(),
-                   load.vector.z(), load.moment ? "N mm" : "N",
+                   load.moment ? "moment" : "force", body_name(scene, load.body), load.vector.x(),
+                   load.vector.y(), load.vector.z(), load.moment ? "N mm" : "N",
                    load.follows_body ? "follows the body" : "keeps its direction");
   }
   if (scene.sweep) {
     const Unit unit = border_sweep_unit(scene);
     const std::vector<double>& values = scene.sweep->values;
     fmt::format_to(out, "sweep      {} from {:.6g} to {:.6g} {}, {} poses\n", scene.sweep->vary,
-                   values.front() / unit.factor, values.back() / unit.factor, unit.name, values.size());
+                   values.front() / unit.factor, values.back() / unit.factor, unit.name,
+                   values.size());
   }
 }
 

@@ -70,10 +70,14 @@ Value convert(const toml::node& node, int line_of_parent) {
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
-    if (c == '\n') out += "\\n";
-    else if (c == '"') out += "\\\"";
-    else if (static_cast<unsigned char>(c) < 0x20) out += '?';
-    else out += c;
+    if (c == '\n')
+      out += "\\n";
+    else if (c == '"')
+      out += "\\\"";
+    else if (static_cast<unsigned char>(c) < 0x20)
+      out += '?';
+    else
+      out += c;
   }
   return out + "\"";
 }
@@ -109,19 +113,26 @@ Value parse_document(const std::string& text, const std::string& file) {
   } catch (const toml::parse_error& error) {
     std::string what(error.description());
     std::replace(what.begin(), what.end(), '\n', ' ');
-    throw InputError(fmt::format("{}:{}: not valid TOML: {}", file, error.source().begin.line, what));
+    throw InputError(
+        fmt::format("{}:{}: not valid TOML: {}", file, error.source().begin.line, what));
   }
 }
 
 std::string to_text(const Value& value) {
   switch (value.type) {
-    case Value::Type::kBoolean: return value.boolean ? "true" : "false";
+    case Value::Type::kBoolean:
+      return value.boolean ? "true" : "false";
     case Value::Type::kInteger:
-    case Value::Type::kNumber: return fmt::format("{}", value.number);
-    case Value::Type::kText: return shortened(quoted(value.text));
-    case Value::Type::kArray: return shortened(joined(value, "[", "]"));
-    case Value::Type::kTable: return shortened(joined(value, "{ ", " }"));
-    case Value::Type::kDate: break;
+    case Value::Type::kNumber:
+      return fmt::format("{}", value.number);
+    case Value::Type::kText:
+      return shortened(quoted(value.text));
+    case Value::Type::kArray:
+      return shortened(joined(value, "[", "]"));
+    case Value::Type::kTable:
+      return shortened(joined(value, "{ ", " }"));
+    case Value::Type::kDate:
+      break;
   }
   return "a date or time";
 }

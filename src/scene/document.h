@@ -1,6 +1,7 @@
 #pragma once
 
-/// A TOML file as a plain tree that remembers on which line each value stands. toml++ stays behind this door.
+/// A TOML file as a plain tree that remembers on which line each value stands. toml++ stays behind
+/// this door.
 
 #include <string>
 #include <vector>
@@ -10,9 +11,9 @@ namespace condyle {
 struct Value {
   enum class Type { kBoolean, kInteger, kNumber, kText, kArray, kTable, kDate };
   Type type = Type::kTable;
-  int line = 1;                   ///< in the file, from 1
+  int line = 1;  ///< in the file, from 1
   bool boolean = false;
-  double number = 0;              ///< integers too
+  double number = 0;  ///< integers too
   std::string text;
   std::vector<Value> items;       ///< of an array, or of a table in the order of `keys`
   std::vector<std::string> keys;  ///< tables only

@@ -12,7 +12,8 @@ namespace {
 constexpr double kKilogram = 1e-3;  // tonne
 
 Eigen::Matrix3d read_inertia(const Section& section, const Scene& scene) {
-  const std::string expected = "[[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]] in kg times the length unit squared";
+  const std::string expected =
+      "[[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]] in kg times the length unit squared";
   const std::vector<Eigen::Vector3d> rows = section.vectors("inertia", expected);
   if (rows.size() != 3) section.fail("inertia", expected);
   Eigen::Matrix3d inertia;
@@ -39,16 +40,19 @@ void read_mass(const Section& section, const Scene& scene, BodyDescription& body
 }
 
 void read_start(const Section& start, const Scene& scene, BodyDescription& body) {
-  if (start.has("translation")) body.start_translation = scene.length_to_mm * start.vector("translation", "a point");
-  const bool angles = start.has("flexion") || start.has("adduction") || start.has("internal_rotation");
+  if (start.has("translation"))
+    body.start_translation = scene.length_to_mm * start.vector("translation", "a point");
+  const bool angles =
+      start.has("flexion") || start.has("adduction") || start.has("internal_rotation");
   if (start.has("rotation")) {
     if (angles) start.fail("rotation", "either a rotation vector or joint angles, not both");
     body.start_rotation = scene.angle_to_rad * start.vector("rotation", "a rotation vector");
   }
   if (angles) {
-    body.start_joint_angles = {scene.angle_to_rad * start.number_or("flexion", 0, "an angle"),
-                               scene.angle_to_rad * start.number_or("adduction", 0, "an angle"),
-                               scene.angle_to_rad * start.number_or("internal_rotation", 0, "an angle")};
+    body.start_joint_angles = {
+        scene.angle_to_rad * start.number_or("flexion", 0, "an angle"),
+        scene.angle_to_rad * start.number_or("adduction", 0, "an angle"),
+        scene.angle_to_rad * start.number_or("internal_rotation", 0, "an angle")};
   }
   start.finish();
 }
@@ -63,15 +67,20 @@ BodyDescription read_body(const Section& section, const Scene& scene) {
   }
   body.mesh = read_mesh_file(section, scene);
   if (section.has("start")) {
-    if (body.fixed) section.fail("start", "no start pose on the fixed body: its frame is the ground frame");
-    read_start(section.table("start", "a start pose: start.translation, start.rotation"), scene, body);
+    if (body.fixed)
+      section.fail("start", "no start pose on the fixed body: its frame is the ground frame");
+    read_start(section.table("start", "a start pose: start.translation, start.rotation"), scene,
+               body);
   }
   read_mass(section, scene, body);
   section.finish();
   return body;
 }
 
-AnatomicalFrame read_frame(const Section& joint, const std::string& key, Side side, const Scene& scene) {
+AnatomicalFrame read_frame(const Section& joint,
+                           const std::string& key,
+                           Side side,
+                           const Scene& scene) {
   const Section section = joint.table(key, "{ body, origin, lateral, anterior, proximal }");
   AnatomicalFrame frame;
   frame.body = section.reference("body", "the name of a body", names_of(scene.bodies));
@@ -87,7 +96,8 @@ AnatomicalFrame read_frame(const Section& joint, const std::string& key, Side si
     }
     for (int j = 0; j < i; ++j) {
       if (std::abs(axes.col(i).dot(axes.col(j))) > kRounding) {
-        section.fail(name, fmt::format("a vector at right angles to {}", names[static_cast<std::size_t>(j)]));
+        section.fail(name, fmt::format("a vector at right angles to {}",
+                                       names[static_cast<std::size_t>(j)]));
       }
     }
   }
@@ -114,11 +124,15 @@ void read_bodies(const Section& root, Scene& scene) {
   for (const Section& section : root.sections("body")) {
     scene.bodies.push_back(read_body(section, scene));
     if (!scene.bodies.back().fixed && ++moving > 1) {
-      section.fail_with("a second moving body, expected one fixed and one moving body (is fixed = true missing?)");
+      section.fail_with(
+          "a second moving body, expected one fixed and one moving body (is fixed = true "
+          "missing?)");
     }
   }
-  if (scene.fixed_body() < 0) root.fail_with("no fixed body, expected one [[body]] with fixed = true");
-  if (scene.moving_body() < 0) root.fail_with("no moving body, expected a [[body]] without fixed = true");
+  if (scene.fixed_body() < 0)
+    root.fail_with("no fixed body, expected one [[body]] with fixed = true");
+  if (scene.moving_body() < 0)
+    root.fail_with("no moving body, expected a [[body]] without fixed = true");
 }
 
 void read_joint(const Section& root, Scene& scene) {
@@ -126,8 +140,9 @@ void read_joint(const Section& root, Scene& scene) {
   const auto moving = static_cast<std::size_t>(scene.moving_body());
   if (!root.has("joint")) {
     if (scene.bodies[moving].start_joint_angles) {
-      root.fail_with(fmt::format("[joint] is missing, expected the frames that the start angles of body \"{}\" refer to",
-                                 scene.bodies[moving].name));
+      root.fail_with(fmt::format(
+          "[joint] is missing, expected the frames that the start angles of body \"{}\" refer to",
+          scene.bodies[moving].name));
     }
     return;
   }

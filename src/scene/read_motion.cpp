@@ -25,22 +25,24 @@ Eigen::Vector3d read_translation_axis(const Section& section) {
 }
 
 ConditionDescription read_condition(const Section& section, const Scene& scene) {
-  static const Choices<ConditionKind> kinds = {{"flexion", ConditionKind::kFlexion},
-                                               {"adduction", ConditionKind::kAdduction},
-                                               {"internal_rotation", ConditionKind::kInternalRotation},
-                                               {"lateral_shift", ConditionKind::kLateralShift},
-                                               {"anterior_drawer", ConditionKind::kAnteriorDrawer},
-                                               {"distraction", ConditionKind::kDistraction},
-                                               {"translation", ConditionKind::kTranslation},
-                                               {"rotation", ConditionKind::kRotation},
-                                               {"distance", ConditionKind::kDistance}};
+  static const Choices<ConditionKind> kinds = {
+      {"flexion", ConditionKind::kFlexion},
+      {"adduction", ConditionKind::kAdduction},
+      {"internal_rotation", ConditionKind::kInternalRotation},
+      {"lateral_shift", ConditionKind::kLateralShift},
+      {"anterior_drawer", ConditionKind::kAnteriorDrawer},
+      {"distraction", ConditionKind::kDistraction},
+      {"translation", ConditionKind::kTranslation},
+      {"rotation", ConditionKind::kRotation},
+      {"distance", ConditionKind::kDistance}};
   ConditionDescription condition;
   condition.name = read_name(section, names_of(scene.conditions));
   condition.kind = section.choice("kind", kinds);
   const double unit = is_angle(condition.kind) ? scene.angle_to_rad : scene.length_to_mm;
   const bool distance = condition.kind == ConditionKind::kDistance;
-  condition.value = unit * section.number("value", is_angle(condition.kind) ? "an angle" : "a length",
-                                          distance ? Range::kPositive : Range::kAny);
+  condition.value =
+      unit * section.number("value", is_angle(condition.kind) ? "an angle" : "a length",
+                            distance ? Range::kPositive : Range::kAny);
   if (condition.kind == ConditionKind::kTranslation) {
     condition.axis = read_translation_axis(section);
   } else if (condition.kind == ConditionKind::kRotation) {
@@ -60,7 +62,8 @@ LoadDescription read_load(const Section& section, const Scene& scene) {
   LoadDescription load;
   load.name = read_name(section, names_of(scene.loads));
   load.body = section.reference("body", "the name of a body", names_of(scene.bodies));
-  if (scene.bodies[static_cast<std::size_t>(load.body)].fixed) section.fail("body", "a moving body");
+  if (scene.bodies[static_cast<std::size_t>(load.body)].fixed)
+    section.fail("body", "a moving body");
   load.moment = section.choice("kind", kinds);
   load.vector = scene.force_to_n * (load.moment ? scene.length_to_mm : 1) *
                 section.vector("vector", load.moment ? "a moment" : "a force");
@@ -78,7 +81,8 @@ void read_varied(const Section& section, const Scene& scene, SweepDescription& s
   std::vector<std::string> names = names_of(scene.conditions);
   const auto conditions = static_cast<int>(names.size());
   for (const LoadDescription& load : scene.loads) names.push_back(load.name + ".scale");
-  const int index = section.reference("vary", "the name of a condition, or NAME.scale of a load", names);
+  const int index =
+      section.reference("vary", "the name of a condition, or NAME.scale of a load", names);
   sweep.vary = names[static_cast<std::size_t>(index)];
   sweep.varies_load = index >= conditions;
   sweep.index = sweep.varies_load ? index - conditions : index;
@@ -104,16 +108,19 @@ std::vector<double> read_values(const Section& section) {
 }  // namespace
 
 void read_conditions(const Section& root, Scene& scene) {
-  for (const Section& section : root.sections("condition")) scene.conditions.push_back(read_condition(section, scene));
+  for (const Section& section : root.sections("condition"))
+    scene.conditions.push_back(read_condition(section, scene));
 }
 
 void read_loads(const Section& root, Scene& scene) {
-  for (const Section& section : root.sections("load")) scene.loads.push_back(read_load(section, scene));
+  for (const Section& section : root.sections("load"))
+    scene.loads.push_back(read_load(section, scene));
 }
 
 void read_sweep(const Section& root, Scene& scene) {
   if (!root.has("sweep")) return;
-  const Section section = root.table("sweep", "a table [sweep] with vary and from, to, step or values");
+  const Section section =
+      root.table("sweep", "a table [sweep] with vary and from, to, step or values");
   SweepDescription sweep;
   read_varied(section, scene, sweep);
   sweep.values = read_values(section);
@@ -121,8 +128,9 @@ void read_sweep(const Section& root, Scene& scene) {
   scene.sweep = sweep;
   const double factor = declared_sweep_unit(scene).factor;
   for (double& value : scene.sweep->values) value *= factor;
-  const bool length_needed = !sweep.varies_load && scene.conditions[static_cast<std::size_t>(sweep.index)].kind ==
-                                                        ConditionKind::kDistance;
+  const bool length_needed =
+      !sweep.varies_load &&
+      scene.conditions[static_cast<std::size_t>(sweep.index)].kind == ConditionKind::kDistance;
   if (length_needed && *std::min_element(sweep.values.begin(), sweep.values.end()) <= 0) {
     section.fail_with("values down to 0 and below, expected distances > 0");
   }

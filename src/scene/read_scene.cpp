@@ -1,7 +1,7 @@
 #include "scene/read_scene.h"
 
-#include <Eigen/LU>
 #include <fmt/format.h>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -19,12 +19,15 @@ std::string contents(const std::filesystem::path& file) {
   const std::string name = file.string();
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw InputError(name + ": no such file, expected a scene (TOML)");
-  if (std::filesystem::is_directory(status)) throw InputError(name + ": is a folder, expected a scene (TOML)");
+  if (!std::filesystem::exists(status))
+    throw InputError(name + ": no such file, expected a scene (TOML)");
+  if (std::filesystem::is_directory(status))
+    throw InputError(name + ": is a folder, expected a scene (TOML)");
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
-  if (!stream) throw InputError(name + ": cannot be read, expected a scene (TOML) that is not empty");
+  if (!stream)
+    throw InputError(name + ": cannot be read, expected a scene (TOML) that is not empty");
   return text.str();
 }
 
@@ -53,7 +56,9 @@ Scene parse(const std::string& text, const std::filesystem::path& file, bool mes
 
 Scene read_scene(const std::filesystem::path& file) { return parse(contents(file), file, true); }
 
-Scene parse_scene(const std::string& text, const std::filesystem::path& file) { return parse(text, file, false); }
+Scene parse_scene(const std::string& text, const std::filesystem::path& file) {
+  return parse(text, file, false);
+}
 
 const Choices<double>& length_units() {
   static const Choices<double> units = {{"mm", 1}, {"cm", 10}, {"m", 1000}};
@@ -72,8 +77,9 @@ void read_units(const Section& root, Scene& scene) {
 
 std::string read_name(const Section& section, const std::vector<std::string>& taken) {
   const std::string name = section.text("name", "a name");
-  const bool usable = name.find('/') == std::string::npos && name != "." && name != ".." && name.size() <= 100 &&
-                      std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20; });
+  const bool usable =
+      name.find('/') == std::string::npos && name != "." && name != ".." && name.size() <= 100 &&
+      std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20; });
   if (!usable) section.fail("name", "a name of at most 100 characters without \"/\"");
   if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
     section.fail("name", "a name that is not used twice");
@@ -82,12 +88,14 @@ std::string read_name(const Section& section, const std::vector<std::string>& ta
 }
 
 std::optional<MeshFile> read_mesh_file(const Section& section, const Scene& scene) {
-  const double to_mm = section.has("mesh_units") ? section.choice("mesh_units", length_units()) : scene.length_to_mm;
+  const double to_mm =
+      section.has("mesh_units") ? section.choice("mesh_units", length_units()) : scene.length_to_mm;
   if (!section.has("mesh")) {
     if (section.has("mesh_units")) section.fail("mesh_units", "a mesh beside it");
     return std::nullopt;
   }
-  const std::filesystem::path path = section.source().folder / section.text("mesh", "the path of a mesh");
+  const std::filesystem::path path =
+      section.source().folder / section.text("mesh", "the path of a mesh");
   std::error_code error;
   if (section.source().meshes_must_exist && !std::filesystem::is_regular_file(path, error)) {
     section.fail("mesh", fmt::format("a mesh file (there is no file {})", path.string()));
@@ -110,7 +118,8 @@ std::array<Attachment, 2> read_ends(const Section& section, const Scene& scene) 
 }
 
 Eigen::Matrix3d read_axes(const Section& section, const std::string& key, const Scene& scene) {
-  const std::string expected = "a rotation vector [x, y, z] or three directions [[x, y, z], [..], [..]]";
+  const std::string expected =
+      "a rotation vector [x, y, z] or three directions [[x, y, z], [..], [..]]";
   const Value& value = section.value(key, expected);
   if (value.type == Value::Type::kArray && !value.items.empty() && value.items[0].is_number()) {
     return exp_rotation(scene.angle_to_rad * section.vector(key, "a rotation vector"));
@@ -120,7 +129,8 @@ Eigen::Matrix3d read_axes(const Section& section, const std::string& key, const 
   Eigen::Matrix3d axes;
   for (int i = 0; i < 3; ++i) axes.col(i) = directions[static_cast<std::size_t>(i)];
   constexpr double kRounding = 1e-3;  // directions written with four digits
-  if (!(axes.transpose() * axes).isIdentity(kRounding)) section.fail(key, "three unit vectors at right angles");
+  if (!(axes.transpose() * axes).isIdentity(kRounding))
+    section.fail(key, "three unit vectors at right angles");
   if (axes.determinant() < 0) section.fail(key, "a right-handed triad");
   return orthonormalized(axes);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The parts of a scene file, each read into the scene in the units used inside. Called in this order by
-/// parse_scene: later parts refer to earlier ones by name.
+/// The parts of a scene file, each read into the scene in the units used inside. Called in this
+/// order by parse_scene: later parts refer to earlier ones by name.
 
 #include <array>
 #include <optional>
@@ -31,9 +31,11 @@ void read_sweep(const Section& root, Scene& scene);
 /// Two tables { body, at } on two different bodies.
 [[nodiscard]] std::array<Attachment, 2> read_ends(const Section& section, const Scene& scene);
 
-/// A rotation: a rotation vector in the declared angle, or three directions that form a right-handed frame. Columns
-/// of the result are the directions.
-[[nodiscard]] Eigen::Matrix3d read_axes(const Section& section, const std::string& key, const Scene& scene);
+/// A rotation: a rotation vector in the declared angle, or three directions that form a
+/// right-handed frame. Columns of the result are the directions.
+[[nodiscard]] Eigen::Matrix3d read_axes(const Section& section,
+                                        const std::string& key,
+                                        const Scene& scene);
 
 /// The key `name`: usable as a name in a result file, and not among `taken`.
 [[nodiscard]] std::string read_name(const Section& section, const std::vector<std::string>& taken);

@@ -13,20 +13,24 @@ Eigen::Vector3d read_direction(const Section& section, const std::string& key) {
   return direction.normalized();
 }
 
-int read_whole_number(const Section& section, const std::string& key, const Value& value, int least, int most) {
+int read_whole_number(
+    const Section& section, const std::string& key, const Value& value, int least, int most) {
   if (value.type != Value::Type::kInteger || value.number < least || value.number > most) {
     section.fail(key, value, fmt::format("a whole number from {} to {}", least, most));
   }
   return static_cast<int>(value.number);
 }
 
-bool is_auto(const Value& value) { return value.type == Value::Type::kText && value.text == "auto"; }
+bool is_auto(const Value& value) {
+  return value.type == Value::Type::kText && value.text == "auto";
+}
 
 void read_control_points(const Section& fit, PatchDescription& patch) {
   const std::string expected = "\"auto\" or two numbers [along u, along v]";
   const Value& value = fit.value("control_points", expected);
   if (is_auto(value)) return;
-  if (value.type != Value::Type::kArray || value.items.size() != 2) fit.fail("control_points", expected);
+  if (value.type != Value::Type::kArray || value.items.size() != 2)
+    fit.fail("control_points", expected);
   constexpr int kMost = 500;
   std::array<int, 2>& counts = patch.control_points.emplace();
   for (std::size_t i = 0; i < 2; ++i) {
@@ -35,12 +39,14 @@ void read_control_points(const Section& fit, PatchDescription& patch) {
 }
 
 void read_fit(const Section& fit, const Scene& scene, PatchDescription& patch) {
-  if (fit.has("degree")) patch.degree = read_whole_number(fit, "degree", fit.value("degree", "a degree"), 3, 5);
+  if (fit.has("degree"))
+    patch.degree = read_whole_number(fit, "degree", fit.value("degree", "a degree"), 3, 5);
   if (fit.has("control_points")) read_control_points(fit, patch);
   if (fit.has("smoothing") && !is_auto(fit.value("smoothing", "a length"))) {
     const Value& value = fit.value("smoothing", "a length");
     if (!value.is_number()) fit.fail("smoothing", "\"auto\" or a smoothing length >= 0");
-    patch.smoothing = scene.length_to_mm * fit.number("smoothing", "a smoothing length", Range::kNotNegative);
+    patch.smoothing =
+        scene.length_to_mm * fit.number("smoothing", "a smoothing length", Range::kNotNegative);
   }
   fit.finish();
 }
@@ -49,7 +55,8 @@ void read_region(const Section& region, const Scene& scene, PatchDescription& pa
   const std::string expected = "two opposite corners [[x, y, z], [x, y, z]] of a box";
   const std::vector<Eigen::Vector3d> corners = region.vectors("box", expected);
   if (corners.size() != 2) region.fail("box", expected);
-  if ((corners[1] - corners[0]).cwiseAbs().minCoeff() <= 0) region.fail("box", expected + " that encloses some volume");
+  if ((corners[1] - corners[0]).cwiseAbs().minCoeff() <= 0)
+    region.fail("box", expected + " that encloses some volume");
   patch.region_box = {scene.length_to_mm * corners[0], scene.length_to_mm * corners[1]};
   region.finish();
 }
@@ -61,27 +68,33 @@ void read_patch(const Section& section, const Scene& scene, SurfaceDescription& 
   patch.mesh = read_mesh_file(section, scene);
   const BodyDescription& body = scene.bodies[static_cast<std::size_t>(surface.body)];
   if (!patch.mesh && !body.mesh) {
-    section.fail_with(fmt::format("no mesh to fit, expected a mesh here or on body \"{}\"", body.name));
+    section.fail_with(
+        fmt::format("no mesh to fit, expected a mesh here or on body \"{}\"", body.name));
   }
   if (section.has("region")) {
-    if (section.has("compartment")) section.fail("region", "either compartment or region, not both");
+    if (section.has("compartment"))
+      section.fail("region", "either compartment or region, not both");
     read_region(section.table("region", "region = { box = [[x, y, z], [x, y, z]] }"), scene, patch);
   } else {
     patch.compartment = section.choice("compartment", compartments);
-    const bool known = scene.joint && (surface.body == scene.joint->femur.body || surface.body == scene.joint->tibia.body);
-    if (!known) section.fail("compartment", "a body that [joint] describes, or a region in its place");
+    const bool known = scene.joint && (surface.body == scene.joint->femur.body ||
+                                       surface.body == scene.joint->tibia.body);
+    if (!known)
+      section.fail("compartment", "a body that [joint] describes, or a region in its place");
   }
-  if (section.has("fit")) read_fit(section.table("fit", "fit = { control_points, smoothing }"), scene, patch);
+  if (section.has("fit"))
+    read_fit(section.table("fit", "fit = { control_points, smoothing }"), scene, patch);
 }
 
 void read_terms(const Section& section, const Scene& scene, SurfaceDescription& surface) {
   const std::string expected = "terms [[i, j, a], ...] of the height a x^i y^j";
   constexpr int kMostDegree = 20;
   const Value& list = section.value("coefficients", expected);
-  if (list.type != Value::Type::kArray || list.items.empty()) section.fail("coefficients", expected);
+  if (list.type != Value::Type::kArray || list.items.empty())
+    section.fail("coefficients", expected);
   for (const Value& item : list.items) {
-    const bool fits = item.type == Value::Type::kArray && item.items.size() == 3 && item.items[2].is_number() &&
-                      std::isfinite(item.items[2].number);
+    const bool fits = item.type == Value::Type::kArray && item.items.size() == 3 &&
+                      item.items[2].is_number() && std::isfinite(item.items[2].number);
     if (!fits) section.fail("coefficients", item, expected);
     const int i = read_whole_number(section, "coefficients", item.items[0], 0, kMostDegree);
     const int j = read_whole_number(section, "coefficients", item.items[1], 0, kMostDegree);
@@ -91,7 +104,8 @@ void read_terms(const Section& section, const Scene& scene, SurfaceDescription& 
 
 void read_polynomial(const Section& section, const Scene& scene, SurfaceDescription& surface) {
   if (section.has("frame")) {
-    const Section frame = section.table("frame", "frame = { origin = [x, y, z], axes = [[..], [..], [..]] }");
+    const Section frame =
+        section.table("frame", "frame = { origin = [x, y, z], axes = [[..], [..], [..]] }");
     if (frame.has("origin")) surface.point = scene.length_to_mm * frame.vector("origin", "a point");
     if (frame.has("axes")) surface.axes = read_axes(frame, "axes", scene);
     frame.finish();
@@ -113,10 +127,15 @@ void read_ellipsoid(const Section& section, const Scene& scene, SurfaceDescripti
 }
 
 void read_shape(const Section& section, const Scene& scene, SurfaceDescription& surface) {
-  const auto point = [&](const std::string& key) { return Eigen::Vector3d(scene.length_to_mm * section.vector(key, "a point")); };
-  const auto radius = [&] { return scene.length_to_mm * section.number("radius", "a radius", Range::kPositive); };
+  const auto point = [&](const std::string& key) {
+    return Eigen::Vector3d(scene.length_to_mm * section.vector(key, "a point"));
+  };
+  const auto radius = [&] {
+    return scene.length_to_mm * section.number("radius", "a radius", Range::kPositive);
+  };
   switch (surface.kind) {
-    case SurfaceKind::kPatch: return read_patch(section, scene, surface);
+    case SurfaceKind::kPatch:
+      return read_patch(section, scene, surface);
     case SurfaceKind::kPlane:
       surface.point = point("point");
       surface.direction = read_direction(section, "normal");
@@ -130,16 +149,22 @@ void read_shape(const Section& section, const Scene& scene, SurfaceDescription& 
       surface.direction = read_direction(section, "axis");
       surface.radius = radius();
       return;
-    case SurfaceKind::kEllipsoid: surface.point = point("center"); return read_ellipsoid(section, scene, surface);
-    case SurfaceKind::kTorus: surface.point = point("center"); return read_torus(section, scene, surface);
-    case SurfaceKind::kPolynomial: return read_polynomial(section, scene, surface);
+    case SurfaceKind::kEllipsoid:
+      surface.point = point("center");
+      return read_ellipsoid(section, scene, surface);
+    case SurfaceKind::kTorus:
+      surface.point = point("center");
+      return read_torus(section, scene, surface);
+    case SurfaceKind::kPolynomial:
+      return read_polynomial(section, scene, surface);
   }
 }
 
 SurfaceDescription read_surface(const Section& section, const Scene& scene) {
   static const Choices<SurfaceKind> kinds = {
-      {"patch", SurfaceKind::kPatch},         {"plane", SurfaceKind::kPlane}, {"sphere", SurfaceKind::kSphere},
-      {"cylinder", SurfaceKind::kCylinder},   {"ellipsoid", SurfaceKind::kEllipsoid}, {"torus", SurfaceKind::kTorus},
+      {"patch", SurfaceKind::kPatch},          {"plane", SurfaceKind::kPlane},
+      {"sphere", SurfaceKind::kSphere},        {"cylinder", SurfaceKind::kCylinder},
+      {"ellipsoid", SurfaceKind::kEllipsoid},  {"torus", SurfaceKind::kTorus},
       {"polynomial", SurfaceKind::kPolynomial}};
   static const Choices<bool> sides = {{"inside", true}, {"outside", false}};
   SurfaceDescription surface;
@@ -148,30 +173,37 @@ SurfaceDescription read_surface(const Section& section, const Scene& scene) {
   surface.kind = section.choice("kind", kinds);
   if (section.has("solid")) surface.solid_inside = section.choice("solid", sides);
   const bool has_sides = surface.kind != SurfaceKind::kPatch && surface.kind != SurfaceKind::kPlane;
-  if (!surface.solid_inside && !has_sides) section.fail("solid", "\"inside\": a patch or a plane has no outside");
+  if (!surface.solid_inside && !has_sides)
+    section.fail("solid", "\"inside\": a patch or a plane has no outside");
   read_shape(section, scene, surface);
   section.finish();
   return surface;
 }
 
 ContactDescription read_contact(const Section& section, const Scene& scene) {
-  static const Choices<ContactState> states = {
-      {"auto", ContactState::kAuto}, {"closed", ContactState::kClosed}, {"open", ContactState::kOpen}};
+  static const Choices<ContactState> states = {{"auto", ContactState::kAuto},
+                                               {"closed", ContactState::kClosed},
+                                               {"open", ContactState::kOpen}};
   ContactDescription contact;
   contact.name = read_name(section, names_of(scene.contacts));
   const std::string expected = "the names of two surfaces";
   const Value& pair = section.value("surfaces", expected);
-  if (pair.type != Value::Type::kArray || pair.items.size() != 2) section.fail("surfaces", expected);
+  if (pair.type != Value::Type::kArray || pair.items.size() != 2)
+    section.fail("surfaces", expected);
   for (std::size_t i = 0; i < 2; ++i) {
-    contact.surfaces[i] = section.reference("surfaces", pair.items[i], "the name of a surface", names_of(scene.surfaces));
+    contact.surfaces[i] = section.reference("surfaces", pair.items[i], "the name of a surface",
+                                            names_of(scene.surfaces));
   }
-  const auto body = [&](std::size_t i) { return scene.surfaces[static_cast<std::size_t>(contact.surfaces[i])].body; };
+  const auto body = [&](std::size_t i) {
+    return scene.surfaces[static_cast<std::size_t>(contact.surfaces[i])].body;
+  };
   if (body(0) == body(1)) {
     section.fail("surfaces", fmt::format("surfaces of two bodies (both belong to \"{}\")",
                                          scene.bodies[static_cast<std::size_t>(body(0))].name));
   }
   if (section.has("state")) contact.state = section.choice("state", states);
-  if (section.has("start")) contact.start = section.vectors("start", "points [[x, y, z], ...] in the ground frame");
+  if (section.has("start"))
+    contact.start = section.vectors("start", "points [[x, y, z], ...] in the ground frame");
   for (Eigen::Vector3d& point : contact.start) point *= scene.length_to_mm;
   section.finish();
   return contact;
@@ -180,11 +212,13 @@ ContactDescription read_contact(const Section& section, const Scene& scene) {
 }  // namespace
 
 void read_surfaces(const Section& root, Scene& scene) {
-  for (const Section& section : root.sections("surface")) scene.surfaces.push_back(read_surface(section, scene));
+  for (const Section& section : root.sections("surface"))
+    scene.surfaces.push_back(read_surface(section, scene));
 }
 
 void read_contacts(const Section& root, Scene& scene) {
-  for (const Section& section : root.sections("contact")) scene.contacts.push_back(read_contact(section, scene));
+  for (const Section& section : root.sections("contact"))
+    scene.contacts.push_back(read_contact(section, scene));
 }
 
 }  // namespace condyle

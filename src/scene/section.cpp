@@ -13,9 +13,12 @@ namespace {
 
 const char* suffix(Range range) {
   switch (range) {
-    case Range::kNotNegative: return " >= 0";
-    case Range::kPositive: return " > 0";
-    case Range::kAny: break;
+    case Range::kNotNegative:
+      return " >= 0";
+    case Range::kPositive:
+      return " > 0";
+    case Range::kAny:
+      break;
   }
   return "";
 }
@@ -82,7 +85,8 @@ const Value& Section::value(const std::string& key, const std::string& expected)
 
 std::string Section::text(const std::string& key, const std::string& expected) const {
   const Value& found = value(key, expected);
-  if (found.type != Value::Type::kText || found.text.empty()) fail(key, found, expected + ", a text in quotes");
+  if (found.type != Value::Type::kText || found.text.empty())
+    fail(key, found, expected + ", a text in quotes");
   return found.text;
 }
 
@@ -92,7 +96,10 @@ bool Section::boolean(const std::string& key) const {
   return found.boolean;
 }
 
-double Section::checked(const std::string& key, const Value& value, const std::string& expected, Range range) const {
+double Section::checked(const std::string& key,
+                        const Value& value,
+                        const std::string& expected,
+                        Range range) const {
   if (!value.is_number() || !within(value.number, range)) {
     const bool plain = value.is_number() && std::isfinite(value.number);
     fail(key, value, expected + suffix(range) + (plain ? "" : ", a finite number"));
@@ -104,7 +111,10 @@ double Section::number(const std::string& key, const std::string& expected, Rang
   return checked(key, value(key, expected + suffix(range)), expected, range);
 }
 
-double Section::number_or(const std::string& key, double otherwise, const std::string& expected, Range range) const {
+double Section::number_or(const std::string& key,
+                          double otherwise,
+                          const std::string& expected,
+                          Range range) const {
   return has(key) ? number(key, expected, range) : otherwise;
 }
 
@@ -116,7 +126,9 @@ std::vector<double> Section::numbers(const std::string& key, const std::string& 
   return out;
 }
 
-Eigen::Vector3d Section::vector_of(const std::string& key, const Value& value, const std::string& expected) const {
+Eigen::Vector3d Section::vector_of(const std::string& key,
+                                   const Value& value,
+                                   const std::string& expected) const {
   const bool fits = value.type == Value::Type::kArray && value.items.size() == 3 &&
                     std::all_of(value.items.begin(), value.items.end(), [](const Value& item) {
                       return item.is_number() && std::isfinite(item.number);
@@ -129,7 +141,8 @@ Eigen::Vector3d Section::vector(const std::string& key, const std::string& expec
   return vector_of(key, value(key, expected + " [x, y, z]"), expected);
 }
 
-std::vector<Eigen::Vector3d> Section::vectors(const std::string& key, const std::string& expected) const {
+std::vector<Eigen::Vector3d> Section::vectors(const std::string& key,
+                                              const std::string& expected) const {
   const Value& list = value(key, expected);
   if (list.type != Value::Type::kArray) fail(key, list, expected);
   std::vector<Eigen::Vector3d> out;
@@ -160,19 +173,23 @@ std::vector<Section> Section::sections(const std::string& key) const {
   const Value* list = find(key);
   if (list == nullptr) return out;
   const bool tables = list->type == Value::Type::kArray &&
-                      std::all_of(list->items.begin(), list->items.end(),
-                                  [](const Value& item) { return item.type == Value::Type::kTable; });
+                      std::all_of(list->items.begin(), list->items.end(), [](const Value& item) {
+                        return item.type == Value::Type::kTable;
+                      });
   if (!tables) fail_at(list->line, fmt::format("{}, expected tables headed [[{}]]", key, key));
   for (std::size_t i = 0; i < list->items.size(); ++i) {
     const Value* name = list->items[i].find("name");
     const bool named = name != nullptr && name->type == Value::Type::kText && !name->text.empty();
-    out.emplace_back(list->items[i], *source_,
-                     fmt::format("[[{}]] {}", key, named ? to_text(*name) : fmt::format("number {}", i + 1)));
+    out.emplace_back(
+        list->items[i], *source_,
+        fmt::format("[[{}]] {}", key, named ? to_text(*name) : fmt::format("number {}", i + 1)));
   }
   return out;
 }
 
-int Section::reference(const std::string& key, const std::string& what, const std::vector<std::string>& names) const {
+int Section::reference(const std::string& key,
+                       const std::string& what,
+                       const std::vector<std::string>& names) const {
   return reference(key, value(key, what.empty() ? listed(names) : what), what, names);
 }
 
@@ -181,8 +198,10 @@ int Section::reference(const std::string& key,
                        const std::string& what,
                        const std::vector<std::string>& names) const {
   const auto found = std::find(names.begin(), names.end(), name.text);
-  if (name.type == Value::Type::kText && found != names.end()) return static_cast<int>(found - names.begin());
-  std::string expected = what.empty() ? listed(names) : what + (names.empty() ? "" : ": " + listed(names));
+  if (name.type == Value::Type::kText && found != names.end())
+    return static_cast<int>(found - names.begin());
+  std::string expected =
+      what.empty() ? listed(names) : what + (names.empty() ? "" : ": " + listed(names));
   const std::string meant = nearest(name.text, names);
   if (!meant.empty()) expected += fmt::format("; did you mean \"{}\"?", meant);
   fail(key, name, expected);
@@ -194,7 +213,8 @@ void Section::fail_at(int line, const std::string& message) const {
 }
 
 void Section::fail(const std::string& key, const Value& value, const std::string& expected) const {
-  fail_at(value.line, fmt::format("{}{} = {}, expected {}", prefix_, key, to_text(value), expected));
+  fail_at(value.line,
+          fmt::format("{}{} = {}, expected {}", prefix_, key, to_text(value), expected));
 }
 
 void Section::fail(const std::string& key, const std::string& expected) const {
@@ -213,8 +233,9 @@ void Section::fail_missing(const std::string& key, const std::string& expected) 
   }
   const std::string meant = nearest(key, strangers);
   if (!meant.empty()) {
-    fail_at(table_->find(meant)->line, fmt::format("unknown key {}{} = {}, did you mean \"{}\"?", prefix_, meant,
-                                                   to_text(*table_->find(meant)), key));
+    fail_at(table_->find(meant)->line,
+            fmt::format("unknown key {}{} = {}, did you mean \"{}\"?", prefix_, meant,
+                        to_text(*table_->find(meant)), key));
   }
   fail_at(table_->line, fmt::format("{}{} is missing, expected {}", prefix_, key, expected));
 }
@@ -222,9 +243,10 @@ void Section::fail_missing(const std::string& key, const std::string& expected) 
 void Section::fail_unknown(const std::string& key, const Value& value) const {
   const std::vector<std::string> known(known_.begin(), known_.end());
   const std::string meant = nearest(key, known);
-  const std::string advice =
-      meant.empty() ? "expected one of " + listed(known) : fmt::format("did you mean \"{}\"?", meant);
-  fail_at(value.line, fmt::format("unknown key {}{} = {}, {}", prefix_, key, to_text(value), advice));
+  const std::string advice = meant.empty() ? "expected one of " + listed(known)
+                                           : fmt::format("did you mean \"{}\"?", meant);
+  fail_at(value.line,
+          fmt::format("unknown key {}{} = {}, {}", prefix_, key, to_text(value), advice));
 }
 
 void Section::finish() const {

@@ -6,7 +6,8 @@
 namespace condyle {
 namespace {
 
-// The first axis points to the right of the body on either side: a left knee's lateral axis is turned round.
+// The first axis points to the right of the body on either side: a left knee's lateral axis is
+// turned round.
 RigidTransform right_handed(const AnatomicalFrame& frame, Side side) {
   RigidTransform X;
   X.R.col(0) = side == Side::kRight ? frame.lateral : Eigen::Vector3d(-frame.lateral);
@@ -41,7 +42,9 @@ RigidTransform start_pose(const Scene& scene) {
   return X_BA;
 }
 
-double distance_between(const Scene& scene, const std::array<Attachment, 2>& ends, const RigidTransform& X_BA) {
+double distance_between(const Scene& scene,
+                        const std::array<Attachment, 2>& ends,
+                        const RigidTransform& X_BA) {
   const int moving = scene.moving_body();
   const auto in_ground = [&](const Attachment& end) {
     return end.body == moving ? Eigen::Vector3d(X_BA * end.at) : end.at;

@@ -7,7 +7,8 @@
 
 namespace condyle {
 
-/// Start pose X_BA of the moving body in the ground frame: translation of O_A and rotation vector or joint angles.
+/// Start pose X_BA of the moving body in the ground frame: translation of O_A and rotation vector
+/// or joint angles.
 [[nodiscard]] RigidTransform start_pose(const Scene& scene);
 
 /// Distance between two attachments, on the fixed and the moving body in any order, at a pose [mm].

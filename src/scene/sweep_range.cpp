@@ -13,7 +13,8 @@ namespace {
 Unit sweep_unit(const Scene& scene, const Unit& angle, const Unit& length) {
   assert(scene.sweep.has_value());
   if (scene.sweep->varies_load) return {"1", 1};
-  return is_angle(scene.conditions[static_cast<std::size_t>(scene.sweep->index)].kind) ? angle : length;
+  return is_angle(scene.conditions[static_cast<std::size_t>(scene.sweep->index)].kind) ? angle
+                                                                                       : length;
 }
 
 }  // namespace
@@ -24,21 +25,25 @@ Unit declared_sweep_unit(const Scene& scene) {
                     {length, scene.length_to_mm});
 }
 
-Unit border_sweep_unit(const Scene& scene) { return sweep_unit(scene, {"deg", M_PI / 180}, {"mm", 1}); }
+Unit border_sweep_unit(const Scene& scene) {
+  return sweep_unit(scene, {"deg", M_PI / 180}, {"mm", 1});
+}
 
 std::vector<double> range_values(double from, double to, double step) {
   constexpr double kMost = 1e6, kRounding = 1e-9;
   if (!std::isfinite(from) || !std::isfinite(to) || !std::isfinite(step)) {
-    throw InputError(fmt::format("from = {}, to = {}, step = {}, expected finite numbers", from, to, step));
+    throw InputError(
+        fmt::format("from = {}, to = {}, step = {}, expected finite numbers", from, to, step));
   }
   if (from == to) return {from};
   if (step == 0 || (step > 0) != (to > from)) {
-    throw InputError(fmt::format("step = {}, expected a step {} 0 to get from {} to {}", step, to > from ? ">" : "<",
-                                 from, to));
+    throw InputError(fmt::format("step = {}, expected a step {} 0 to get from {} to {}", step,
+                                 to > from ? ">" : "<", from, to));
   }
   const double steps = (to - from) / step;
   if (!(steps + 1 <= kMost)) {
-    throw InputError(fmt::format("step = {}, expected at most {:.0f} values from {} to {}", step, kMost, from, to));
+    throw InputError(fmt::format("step = {}, expected at most {:.0f} values from {} to {}", step,
+                                 kMost, from, to));
   }
   std::vector<double> values;
   const auto count = static_cast<int>(std::floor(steps + kRounding));

@@ -10,8 +10,8 @@
 namespace condyle {
 
 struct Unit {
-  std::string name;     ///< "deg", "mm", "1" ...
-  double factor = 1;    ///< to the unit used inside
+  std::string name;   ///< "deg", "mm", "1" ...
+  double factor = 1;  ///< to the unit used inside
 };
 
 /// The unit of the swept values as the scene declares it; needs scene.sweep.
@@ -20,7 +20,8 @@ struct Unit {
 /// The unit in result files and tables: deg, mm or 1.
 [[nodiscard]] Unit border_sweep_unit(const Scene& scene);
 
-/// from, from + step, ... up to `to`, which is met where it is a whole number of steps away. Throws InputError
+/// from, from + step, ... up to `to`, which is met where it is a whole number of steps away. Throws
+/// InputError
 /// ("step = -5, expected ...") for a range that leads nowhere or holds more than a million values.
 [[nodiscard]] std::vector<double> range_values(double from, double to, double step);
 

@@ -129,8 +129,8 @@ struct InnerEnds {
   double medial, lateral;
 };
 
-/// In the gap between two sheets; on a whole bone at the crests of the medial and the lateral half of the eminence.
-/// A mesh that is deeper than wide is one plateau alone.
+/// In the gap between two sheets; on a whole bone at the crests of the medial and the lateral half of the
+/// eminence. A mesh that is deeper than wide is one plateau alone.
 InnerEnds inner_ends(const TriangleMesh& mesh, const BoneFrame& frame, const std::vector<bool>& upward) {
   std::vector<double> z;
   Eigen::AlignedBox3d box;

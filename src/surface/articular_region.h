@@ -33,8 +33,8 @@ struct RegionOptions {
   double femur_first_angle = -0.98,
          femur_last_angle = 2.45;    ///< about the condylar axis, 0 distal, + posterior [rad]
   double femur_least_cosine = 0.55;  ///< of normal and radial direction: beyond it lie notch and side walls
-  double tibia_least_cosine = 0.5;  ///< of normal and plateau direction: beyond lie eminence and rim walls
-  double normal_smoothing = 1.5;  ///< normals are averaged over this distance before they decide [mm]
+  double tibia_least_cosine = 0.5;   ///< of normal and plateau direction: beyond lie eminence and rim walls
+  double normal_smoothing = 1.5;     ///< normals are averaged over this distance before they decide [mm]
 };
 
 /// Turns open components so that they face out of the bone (closed ones do already); returns how many.

@@ -149,6 +149,7 @@ void finish(const ArticularRegion& region,
     fit.distance.push_back(std::copysign((point.p - at.c).norm(), at.n.dot(point.p - at.c)));
     fit.edge_distance.push_back(patch.edge_distance(place));
   }
+  for (double& distance : data.mask) distance -= kUncertainRim * fit.smoothing_length;
   fit.patch = std::move(data);
 }
 

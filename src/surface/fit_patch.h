@@ -25,8 +25,12 @@ struct FitOptions {
   double settled = 0.02;       ///< rms change of the parameters that ends them [mm]
 };
 
+/// A smoothing spline leans outwards near its last data: this margin of the data, in smoothing lengths, does not count
+/// as known, and the mask of the patch ends there.
+inline constexpr double kUncertainRim = 0.6;
+
 struct PatchFit {
-  PatchData patch;
+  PatchData patch;                          ///< its mask: distance to the edge of what is known
   double smoothing_length = 0;              ///< [mm]
   int rounds = 0;                           ///< of parameter correction that were done
   std::vector<Eigen::Vector2d> parameters;  ///< of the closest point to each vertex of the region

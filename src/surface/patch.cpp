@@ -108,26 +108,64 @@ namespace {
 /// Four numbers at once (GCC and Clang): two SSE2 registers, or one of AVX where the build allows it.
 using Four = double __attribute__((vector_size(32)));
 
-inline Four load(const double* x) {
-  Four y;
-  __builtin_memcpy(&y, x, sizeof y);
-  return y;
-}
-inline Four all(double x) { return Four{x, x, x, x}; }
-inline Eigen::Vector3d vector(const Four& x) { return {x[0], x[1], x[2]}; }
+// A second body of the hot loop for processors with fused multiply-add, chosen when the program starts.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define CONDYLE_FMA_CLONE __attribute__((target_clones("default", "fma")))
+#else
+#define CONDYLE_FMA_CLONE
+#endif
 
-/// Σ c[k] x^k with two derivatives for four basis functions at once (Horner).
-inline void horner_of_four(const double* c, double x, double* f, double* df, double* d2f) {
-  const Four c0 = load(c), c1 = load(c + 4), c2 = load(c + 8), c3 = load(c + 12), t = all(x);
-  const Four value = ((c3 * t + c2) * t + c1) * t + c0;
-  const Four first = (3 * c3 * t + 2 * c2) * t + c1;
-  const Four second = 6 * c3 * t + 2 * c2;
-  __builtin_memcpy(f, &value, sizeof value);
-  __builtin_memcpy(df, &first, sizeof first);
-  __builtin_memcpy(d2f, &second, sizeof second);
+/// The bicubic case in one go: basis functions of both directions from their polynomials (16 coefficients each, at x and
+/// y within the span, continued by `beyond`), then the 16 control points of `net`, whose rows are `stride` apart.
+/// Writes c, c_u, c_v and, where `second`, c_uu, c_uv, c_vv; four numbers each.
+CONDYLE_FMA_CLONE
+void bicubic(const double* coefficients_u, double x, double beyond_u,
+             const double* coefficients_v, double y, double beyond_v,
+             const double* net, std::size_t stride, bool second, double* out) {
+  double bu[3][4], bv[3][4];
+  const auto basis = [](const double* c, double t, double beyond, double (*b)[4]) {
+    Four c0, c1, c2, c3;
+    __builtin_memcpy(&c0, c, sizeof c0);
+    __builtin_memcpy(&c1, c + 4, sizeof c1);
+    __builtin_memcpy(&c2, c + 8, sizeof c2);
+    __builtin_memcpy(&c3, c + 12, sizeof c3);
+    Four f = ((c3 * t + c2) * t + c1) * t + c0;
+    Four df = (3 * c3 * t + 2 * c2) * t + c1;
+    const Four d2f = 6 * c3 * t + 2 * c2;
+    f += beyond * (df + beyond / 2 * d2f);
+    df += beyond * d2f;
+    __builtin_memcpy(b[0], &f, sizeof f);
+    __builtin_memcpy(b[1], &df, sizeof df);
+    __builtin_memcpy(b[2], &d2f, sizeof d2f);
+  };
+  basis(coefficients_u, x, beyond_u, bu);
+  basis(coefficients_v, y, beyond_v, bv);
+  Four c = {}, c_u = {}, c_v = {}, c_uu = {}, c_uv = {}, c_vv = {};
+  for (int i = 0; i < 4; ++i, net += stride) {
+    Four s0 = {}, s1 = {}, s2 = {};
+    for (int j = 0; j < 4; ++j) {
+      Four p;
+      __builtin_memcpy(&p, net + 4 * j, sizeof p);
+      s0 += bv[0][j] * p;
+      s1 += bv[1][j] * p;
+      if (second) s2 += bv[2][j] * p;
+    }
+    c += bu[0][i] * s0;
+    c_u += bu[1][i] * s0;
+    c_v += bu[0][i] * s1;
+    if (!second) continue;
+    c_uu += bu[2][i] * s0;
+    c_uv += bu[1][i] * s1;
+    c_vv += bu[0][i] * s2;
+  }
+  const Four* results[] = {&c, &c_u, &c_v, &c_uu, &c_uv, &c_vv};
+  for (const Four* result : results) {
+    __builtin_memcpy(out, result, sizeof *result);
+    out += 4;
+  }
 }
 
-/// The same for m functions of any degree.
+/// Σ c[k] x^k with two derivatives for m basis functions of any degree (Horner).
 void horner(const double* c, int m, double x, double* f, double* df, double* d2f) {
   for (int j = 0; j < m; ++j) f[j] = c[(m - 1) * m + j], df[j] = 0, d2f[j] = 0;
   for (int k = m - 2; k >= 0; --k)
@@ -154,11 +192,7 @@ int Patch::evaluate_direction(const Direction& direction, double t, Basis& basis
   const int m = direction.degree + 1;
   const double x = inside - direction.breaks[span];
   const double* c = &direction.coefficients[static_cast<std::size_t>(span) * m * m];
-  if (m == 4) {
-    horner_of_four(c, x, basis.b[0], basis.b[1], basis.b[2]);
-  } else {
-    horner(c, m, x, basis.b[0], basis.b[1], basis.b[2]);
-  }
+  horner(c, m, x, basis.b[0], basis.b[1], basis.b[2]);
   if (t != inside) {
     const double beyond = t - inside;
     for (int j = 0; j < m; ++j) {
@@ -169,44 +203,47 @@ int Patch::evaluate_direction(const Direction& direction, double t, Basis& basis
   return span;
 }
 
-template <int P, int Q>
-PatchDerivatives Patch::derivatives_of_degree(double u, double v, bool second) const {
+PatchDerivatives Patch::bicubic_derivatives(double u, double v, bool second) const {
+  const double inside_u = std::clamp(u, u_.min, u_.max), inside_v = std::clamp(v, v_.min, v_.max);
+  const int i = find_span(u_, inside_u), j = find_span(v_, inside_v);
+  double out[24];
+  bicubic(&u_.coefficients[static_cast<std::size_t>(i) * 16], inside_u - u_.breaks[i], u - inside_u,
+          &v_.coefficients[static_cast<std::size_t>(j) * 16], inside_v - v_.breaks[j], v - inside_v,
+          net_[static_cast<std::size_t>(i) * data_.nv + j].data(), 4 * static_cast<std::size_t>(data_.nv), second, out);
+  const auto vector = [&](int k) { return Eigen::Vector3d(out[4 * k], out[4 * k + 1], out[4 * k + 2]); };
+  return {vector(0), vector(1), vector(2), vector(3), vector(4), vector(5)};
+}
+
+PatchDerivatives Patch::general_derivatives(double u, double v) const {
   Basis bu, bv;
   const int i0 = evaluate_direction(u_, u, bu);
   const int j0 = evaluate_direction(v_, v, bv);
-  const int rows = P > 0 ? P + 1 : u_.degree + 1, columns = Q > 0 ? Q + 1 : v_.degree + 1;
-  Four c = all(0), c_u = c, c_v = c, c_uu = c, c_uv = c, c_vv = c;
-  for (int i = 0; i < rows; ++i) {
-    const Eigen::Vector4d* row = &net_[static_cast<std::size_t>(i0 + i) * data_.nv + j0];
-    Four s0 = all(0), s1 = s0, s2 = s0;
-    for (int j = 0; j < columns; ++j) {
-      const Four p = load(row[j].data());
-      s0 += bv.b[0][j] * p;
-      s1 += bv.b[1][j] * p;
-      if (second) s2 += bv.b[2][j] * p;
+  PatchDerivatives d;
+  d.c.setZero();
+  d.c_u = d.c_v = d.c_uu = d.c_uv = d.c_vv = d.c;
+  for (int i = 0; i <= u_.degree; ++i)
+    for (int j = 0; j <= v_.degree; ++j) {
+      const Eigen::Vector3d& p = data_.control_points[static_cast<std::size_t>(i0 + i) * data_.nv + j0 + j];
+      d.c += bu.b[0][i] * bv.b[0][j] * p;
+      d.c_u += bu.b[1][i] * bv.b[0][j] * p;
+      d.c_v += bu.b[0][i] * bv.b[1][j] * p;
+      d.c_uu += bu.b[2][i] * bv.b[0][j] * p;
+      d.c_uv += bu.b[1][i] * bv.b[1][j] * p;
+      d.c_vv += bu.b[0][i] * bv.b[2][j] * p;
     }
-    c += bu.b[0][i] * s0;
-    c_u += bu.b[1][i] * s0;
-    c_v += bu.b[0][i] * s1;
-    if (!second) continue;
-    c_uu += bu.b[2][i] * s0;
-    c_uv += bu.b[1][i] * s1;
-    c_vv += bu.b[0][i] * s2;
-  }
-  return {vector(c), vector(c_u), vector(c_v), vector(c_uu), vector(c_uv), vector(c_vv)};
+  return d;
 }
 
 PatchDerivatives Patch::derivatives(double u, double v) const {
-  if (u_.degree == 3 && v_.degree == 3) return derivatives_of_degree<3, 3>(u, v, true);
-  return derivatives_of_degree<0, 0>(u, v, true);
+  return u_.degree == 3 && v_.degree == 3 ? bicubic_derivatives(u, v, true) : general_derivatives(u, v);
 }
 
 SurfacePoint Patch::evaluate(const Place& place) const { return point_from(derivatives(place.x(), place.y())); }
 
 SurfacePoint Patch::evaluate_frame(const Place& place) const {
   const bool cubic = u_.degree == 3 && v_.degree == 3;
-  return point_from(cubic ? derivatives_of_degree<3, 3>(place.x(), place.y(), false)
-                          : derivatives_of_degree<0, 0>(place.x(), place.y(), false));
+  return point_from(cubic ? bicubic_derivatives(place.x(), place.y(), false)
+                          : general_derivatives(place.x(), place.y()));
 }
 
 /// Normal, reciprocal base g_u, g_v and K = Σ (n.c_ab) g_a g_b (theory section 2).

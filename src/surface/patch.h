@@ -78,8 +78,8 @@ class Patch final : public Surface {
   [[nodiscard]] static Direction make_direction(const std::vector<double>& knots, int degree);
   static int evaluate_direction(const Direction& direction, double t, Basis& basis);
   static int find_span(const Direction& direction, double t);
-  template <int P, int Q>
-  [[nodiscard]] PatchDerivatives derivatives_of_degree(double u, double v, bool second) const;
+  [[nodiscard]] PatchDerivatives bicubic_derivatives(double u, double v, bool second) const;
+  [[nodiscard]] PatchDerivatives general_derivatives(double u, double v) const;
   [[nodiscard]] SurfacePoint point_from(const PatchDerivatives& d) const;
 
   PatchData data_;

@@ -42,15 +42,19 @@ class CommandLine : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
   [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
 
   /// Runs the program in the folder; `prefix` are shell commands before it.
   [[nodiscard]] Outcome run(const std::string& arguments, const std::string& prefix = "") const {
-    const std::string command = "cd '" + folder_.string() + "' && " + prefix + "'" CONDYLE_PROGRAM "' " + arguments +
+    const std::string command = "cd '" + folder_.string() + "' && " + prefix +
+                                "'" CONDYLE_PROGRAM "' " + arguments +
                                 " > stdout.txt 2> stderr.txt";
     const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder_ / "stdout.txt"), contents(folder_ / "stderr.txt")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder_ / "stdout.txt"),
+            contents(folder_ / "stderr.txt")};
   }
 
   /// Names in the folder apart from the scene and the captured output.
@@ -58,7 +62,8 @@ class CommandLine : public testing::Test {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder_)) {
       const std::string name = entry.path().filename().string();
-      if (name != "knee.toml" && name != "stdout.txt" && name != "stderr.txt") names.push_back(name);
+      if (name != "knee.toml" && name != "stdout.txt" && name != "stderr.txt")
+        names.push_back(name);
     }
     return names;
   }
@@ -74,7 +79,8 @@ void expect_bad_input(const Outcome& outcome, const std::string& message) {
 TEST_F(CommandLine, ChecksAScene) {
   const Outcome outcome = run("check knee.toml");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("sweep      bend from 0 to 20 deg, 5 poses"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("sweep      bend from 0 to 20 deg, 5 poses"), std::string::npos)
+      << outcome.out;
   EXPECT_EQ(outcome.err, "");
 }
 
@@ -97,7 +103,8 @@ TEST_F(CommandLine, TakesItsRangeFromTheOptions) {
 }
 
 TEST_F(CommandLine, TakesTheOptionsInTheUnitOfTheScene) {
-  write("knee.toml", with(with(kScene, "angle = \"deg\"", "angle = \"rad\""), "to = 20\nstep = 5", "to = 0.4\nstep = 0.2"));
+  write("knee.toml", with(with(kScene, "angle = \"deg\"", "angle = \"rad\""), "to = 20\nstep = 5",
+                          "to = 0.4\nstep = 0.2"));
   const Outcome outcome = run("sweep knee.toml -o run.h5 --to 0.2");
   EXPECT_NE(outcome.out.find("wrote run.h5"), std::string::npos) << outcome.err;
   const condyle::Run back = read_run(folder_ / "run.h5");
@@ -120,10 +127,12 @@ TEST_F(CommandLine, ExitsWithTwoWhereAPoseDoesNotSucceed) {
 
 TEST_F(CommandLine, SaysWhatIsWrongInAScene) {
   write("knee.toml", with(kScene, "radius = 20", "raduis = 20"));
-  expect_bad_input(run("check knee.toml"),
-                   "knee.toml:26: [[surface]] \"ball\": unknown key raduis = 20, did you mean \"radius\"?");
-  expect_bad_input(run("sweep knee.toml -o run.h5"),
-                   "knee.toml:26: [[surface]] \"ball\": unknown key raduis = 20, did you mean \"radius\"?");
+  expect_bad_input(
+      run("check knee.toml"),
+      "knee.toml:26: [[surface]] \"ball\": unknown key raduis = 20, did you mean \"radius\"?");
+  expect_bad_input(
+      run("sweep knee.toml -o run.h5"),
+      "knee.toml:26: [[surface]] \"ball\": unknown key raduis = 20, did you mean \"radius\"?");
   EXPECT_TRUE(results().empty());
 }
 
@@ -145,7 +154,8 @@ TEST_F(CommandLine, LeavesNothingBehindOnAFullDisk) {
 }
 
 TEST_F(CommandLine, FitsOnlyWhatIsAPatch) {
-  expect_bad_input(run("fit knee.toml -o fit.h5"), "knee.toml: no surface has kind = \"patch\", expected one to fit");
+  expect_bad_input(run("fit knee.toml -o fit.h5"),
+                   "knee.toml: no surface has kind = \"patch\", expected one to fit");
 }
 
 TEST_F(CommandLine, SaysWhichRangeLeadsNowhere) {
@@ -155,7 +165,8 @@ TEST_F(CommandLine, SaysWhichRangeLeadsNowhere) {
 
 TEST_F(CommandLine, NeedsASweep) {
   write("knee.toml", kScene.substr(0, kScene.find("[sweep]")));
-  expect_bad_input(run("sweep knee.toml -o run.h5"), "knee.toml: [sweep] is missing, expected what to vary and how far");
+  expect_bad_input(run("sweep knee.toml -o run.h5"),
+                   "knee.toml: [sweep] is missing, expected what to vary and how far");
 }
 
 TEST_F(CommandLine, NamesAnOptionThatItDoesNotKnow) {

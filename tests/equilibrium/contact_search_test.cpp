@@ -63,19 +63,21 @@ TEST(ContactSearch, FindsTwoPlacesWhereABallTouchesTwoRidges) {
   EXPECT_NEAR(minima[0].gap, lowest, 1e-6);
 }
 
-TEST(ContactSearch, AgreesWithItselfWhenWarmAfterALongMove) {
+TEST(ContactSearch, FindsTheSameMinimumWarmAndFresh) {
   const ContactPair pair = pair_of(
       make_ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {30, 22, 20}, true),
-      make_torus({0, 0, 0}, {0, 0, 1}, 30, 8, true));
+      make_ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {18, 12, 15}, true));
   ContactSearch warm(pair);
   std::vector<GapMinimum> minima, fresh_minima;
   for (int k = 0; k < 20; ++k) {
     const RigidTransform X{exp_rotation({0.1 * k, 0.05 * k, 0}), {2.0 * k - 20, 5, 33 - 0.2 * k}};
-    warm.find(X, 2, minima);
+    warm.find(X, 5, minima);
     ContactSearch fresh(pair);
-    fresh.find(X, 2, fresh_minima);
-    ASSERT_EQ(minima.size(), fresh_minima.size()) << k;
-    for (std::size_t i = 0; i < minima.size(); ++i) EXPECT_NEAR(minima[i].gap, fresh_minima[i].gap, 1e-8);
+    fresh.find(X, 5, fresh_minima);
+    ASSERT_EQ(minima.size(), fresh_minima.size()) << k;  // two convex bodies: one minimum at most
+    if (minima.empty()) continue;
+    EXPECT_EQ(minima.size(), 1u);
+    EXPECT_NEAR(minima[0].gap, fresh_minima[0].gap, 1e-9) << k;
   }
 }
 

@@ -72,6 +72,19 @@ TEST(ShadedMesh, NormalsOfABoxPointOutOfIt) {
   }
 }
 
+TEST(ShadedMesh, OnlyAMeshWithoutGapsThatFacesOutwardIsClosed) {
+  const TriangleMesh whole = box({0, 0, 0}, {2, 2, 2});
+  EXPECT_TRUE(is_closed(whole));
+  TriangleMesh open = whole, inside_out = whole, flipped = whole;
+  open.triangles.pop_back();
+  for (auto& triangle : inside_out.triangles) std::swap(triangle[0], triangle[1]);
+  std::swap(flipped.triangles[0][0], flipped.triangles[0][1]);
+  EXPECT_FALSE(is_closed(open));
+  EXPECT_FALSE(is_closed(inside_out));
+  EXPECT_FALSE(is_closed(flipped));
+  EXPECT_FALSE(is_closed({}));
+}
+
 TEST(ShadedMesh, AppendedPartsKeepTheirTriangles) {
   ShadedMesh whole = ball({0, 0, 0}, 1, {});
   const double one = volume(whole);

@@ -35,7 +35,9 @@ class OutputFile : public testing::Test {
     }
     return "no error";
   }
-  [[nodiscard]] std::ptrdiff_t files() const { return std::distance(fs::directory_iterator(folder_), {}); }
+  [[nodiscard]] std::ptrdiff_t files() const {
+    return std::distance(fs::directory_iterator(folder_), {});
+  }
 
   fs::path folder_;
 };
@@ -54,20 +56,24 @@ TEST_F(OutputFile, ReplacesAnOlderOne) {
 
 TEST_F(OutputFile, NeedsAFolder) {
   const fs::path path = folder_ / "nowhere" / "a.h5";
-  EXPECT_EQ(message_of(path, "x"), path.string() + ": there is no folder " + (folder_ / "nowhere").string() +
+  EXPECT_EQ(message_of(path, "x"), path.string() + ": there is no folder " +
+                                       (folder_ / "nowhere").string() +
                                        ", expected one that exists");
 }
 
 TEST_F(OutputFile, IsNotAFolder) {
-  EXPECT_EQ(message_of(folder_, "x"), folder_.string() + ": is not a file, expected the name of a file to write");
+  EXPECT_EQ(message_of(folder_, "x"),
+            folder_.string() + ": is not a file, expected the name of a file to write");
 }
 
 TEST_F(OutputFile, NeverReplacesADevice) {
-  EXPECT_EQ(message_of("/dev/full", "x"), "/dev/full: is not a file, expected the name of a file to write");
+  EXPECT_EQ(message_of("/dev/full", "x"),
+            "/dev/full: is not a file, expected the name of a file to write");
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
-// A limit on the size of files stands for a full disk: the kernel refuses the write in the same way.
+// A limit on the size of files stands for a full disk: the kernel refuses the write in the same
+// way.
 TEST_F(OutputFile, OfAFullDiskLeavesTheOlderOneAndNothingElse) {
   write_output_file(folder_ / "a", "older");
   rlimit before{};

@@ -118,7 +118,8 @@ TEST_F(RunFile, MarksAFailedPoseWithNanAndItsReason) {
   EXPECT_TRUE(std::isnan(sweep.open("pose").read("translation", {3, 3})[3]));
   EXPECT_TRUE(std::isnan(sweep.open("joint").read("distraction", {3})[1]));
   EXPECT_TRUE(std::isnan(sweep.open("ligaments").open("aACL").read("force", {3})[1]));
-  EXPECT_EQ(sweep.open("contacts").open("medial").read_integers("state", {3}), (std::vector<int>{1, -1, 1}));
+  EXPECT_EQ(sweep.open("contacts").open("medial").read_integers("state", {3}),
+            (std::vector<int>{1, -1, 1}));
   EXPECT_TRUE(std::isnan(sweep.open("contacts").open("medial").read("gap", {3})[1]));
 }
 
@@ -132,10 +133,11 @@ TEST_F(RunFile, HoldsDegreesMillimetresAndNewtons) {
   EXPECT_EQ(sweep.open("joint").read("lateral_shift", {3})[0], 4);
   EXPECT_EQ(sweep.open("pose").read("rotation", {3, 3, 3})[1], -1);  // row 0, column 1
   const Hdf5Group medial = sweep.open("contacts").open("medial");
-  EXPECT_EQ(medial.read("force", {3})[2], 70);                   // the sum, 30 + 40 N
-  EXPECT_EQ(medial.read("point_ground", {3, 3})[6], 4);          // of the point that carries more
+  EXPECT_EQ(medial.read("force", {3})[2], 70);           // the sum, 30 + 40 N
+  EXPECT_EQ(medial.read("point_ground", {3, 3})[6], 4);  // of the point that carries more
   EXPECT_EQ(medial.open("points").read("force", {3, 2})[4], 30);
-  EXPECT_TRUE(std::isnan(medial.open("points").read("force", {3, 2})[1]));  // the first pose has one point
+  EXPECT_TRUE(
+      std::isnan(medial.open("points").read("force", {3, 2})[1]));  // the first pose has one point
   EXPECT_EQ(sweep.open("conditions").open("bend").read("multiplier", {3})[2], -40);
 }
 
@@ -179,17 +181,21 @@ TEST_F(RunFile, WithoutAJointHasNoJointCoordinates) {
   EXPECT_EQ(read_run(path_).sweep.poses[2].X_BA.p, run.sweep.poses[2].X_BA.p);
 }
 
-TEST_F(RunFile, ThatIsMissingIsNamed) { EXPECT_EQ(message(), path_.string() + ": no such file, expected a run (HDF5)"); }
+TEST_F(RunFile, ThatIsMissingIsNamed) {
+  EXPECT_EQ(message(), path_.string() + ": no such file, expected a run (HDF5)");
+}
 
 TEST_F(RunFile, ThatIsSomethingElseIsNamed) {
   std::ofstream(path_) << "solid femur\n";
-  EXPECT_EQ(message(), path_.string() + ": cannot be opened, expected a run (HDF5), whole and readable");
+  EXPECT_EQ(message(),
+            path_.string() + ": cannot be opened, expected a run (HDF5), whole and readable");
 }
 
 TEST_F(RunFile, ThatIsCutShortIsNamed) {
   write_run(path_, made_up_run());
   fs::resize_file(path_, fs::file_size(path_) / 2);
-  EXPECT_EQ(message(), path_.string() + ": cannot be opened, expected a run (HDF5), whole and readable");
+  EXPECT_EQ(message(),
+            path_.string() + ": cannot be opened, expected a run (HDF5), whole and readable");
 }
 
 TEST_F(RunFile, OfAnotherFormatIsNamed) {
@@ -229,7 +235,9 @@ TEST_F(RunFile, TellsTheUnitsOfEveryDataset) {
   expect_units(reader.root(), datasets);
   EXPECT_GT(datasets, 50);
   EXPECT_EQ(reader.root().open("sweep").read_attribute("value", "units"), "deg");
-  EXPECT_EQ(reader.root().open("sweep").open("stability").read_attribute("lowest_stiffness", "units"), "N/mm");
+  EXPECT_EQ(
+      reader.root().open("sweep").open("stability").read_attribute("lowest_stiffness", "units"),
+      "N/mm");
 }
 
 }  // namespace

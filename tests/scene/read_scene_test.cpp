@@ -28,11 +28,14 @@ TEST(ReadScene, RefersByIndex) {
 TEST(ReadScene, KeepsTheWholeText) { EXPECT_EQ(small().text, kSmallScene); }
 
 TEST(ReadScene, TakesItsTitleFromTheFileWhereItHasNone) {
-  EXPECT_EQ(parse_scene(small_scene_with("title = \"ball and socket\"", ""), "some/knee.toml").title, "knee");
+  EXPECT_EQ(
+      parse_scene(small_scene_with("title = \"ball and socket\"", ""), "some/knee.toml").title,
+      "knee");
 }
 
 TEST(ReadScene, VariesTheScaleOfALoad) {
-  const Scene scene = parse_scene(small_scene_with("vary = \"bend\"", "vary = \"weight.scale\""), "knee.toml");
+  const Scene scene =
+      parse_scene(small_scene_with("vary = \"bend\"", "vary = \"weight.scale\""), "knee.toml");
   EXPECT_TRUE(scene.sweep->varies_load);
   EXPECT_EQ(scene.sweep->index, 0);
   EXPECT_DOUBLE_EQ(scene.sweep->values.back(), 120);  // a factor has no unit
@@ -41,15 +44,17 @@ TEST(ReadScene, VariesTheScaleOfALoad) {
 TEST(ReadScene, TakesTheSlackLengthFromTheStrainAtTheStartPose) {
   // The ends lie 30 mm apart; the start pose moves the tibia 3 mm away, so l0 = 33/1.1.
   const std::string strained = small_scene_with("slack_length = 30", "reference_strain = 0.1");
-  const Scene scene = parse_scene(with(strained, "translation = [0, 0, 0]", "translation = [0, -3, 0]"), "knee.toml");
+  const Scene scene = parse_scene(
+      with(strained, "translation = [0, 0, 0]", "translation = [0, -3, 0]"), "knee.toml");
   EXPECT_DOUBLE_EQ(slack_length(scene.ligaments[0].law), 30);
   EXPECT_DOUBLE_EQ(*scene.ligaments[0].reference_strain, 0.1);
 }
 
 TEST(ReadScene, StartsFromJointAngles) {
-  const Scene scene = parse_scene(small_scene_with("start.rotation = [0, 0, 0]", "start.flexion = 90"), "knee.toml");
-  // Flexion of a right knee with lateral = z, anterior = x, proximal = y: the shank swings backwards, so that its
-  // proximal axis points anteriorly.
+  const Scene scene = parse_scene(
+      small_scene_with("start.rotation = [0, 0, 0]", "start.flexion = 90"), "knee.toml");
+  // Flexion of a right knee with lateral = z, anterior = x, proximal = y: the shank swings
+  // backwards, so that its proximal axis points anteriorly.
   EXPECT_NEAR(start_pose(scene).R.col(1).x(), 1, 1e-15);
   EXPECT_NEAR(start_pose(scene).R.col(2).z(), 1, 1e-15);
 }
@@ -64,9 +69,10 @@ TEST(ReadScene, WantsALeftHandedTriadOfALeftKnee) {
 }
 
 TEST(ReadScene, MakesRoundedAxesExact) {
-  const Scene scene = parse_scene(
-      small_scene_with("anterior = [1, 0, 0], proximal = [0, 1, 0]", "anterior = [0.8, 0.6, 0], proximal = [-0.5999, 0.8001, 0]"),
-      "knee.toml");
+  const Scene scene =
+      parse_scene(small_scene_with("anterior = [1, 0, 0], proximal = [0, 1, 0]",
+                                   "anterior = [0.8, 0.6, 0], proximal = [-0.5999, 0.8001, 0]"),
+                  "knee.toml");
   const AnatomicalFrame& frame = scene.joint->femur;
   EXPECT_NEAR(frame.anterior.dot(frame.proximal), 0, 1e-15);
   EXPECT_NEAR(frame.proximal.norm(), 1, 1e-15);
@@ -75,7 +81,8 @@ TEST(ReadScene, MakesRoundedAxesExact) {
 TEST(ReadScene, AcceptsTheKeysOfTheContractOnAPatch) {
   const std::string sphere = "kind = \"sphere\"\ncenter = [0, 20, 0]\nradius = 20";
   const std::string patch =
-      "kind = \"patch\"\nsolid = \"inside\"\ncompartment = \"medial\"\nmesh = \"cartilage.stl\"\nmesh_units = \"m\"\n"
+      "kind = \"patch\"\nsolid = \"inside\"\ncompartment = \"medial\"\nmesh = "
+      "\"cartilage.stl\"\nmesh_units = \"m\"\n"
       "fit = { control_points = \"auto\", smoothing = \"auto\" }";
   const Scene scene = parse_scene(small_scene_with(sphere, patch), "knee.toml");
   const PatchDescription& description = scene.surfaces[0].patch;
@@ -88,7 +95,9 @@ TEST(ReadScene, AcceptsTheKeysOfTheContractOnAPatch) {
 TEST(Describe, SaysWhatTheSceneHolds) {
   const std::string text = describe(small());
   EXPECT_NE(text.find("ball: sphere on femur"), std::string::npos) << text;
-  EXPECT_NE(text.find("aACL: toe-linear, 30 mm at the start pose, slack length 30 mm"), std::string::npos) << text;
+  EXPECT_NE(text.find("aACL: toe-linear, 30 mm at the start pose, slack length 30 mm"),
+            std::string::npos)
+      << text;
   EXPECT_NE(text.find("bend from 0 to 120 deg, 25 poses"), std::string::npos) << text;
 }
 
@@ -96,15 +105,16 @@ TEST(Describe, SaysWhatTheSceneHolds) {
 class SpecimenScene : public testing::TestWithParam<const char*> {};
 
 TEST_P(SpecimenScene, IsRead) {
-  const std::filesystem::path file =
-      std::filesystem::path(CONDYLE_SOURCE_DIR) / ".." / "shared" / "specimens" / GetParam() / "knee.toml";
+  const std::filesystem::path file = std::filesystem::path(CONDYLE_SOURCE_DIR) / ".." / "shared" /
+                                     "specimens" / GetParam() / "knee.toml";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no specimen at " << file;
   const Scene scene = read_scene(file);
   EXPECT_EQ(scene.surfaces.size(), 4U);
   EXPECT_GE(scene.ligaments.size(), 50U);
   EXPECT_EQ(scene.sweep->values.size(), 19U);  // 0 to 90 by 5
   for (const LigamentDescription& ligament : scene.ligaments) {
-    const double stretch = distance_between(scene, ligament.ends, start_pose(scene)) / slack_length(ligament.law);
+    const double stretch =
+        distance_between(scene, ligament.ends, start_pose(scene)) / slack_length(ligament.law);
     EXPECT_GT(stretch, 0.7) << ligament.name;
     EXPECT_LT(stretch, 1.3) << ligament.name;
   }

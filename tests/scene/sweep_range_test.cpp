@@ -19,7 +19,9 @@ TEST(RangeValues, StopBeforeTheEndWhereItIsNot) {
   EXPECT_EQ(range_values(0, 12, 5), (std::vector<double>{0, 5, 10}));
 }
 
-TEST(RangeValues, GoDownwards) { EXPECT_EQ(range_values(10, 0, -5), (std::vector<double>{10, 5, 0})); }
+TEST(RangeValues, GoDownwards) {
+  EXPECT_EQ(range_values(10, 0, -5), (std::vector<double>{10, 5, 0}));
+}
 
 TEST(RangeValues, OfEqualEndsAreOne) { EXPECT_EQ(range_values(7, 7, 0), std::vector<double>{7}); }
 
