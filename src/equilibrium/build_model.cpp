@@ -1,21 +1,9 @@
 #include "equilibrium/build_model.h"
 
-#include <cassert>
-
-#include "math/rotation.h"
+#include "scene/start_pose.h"
 
 namespace condyle {
 namespace {
-
-/// Columns I, J, K: on a left knee the first axis is medial, which makes the triad right-handed.
-RigidTransform right_handed(const AnatomicalFrame& frame, Side side) {
-  RigidTransform X;
-  X.R.col(0) = side == Side::kRight ? frame.lateral : Eigen::Vector3d(-frame.lateral);
-  X.R.col(1) = frame.anterior;
-  X.R.col(2) = frame.proximal;
-  X.p = frame.origin;
-  return X;
-}
 
 /// Orders two ends as (on B, on A).
 std::array<Eigen::Vector3d, 2> fixed_then_moving(const std::array<Attachment, 2>& ends, int fixed) {
@@ -31,27 +19,7 @@ ContactMode mode_of(ContactState state) {
   }
 }
 
-RigidTransform start_pose(const Scene& scene) {
-  const BodyDescription& body = scene.bodies[scene.moving_body()];
-  RigidTransform X{exp_rotation(body.start_rotation), body.start_translation};
-  if (body.start_joint_angles) {
-    const auto& [flexion, adduction, internal_rotation] = *body.start_joint_angles;
-    X.R = rotation_from_joint_angles(joint_frames(scene), flexion, adduction, internal_rotation);
-  }
-  return X;
-}
-
 }  // namespace
-
-JointFrames joint_frames(const Scene& scene) {
-  assert(scene.joint);
-  JointFrames frames;
-  frames.X_F = right_handed(scene.joint->femur, scene.joint->side);
-  frames.X_T = right_handed(scene.joint->tibia, scene.joint->side);
-  frames.tibia_moves = scene.joint->tibia.body == scene.moving_body();
-  frames.side = scene.joint->side == Side::kRight ? 1 : -1;
-  return frames;
-}
 
 Model build_model(const Scene& scene, const std::vector<FittedSurface>& surfaces) {
   const int fixed = scene.fixed_body();

@@ -13,7 +13,4 @@ namespace condyle {
 /// `surfaces` as from fit_surfaces: one per Scene::surfaces.
 [[nodiscard]] Model build_model(const Scene& scene, const std::vector<FittedSurface>& surfaces);
 
-/// The frames of the joint coordinates, right-handed for either side.
-[[nodiscard]] JointFrames joint_frames(const Scene& scene);
-
 }  // namespace condyle

@@ -37,10 +37,10 @@ Vector3d middle_anchor(const std::vector<Vector3d>& anchors) {
 std::vector<LigamentLabel> ligament_labels(const Scenery& scenery) {
   const std::vector<RigidTransform> X_P = body_poses(scenery.run.scene, scenery.pose.X_BA);
   std::vector<LigamentLabel> labels;
-  for (const LigamentGroup& group : ligament_groups(scenery.run.scene)) {
+  for (const LigamentBundle& group : ligament_groups(scenery.run.scene)) {
     LigamentLabel label{group.name, 0, Vector3d::Zero()};
     std::vector<Vector3d> anchors;
-    for (const std::size_t strand : group.strands) {
+    for (const std::size_t strand : group.members) {
       if (strand >= scenery.pose.ligaments.size()) continue;
       label.force += scenery.pose.ligaments[strand].force;
       if (scenery.view == View::kPlateau && !scenery.seen_from_above[strand]) continue;

@@ -80,9 +80,9 @@ Chart contact_force_chart(const Run& run) {
 Chart ligament_force_chart(const Run& run) {
   Chart chart = chart_of(run, "ligament forces");
   Panel panel{"Ligament force [N]", {}, true};
-  for (const LigamentGroup& group : ligament_groups(run.scene)) {
+  for (const LigamentBundle& group : ligament_groups(run.scene)) {
     panel.curves.push_back(curve_of(
-        run, group.name, [&](const PoseResult& pose) { return total_force(pose, group.strands); }));
+        run, group.name, [&](const PoseResult& pose) { return total_force(pose, group.members); }));
   }
   if (!panel.curves.empty()) chart.panels = {panel};
   return chart;

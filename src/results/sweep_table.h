@@ -7,20 +7,10 @@
 #include <vector>
 
 #include "equilibrium/pose_result.h"
+#include "scene/ligament_bundles.h"
 #include "scene/scene.h"
 
 namespace condyle {
-
-/// Ligaments whose forces are added up in one column.
-struct LigamentColumn {
-  std::string name;
-  std::vector<std::size_t> members;  ///< indices into Scene::ligaments
-};
-
-/// Each ligament for itself where there are few. Else by name, first without the number at its end
-/// (ACLam3 is of ACLam), then without the small letters before it too (ACLam is of ACL).
-[[nodiscard]] std::vector<LigamentColumn> ligament_columns(const std::vector<std::string>& names,
-                                                           std::size_t most = 12);
 
 class SweepTable {
  public:
@@ -40,7 +30,7 @@ class SweepTable {
   [[nodiscard]] static int width(const Cell& cell);
 
   double swept_unit_ = 1;
-  std::vector<LigamentColumn> ligaments_;
+  std::vector<LigamentBundle> ligaments_;
   std::vector<Cell> cells_;
 };
 

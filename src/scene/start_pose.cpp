@@ -1,5 +1,7 @@
 #include "scene/start_pose.h"
 
+#include <cassert>
+
 #include "elements/joint_coordinates.h"
 #include "math/rotation.h"
 
@@ -17,16 +19,17 @@ RigidTransform right_handed(const AnatomicalFrame& frame, Side side) {
   return X;
 }
 
-JointFrames frames_of(const JointDescription& joint, int moving_body) {
+}  // namespace
+
+JointFrames joint_frames(const Scene& scene) {
+  assert(scene.joint.has_value());
   JointFrames frames;
-  frames.X_F = right_handed(joint.femur, joint.side);
-  frames.X_T = right_handed(joint.tibia, joint.side);
-  frames.tibia_moves = joint.tibia.body == moving_body;
-  frames.side = joint.side == Side::kRight ? 1 : -1;
+  frames.X_F = right_handed(scene.joint->femur, scene.joint->side);
+  frames.X_T = right_handed(scene.joint->tibia, scene.joint->side);
+  frames.tibia_moves = scene.joint->tibia.body == scene.moving_body();
+  frames.side = scene.joint->side == Side::kRight ? 1 : -1;
   return frames;
 }
-
-}  // namespace
 
 RigidTransform start_pose(const Scene& scene) {
   const BodyDescription& body = scene.bodies[static_cast<std::size_t>(scene.moving_body())];
@@ -34,8 +37,7 @@ RigidTransform start_pose(const Scene& scene) {
   X_BA.p = body.start_translation;
   if (body.start_joint_angles) {
     const auto& [flexion, adduction, internal_rotation] = *body.start_joint_angles;
-    const JointFrames frames = frames_of(*scene.joint, scene.moving_body());
-    X_BA.R = rotation_from_joint_angles(frames, flexion, adduction, internal_rotation);
+    X_BA.R = rotation_from_joint_angles(joint_frames(scene), flexion, adduction, internal_rotation);
   } else {
     X_BA.R = exp_rotation(body.start_rotation);
   }

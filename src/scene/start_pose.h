@@ -1,11 +1,15 @@
 #pragma once
 
-/// Where a sweep starts.
+/// Where a sweep starts, and the frames its joint coordinates are measured in.
 
+#include "elements/joint_coordinates.h"
 #include "math/rigid_transform.h"
 #include "scene/scene.h"
 
 namespace condyle {
+
+/// The frames of the joint coordinates, right-handed for either side; needs scene.joint.
+[[nodiscard]] JointFrames joint_frames(const Scene& scene);
 
 /// Start pose X_BA of the moving body in the ground frame: translation of O_A and rotation vector
 /// or joint angles.

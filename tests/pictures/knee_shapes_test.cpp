@@ -121,7 +121,7 @@ TEST(LigamentGroups, NumberedStrandsAreOneLigament) {
   ASSERT_EQ(groups.size(), 2u);
   EXPECT_EQ(groups[0].name, "LCL");
   EXPECT_EQ(groups[1].name, "MCL");
-  EXPECT_EQ(groups[1].strands, (std::vector<std::size_t>{1, 2}));
+  EXPECT_EQ(groups[1].members, (std::vector<std::size_t>{1, 2}));
   Scene scene = block_scene(1);
   scene.ligaments.pop_back();
   EXPECT_EQ(ligament_groups(scene)[1].name, "MCL1") << "a single one keeps its number";
