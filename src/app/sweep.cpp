@@ -59,6 +59,7 @@ int run_sweep(const SweepCommand& command) {
   };
   const SweepResult result = sweep(scene, surfaces, options);
   fmt::print("\n{}\n", summary(result));
+  for (const std::string& line : event_lines(scene, result)) fmt::print("{}\n", line);
   write_run(command.output, make_run(scene, surfaces, result));
   fmt::print("wrote {}\n", command.output);
   std::fflush(stdout);

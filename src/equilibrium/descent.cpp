@@ -362,7 +362,12 @@ bool Descent::try_newton(const Multipliers& multipliers,
     if (!constraints[k].bilateral && multipliers.p[k] <= 1e-9 * multipliers.largest) continue;
     trial.contacts.push_back({constraints[k].pair, constraints[k].on_B, constraints[k].on_A, multipliers.p[k]});
   }
-  if (trial.contacts.size() + trial.sigma.size() > kMaxConstraints) return false;
+  if (trial.sigma.size() > kMaxConstraints) return false;
+  if (trial.contacts.size() > kMaxConstraints - trial.sigma.size()) {  // the strongest ones
+    std::sort(trial.contacts.begin(), trial.contacts.end(),
+              [](const ClosedContact& a, const ClosedContact& b) { return a.p > b.p; });
+    trial.contacts.resize(kMaxConstraints - trial.sigma.size());
+  }
   report.newton = newton_.solve(trial);
   report.iterations += report.newton.iterations;
   report.converged = report.newton.outcome == NewtonOutcome::kConverged && accept(trial);

@@ -17,4 +17,15 @@ const char* name(PoseStatus status) {
   return "unknown";
 }
 
+const char* name(EventKind kind) {
+  switch (kind) {
+    case EventKind::kClosing: return "closing";
+    case EventKind::kOpening: return "opening";
+    case EventKind::kJump: return "jump";
+    case EventKind::kLeavingPatch: return "leaving patch";
+    case EventKind::kReturningToPatch: return "returning to patch";
+  }
+  return "unknown";
+}
+
 }  // namespace condyle

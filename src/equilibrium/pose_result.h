@@ -77,8 +77,28 @@ struct PoseResult {
   [[nodiscard]] bool converged() const { return status == PoseStatus::kConverged; }
 };
 
+/// What happens to a contact at one value of a sweep; the values are those of /events/kind.
+enum class EventKind {
+  kClosing = 0,           ///< a point of contact begins to carry
+  kOpening = 1,           ///< a point of contact ceases to carry
+  kJump = 2,              ///< the contact goes from one place to another
+  kLeavingPatch = 3,      ///< the contact passes the edge of the known surface outwards
+  kReturningToPatch = 4   ///< and inwards
+};
+inline constexpr int kEventKindCount = 5;
+
+/// "closing", "opening", "jump", ...
+[[nodiscard]] const char* name(EventKind kind);
+
+struct Event {
+  double value = 0;  ///< of what is swept [rad], [mm] or [-]
+  EventKind kind = EventKind::kClosing;
+  int contact = 0;   ///< index into Scene::contacts
+};
+
 struct SweepResult {
   std::vector<PoseResult> poses;
+  std::vector<Event> events;  ///< in the order in which the sweep meets them
   [[nodiscard]] int count_converged() const {
     int n = 0;
     for (const PoseResult& pose : poses) n += pose.converged() ? 1 : 0;

@@ -13,6 +13,7 @@ namespace condyle {
 
 struct SweepOptions {
   bool stability = true;                                  ///< reduced stiffness of each pose
+  bool events = true;                                     ///< locate what happens to contacts between poses
   std::function<void(const PoseResult&)> on_pose;         ///< called after each pose, in order
 };
 

@@ -155,6 +155,20 @@ void read_sweep(const Hdf5Group& sweep, Run& run) {
   for (const PoseResult& pose : poses) run.scene.sweep->values.push_back(pose.value);
 }
 
+void read_events(const Hdf5Group& group, Run& run) {
+  const double unit = run.scene.sweep ? border_sweep_unit(run.scene).factor : 1;
+  const std::vector<double> values = group.read("value").values;
+  const Shape n = {values.size()};
+  const std::vector<int> kinds = group.read_integers("kind", n);
+  const std::vector<int> contacts = group.read_integers("contact", n);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (kinds[i] < 0 || kinds[i] >= kEventKindCount || contacts[i] < 0 ||
+        contacts[i] >= static_cast<int>(run.scene.contacts.size()))
+      group.fail("holds an event of no known kind or contact");
+    run.sweep.events.push_back({values[i] * unit, static_cast<EventKind>(kinds[i]), contacts[i]});
+  }
+}
+
 std::vector<Eigen::Vector3d> read_points(const Hdf5Group& group, const char* name, Shape& shape) {
   const Hdf5Array array = group.read(name);
   shape = array.shape;
@@ -240,6 +254,7 @@ Run read_run(const std::filesystem::path& path) {
   Run run;
   run.scene = read_head(root);
   if (root.has("sweep")) read_sweep(root.open("sweep"), run);
+  if (root.has("events")) read_events(root.open("events"), run);
   const Hdf5Group patches = root.open("patches");
   for (const std::string& name : patches.names())
     run.patches.push_back(read_patch(patches.open(name), name, run.scene));

@@ -136,6 +136,16 @@ std::string summary(const SweepResult& sweep) {
       1e6 * seconds / static_cast<double>(std::max<std::size_t>(n, 1)));
 }
 
+std::vector<std::string> event_lines(const Scene& scene, const SweepResult& sweep) {
+  const Unit unit = scene.sweep ? border_sweep_unit(scene) : Unit{"1", 1};
+  std::vector<std::string> lines;
+  for (const Event& event : sweep.events) {
+    lines.push_back(fmt::format("{}: {} at {:.6f} {}", scene.contacts.at(static_cast<std::size_t>(event.contact)).name,
+                                name(event.kind), event.value / unit.factor, unit.name));
+  }
+  return lines;
+}
+
 std::vector<std::string> failures(const Scene& scene, const SweepResult& sweep) {
   std::vector<std::string> lines;
   const Unit unit = scene.sweep ? border_sweep_unit(scene) : Unit{"1", 1};

@@ -214,6 +214,26 @@ void write_solver(const Hdf5Group& sweep, const Poses& poses) {
   newton.write("seconds", numbers(poses, [](const PoseResult& p) { return p.seconds; }), n, "s");
 }
 
+void write_events(const Hdf5Group& group, const Scene& scene, const std::vector<Event>& events) {
+  const Unit unit = scene.sweep ? border_sweep_unit(scene) : Unit{"1", 1};
+  std::vector<double> values;
+  std::vector<int> kinds, contacts;
+  for (const Event& event : events) {
+    values.push_back(event.value / unit.factor);
+    kinds.push_back(static_cast<int>(event.kind));
+    contacts.push_back(event.contact);
+  }
+  const Shape n = {events.size()};
+  group.write("value", values, n, unit.name);
+  group.write("kind", kinds, n, "1");
+  group.write("contact", contacts, n, "1");
+  std::vector<std::string> meanings, names;
+  for (int i = 0; i < kEventKindCount; ++i) meanings.emplace_back(name(static_cast<EventKind>(i)));
+  for (const ContactDescription& contact : scene.contacts) names.push_back(contact.name);
+  group.write_attribute("kind", "meaning", meanings);
+  group.write_attribute("contact", "meaning", names);
+}
+
 void write_fit(const Hdf5Group& patch, const FitReport& report) {
   patch.write("rms_mm", std::vector<double>{report.rms}, {}, "mm");
   patch.write("max_mm", std::vector<double>{report.max}, {}, "mm");
@@ -269,6 +289,7 @@ void write_all(const Hdf5Group& root, const Run& run) {
     write_pose(sweep, run.scene, run.sweep.poses);
     write_elements(sweep, run.scene, run.sweep.poses);
     write_solver(sweep, run.sweep.poses);
+    write_events(root.create("events"), run.scene, run.sweep.events);
   }
   const Hdf5Group patches = root.create("patches");
   for (const RunPatch& patch : run.patches)

@@ -4,8 +4,10 @@
 
 #include <cmath>
 
+#include "equilibrium/equilibrium_solver.h"
 #include "math/rotation.h"
 #include "support/report_problems.h"
+#include "support/spring_knee.h"
 
 namespace condyle {
 namespace {
@@ -102,6 +104,31 @@ TEST(Newton, ResidualFallsQuadratically) {
   // e_{k+1} <= C e_k² with C of order one; 1e-12 is the tolerance at which Newton stops.
   ASSERT_LT(error.back(), 1e-12);
   for (std::size_t k = 1; k + 1 < error.size(); ++k) EXPECT_LE(error[k + 1], 3 * error[k] * error[k] + 1e-12);
+}
+
+// One Newton step from a displaced pose must land within the square of the displacement in every direction, which a wrong
+// entry of the matrix would not allow: half the displacement, a quarter of the error.
+TEST(Newton, OneStepLeavesTheSquareOfTheDisplacement) {
+  Model model = test::spring_knee();
+  model.conditions[0].value = 0.5;
+  EquilibriumSolver solver(model);
+  ASSERT_TRUE(solver.solve().converged());
+  const EquilibriumState solution = solver.state();
+  const auto error_after = [&](int direction, double size) {
+    EquilibriumState state = solution;
+    if (direction < 3) {
+      state.X.p += size * model.length * Eigen::Vector3d::Unit(direction);
+    } else {
+      state.X.R = exp_rotation(size * Eigen::Vector3d::Unit(direction - 3)) * state.X.R;
+    }
+    Newton newton(model, {.max_iterations = 1});
+    newton.solve(state);
+    return (state.X.p - solution.X.p).norm() + model.length * (state.X.R - solution.X.R).norm();
+  };
+  for (int direction = 0; direction < 6; ++direction) {
+    const double whole = error_after(direction, 1e-4), half = error_after(direction, 0.5e-4);
+    EXPECT_GT(whole / half, 3.5) << direction;
+  }
 }
 
 TEST(Newton, ContactThatDependsOnAConditionIsSingular) {

@@ -12,6 +12,7 @@
 #include "input_error.h"
 #include "mesh/clean_mesh.h"
 #include "mesh/mesh_shapes.h"
+#include "support/scratch_folder.h"
 
 namespace condyle {
 namespace {
@@ -23,8 +24,7 @@ namespace fs = std::filesystem;
 class LoadMesh : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              (std::string("condyle_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = test::scratch_folder("condyle_mesh");
     fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }

@@ -10,6 +10,7 @@
 #include "pictures/block_knee.h"
 #include "pictures/png_file.h"
 #include "pictures/run_program.h"
+#include "support/scratch_folder.h"
 
 namespace condyle {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 bool has_gnuplot() { return run_program({"gnuplot", "--version"}, "").exit_code == 0; }
 
 std::filesystem::path fresh_folder() {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "condyle's plots";
+  const auto folder = test::scratch_folder("condyle_plots");
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

@@ -5,12 +5,13 @@
 #include <fstream>
 
 #include "input_error.h"
+#include "support/scratch_folder.h"
 
 namespace condyle {
 namespace {
 
 std::filesystem::path fresh_folder() {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "condyle_png_file_test";
+  const auto folder = test::scratch_folder("condyle_png");
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

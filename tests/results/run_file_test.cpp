@@ -43,6 +43,18 @@ void expect_same_point(const ContactPointResult& a, const ContactPointResult& b)
   EXPECT_EQ(a.on_edge, b.on_edge);
 }
 
+TEST_F(RunFile, GivesBackTheEvents) {
+  condyle::Run run = made_up_run();
+  run.sweep.events = {{0.25, EventKind::kOpening, 0}, {0.5, EventKind::kJump, 0}};
+  write_run(path_, run);
+  const condyle::Run back = read_run(path_);
+  ASSERT_EQ(back.sweep.events.size(), 2U);
+  EXPECT_NEAR(back.sweep.events[0].value, 0.25, 1e-16);  // to degrees and back
+  EXPECT_EQ(back.sweep.events[0].kind, EventKind::kOpening);
+  EXPECT_EQ(back.sweep.events[1].kind, EventKind::kJump);
+  EXPECT_EQ(back.sweep.events[1].contact, 0);
+}
+
 TEST_F(RunFile, GivesBackThePoses) {
   const condyle::Run run = made_up_run();
   write_run(path_, run);

@@ -11,6 +11,7 @@
 #include "input_error.h"
 #include "scene/read_scene.h"
 #include "scene/small_scene.h"
+#include "support/scratch_folder.h"
 
 namespace condyle {
 namespace {
@@ -385,7 +386,7 @@ TEST(BadSceneFile, ThatIsAFolderIsNamed) {
 
 TEST(BadSceneFile, NamingAMeshThatDoesNotExistSaysWhereItLooked) {
   const std::filesystem::path file =
-      std::filesystem::path(testing::TempDir()) / "condyle_no_mesh.toml";
+      test::scratch_folder("condyle_no_mesh").replace_extension("toml");
   std::ofstream(file) << small_scene_with("fixed = true", "fixed = true\nmesh = \"no.stl\"");
   const std::string mesh = (file.parent_path() / "no.stl").string();
   EXPECT_EQ(message_of_file(file),

@@ -1,0 +1,128 @@
+#include "equilibrium/events.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace condyle {
+namespace {
+
+int points_of(const PoseResult& pose, std::size_t contact) {
+  const ContactResult& c = pose.contacts[contact];
+  return c.closed ? static_cast<int>(c.points.size()) : 0;
+}
+
+bool beyond_edge(const PoseResult& pose, std::size_t contact) {
+  const ContactResult& c = pose.contacts[contact];
+  return c.closed && std::any_of(c.points.begin(), c.points.end(),
+                                 [](const ContactPointResult& point) { return point.edge_distance < 0; });
+}
+
+bool same_contacts(const PoseResult& a, const PoseResult& b) {
+  for (std::size_t c = 0; c < a.contacts.size(); ++c)
+    if (points_of(a, c) != points_of(b, c) || beyond_edge(a, c) != beyond_edge(b, c)) return false;
+  return true;
+}
+
+/// How far the points of a contact moved on either body, where their number is the same [mm].
+double motion(const PoseResult& a, const PoseResult& b, std::size_t contact) {
+  const auto& from = a.contacts[contact].points;
+  const auto& to = b.contacts[contact].points;
+  if (points_of(a, contact) == 0 || from.size() != to.size()) return 0;
+  double largest = 0;
+  for (const ContactPointResult& p : from) {
+    double nearest = INFINITY;
+    for (const ContactPointResult& q : to)
+      nearest = std::min(nearest, std::max((p.point_ground - q.point_ground).norm(),
+                                           (p.point_moving - q.point_moving).norm()));
+    largest = std::max(largest, nearest);
+  }
+  return largest;
+}
+
+void append_changes(const SolvedPose& before, const SolvedPose& after, std::vector<Event>& events) {
+  for (std::size_t c = 0; c < before.result.contacts.size(); ++c) {
+    const int was = points_of(before.result, c), is = points_of(after.result, c);
+    const auto add = [&](EventKind kind) {
+      events.push_back({0.5 * (before.value + after.value), kind, static_cast<int>(c)});
+    };
+    for (int k = was; k < is; ++k) add(EventKind::kClosing);
+    for (int k = is; k < was; ++k) add(EventKind::kOpening);
+    const bool was_out = beyond_edge(before.result, c), is_out = beyond_edge(after.result, c);
+    if (was_out != is_out) add(is_out ? EventKind::kLeavingPatch : EventKind::kReturningToPatch);
+  }
+}
+
+class EventSearch {
+ public:
+  EventSearch(EquilibriumSolver& solver, double& swept, const EventOptions& options)
+      : solver_(solver), swept_(swept), options_(options) {}
+
+  /// The pose at a value, from another one; nothing where it has no equilibrium.
+  std::optional<SolvedPose> pose_at(double value, const SolvedPose& from) {
+    swept_ = from.value;
+    solver_.set_state(from.state);
+    swept_ = value;
+    SolvedPose pose{value, solver_.solve(), {}};
+    if (!is_solved(pose.result)) return std::nullopt;
+    pose.state = solver_.state();
+    return pose;
+  }
+
+  /// Closes in on the first change of contacts right of `left`; false where a trial has no equilibrium.
+  bool bisect_change(SolvedPose& left, SolvedPose& right) {
+    while (std::abs(right.value - left.value) > options_.tolerance) {
+      std::optional<SolvedPose> middle = pose_at(0.5 * (left.value + right.value), left);
+      if (!middle) return false;
+      (same_contacts(left.result, middle->result) ? left : right) = *middle;
+    }
+    return true;
+  }
+
+  /// Follows the greater part of the motion of one contact; true when it stays a jump.
+  bool bisect_jump(SolvedPose& left, SolvedPose& right, std::size_t contact, double jump) {
+    while (std::abs(right.value - left.value) > options_.tolerance) {
+      if (motion(left.result, right.result, contact) < jump) return false;
+      std::optional<SolvedPose> middle = pose_at(0.5 * (left.value + right.value), left);
+      if (!middle || !same_contacts(left.result, middle->result)) return false;
+      const bool in_left = motion(left.result, middle->result, contact) >
+                           motion(middle->result, right.result, contact);
+      (in_left ? right : left) = *middle;
+    }
+    return motion(left.result, right.result, contact) >= jump;
+  }
+
+ private:
+  EquilibriumSolver& solver_;
+  double& swept_;
+  const EventOptions& options_;
+};
+
+}  // namespace
+
+bool is_solved(const PoseResult& pose) { return pose.converged() || pose.status == PoseStatus::kLeftPatch; }
+
+void locate_events(EquilibriumSolver& solver,
+                   double& swept,
+                   const SolvedPose& left,
+                   const SolvedPose& right,
+                   std::vector<Event>& events,
+                   const EventOptions& options) {
+  EventSearch search(solver, swept, options);
+  SolvedPose from = left;
+  for (int k = 0; k < options.most_events && !same_contacts(from.result, right.result); ++k) {
+    SolvedPose before = from, after = right;
+    if (!search.bisect_change(before, after)) return;
+    append_changes(before, after, events);
+    from = after;
+  }
+  const double L = solver.model().length;
+  for (std::size_t c = 0; c < left.result.contacts.size(); ++c) {
+    if (!same_contacts(left.result, right.result) || motion(left.result, right.result, c) < options.far * L) continue;
+    SolvedPose before = left, after = right;
+    if (search.bisect_jump(before, after, c, options.jump * L))
+      events.push_back({0.5 * (before.value + after.value), EventKind::kJump, static_cast<int>(c)});
+  }
+}
+
+}  // namespace condyle

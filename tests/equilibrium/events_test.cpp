@@ -1,0 +1,97 @@
+#include "equilibrium/events.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "math/rotation.h"
+#include "support/report_problems.h"
+
+namespace condyle {
+namespace {
+
+struct Swept {
+  std::vector<Event> events;
+  std::vector<PoseResult> poses;
+};
+
+/// Sweeps one value of the model and locates the events, as the sweep of a scene does.
+Swept run(EquilibriumSolver& solver, double& swept, const std::vector<double>& values) {
+  Swept result;
+  std::optional<SolvedPose> last;
+  for (const double value : values) {
+    swept = value;
+    PoseResult pose = solver.solve();
+    EXPECT_TRUE(is_solved(pose)) << value << ": " << pose.reason;
+    const SolvedPose now{value, pose, solver.state()};
+    if (last) locate_events(solver, swept, *last, now, result.events);
+    swept = value;
+    solver.set_state(now.state);
+    last = now;
+    result.poses.push_back(std::move(pose));
+  }
+  return result;
+}
+
+// The contact of problem 1 carries p(0) = 32.11453374 N [theory section 9]: a pull of x newtons off the wall leaves
+// p(0) - x, so the contact opens at exactly that pull, and closes there on the way back.
+TEST(Events, ContactOpensWhereThePullEqualsItsForceAndClosesThereAgain) {
+  Model model = test::Problem1::model(0, 1);  // a pull of 1 N, scaled by the sweep
+  model.start.R = exp_rotation({0, -1.3, 0});
+  EquilibriumSolver solver(std::move(model));
+  const Swept result = run(solver, solver.model().loads[1].scale, {0, 20, 40, 20, 0});
+  ASSERT_EQ(result.events.size(), 2u);
+  EXPECT_EQ(result.events[0].kind, EventKind::kOpening);
+  EXPECT_EQ(result.events[1].kind, EventKind::kClosing);
+  // Between the values at which the contact is told to be open and closed lies the tolerance of 1e-9; a gap counts as
+  // closed from an overlap of 5e-7/30 L on, and the joint is about 10 N/cm stiff.
+  EXPECT_NEAR(result.events[0].value, test::Problem1::p(0), 2e-9);
+  EXPECT_NEAR(result.events[1].value, test::Problem1::p(0), 1e-6);
+}
+
+TEST(Events, NothingHappensOnAQuietSweep) {
+  Model model = test::Problem1::model(0);
+  model.start.R = exp_rotation({0, -1.3, 0});
+  EquilibriumSolver solver(std::move(model));
+  EXPECT_TRUE(run(solver, solver.model().conditions[0].value, {0, 0.5, 1, 1.5}).events.empty());
+}
+
+// A ball that may only move up and down is carried along over two ridges: the contact jumps from one to the other where
+// both are as high.
+TEST(Events, AContactThatJumpsBetweenTwoRidgesDoesSoHalfWay) {
+  Model model;
+  ContactPair pair;
+  pair.name = "floor";
+  // z = 2 x²/100 - x⁴/10000: ridges at x = -10 and 10.
+  pair.on_B = make_polynomial({0, 0, 0}, Eigen::Matrix3d::Identity(), {{2, 0, 0.02}, {4, 0, -0.0001}}, true);
+  pair.on_A = make_sphere({0, 0, 0}, 60, true);
+  model.pairs = {pair};
+  Load weight;
+  weight.vector = {0, 0, -10};
+  model.loads = {weight};
+  model.load_names = {"weight"};
+  const auto hold = [&](ConditionKind kind, const Eigen::Vector3d& axis, int cardan, double value) {
+    KinematicCondition condition;
+    condition.kind = kind;
+    condition.axis = axis;
+    condition.cardan_axis = cardan;
+    condition.value = value;
+    model.conditions.push_back(condition);
+    model.condition_names.emplace_back("hold");
+  };
+  hold(ConditionKind::kTranslation, Eigen::Vector3d::UnitX(), 0, -3);
+  hold(ConditionKind::kTranslation, Eigen::Vector3d::UnitY(), 0, 0);
+  for (int axis = 0; axis < 3; ++axis) hold(ConditionKind::kRotation, Eigen::Vector3d::UnitX(), axis, 0);
+  model.start.p = {-3, 0, 62};
+  model.length = 30;
+  EquilibriumSolver solver(std::move(model));
+  const Swept result = run(solver, solver.model().conditions[0].value, {-3, -1.1, 0.9, 3});
+  for (const PoseResult& pose : result.poses) EXPECT_TRUE(pose.converged()) << pose.reason;
+  ASSERT_EQ(result.events.size(), 1u);
+  EXPECT_EQ(result.events[0].kind, EventKind::kJump);
+  // Half way by symmetry, as far as an overlap of 5e-7 mm tells the ridges apart (the gaps differ by 0.3 per mm).
+  EXPECT_NEAR(result.events[0].value, 0, 2e-6);
+}
+
+}  // namespace
+}  // namespace condyle
