@@ -174,7 +174,7 @@ bool EquilibriumSolver::solve_first(EquilibriumState& state, const Drive& target
   return descend(state, attempt) && advance(state, own, target, attempt);
 }
 
-PoseResult EquilibriumSolver::solve() {
+PoseResult EquilibriumSolver::solve(bool patient) {
   const auto begin = std::chrono::steady_clock::now();
   const Drive target = drive();
   Attempt attempt;
@@ -184,7 +184,7 @@ PoseResult EquilibriumSolver::solve() {
   if (has_state_) {
     solved = settle(state, attempt);
     if (!solved) solved = descend(state = state_, attempt);
-    if (!solved) solved = advance(state = state_, solved_, target, attempt);
+    if (!solved && patient) solved = advance(state = state_, solved_, target, attempt);
     set_drive(target, target, 1);
   } else {
     solved = solve_first(state, target, attempt);

@@ -36,8 +36,8 @@ class EquilibriumSolver {
   [[nodiscard]] Model& model() { return *model_; }
 
   /// Solves from the last converged state, or from the model's start when there is none. The state is kept when
-  /// the pose converges.
-  PoseResult solve();
+  /// the pose converges. Without patience a step that does not settle is not taken in parts.
+  PoseResult solve(bool patient = true);
 
   /// The last converged state; set_state restores one, solved with the model's present values.
   [[nodiscard]] const EquilibriumState& state() const { return state_; }

@@ -63,16 +63,26 @@ class EventSearch {
     swept_ = from.value;
     solver_.set_state(from.state);
     swept_ = value;
-    SolvedPose pose{value, solver_.solve(), {}};
+    SolvedPose pose{value, solver_.solve(/*patient=*/false), {}};
     if (!is_solved(pose.result)) return std::nullopt;
     pose.state = solver_.state();
     return pose;
   }
 
+  /// A pose between two others: half way, or near it where that has no equilibrium from either side.
+  std::optional<SolvedPose> between(const SolvedPose& left, const SolvedPose& right) {
+    for (const double part : {0.5, 0.35, 0.65, 0.42, 0.58}) {
+      const double value = left.value + part * (right.value - left.value);
+      for (const SolvedPose* from : {&left, &right})
+        if (std::optional<SolvedPose> pose = pose_at(value, *from)) return pose;
+    }
+    return std::nullopt;
+  }
+
   /// Closes in on the first change of contacts right of `left`; false where a trial has no equilibrium.
   bool bisect_change(SolvedPose& left, SolvedPose& right) {
     while (std::abs(right.value - left.value) > options_.tolerance) {
-      std::optional<SolvedPose> middle = pose_at(0.5 * (left.value + right.value), left);
+      std::optional<SolvedPose> middle = between(left, right);
       if (!middle) return false;
       (same_contacts(left.result, middle->result) ? left : right) = *middle;
     }
@@ -83,7 +93,7 @@ class EventSearch {
   bool bisect_jump(SolvedPose& left, SolvedPose& right, std::size_t contact, double jump) {
     while (std::abs(right.value - left.value) > options_.tolerance) {
       if (motion(left.result, right.result, contact) < jump) return false;
-      std::optional<SolvedPose> middle = pose_at(0.5 * (left.value + right.value), left);
+      std::optional<SolvedPose> middle = between(left, right);
       if (!middle || !same_contacts(left.result, middle->result)) return false;
       const bool in_left = motion(left.result, middle->result, contact) >
                            motion(middle->result, right.result, contact);
