@@ -2,8 +2,8 @@
 
 /// Bad input: the one exception this library throws.
 ///
-/// What the user gave (a file, a mesh, a value in a scene) cannot be used. `what()` is one clear line with
-/// file, place, key, value and what was expected, for example
+/// What the user gave (a file, a mesh, a value in a scene) cannot be used. `what()` is one clear
+/// line with file, place, key, value and what was expected, for example
 ///     knee.toml:41: ligament "aACL": slack_length = -2, expected a length > 0
 /// A computation that does not succeed never throws: it reports a status.
 

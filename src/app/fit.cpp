@@ -21,6 +21,7 @@ struct FitOptions {
 int run_fit(const FitOptions& options) {
   check_output_file(options.output);
   const Scene scene = read_scene(options.scene);
+  refuse_to_overwrite_inputs(options.output, scene);
   const bool has_patches = std::any_of(
       scene.surfaces.begin(), scene.surfaces.end(),
       [](const SurfaceDescription& surface) { return surface.kind == SurfaceKind::kPatch; });

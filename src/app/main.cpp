@@ -40,6 +40,8 @@ int run(int argc, char** argv) {
     fmt::print(stderr, "condyle: {} (condyle --help says more)\n", error.what());
     return kBadInput;
   }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw InputError("the standard output cannot be written, expected room for it");
   return status;
 }
 

@@ -1,6 +1,9 @@
 #include "app/make_run.h"
 
+#include <system_error>
 #include <utility>
+
+#include "input_error.h"
 
 namespace condyle {
 namespace {
@@ -18,6 +21,19 @@ std::vector<RunPatch> patches_of(const Scene& scene, const std::vector<FittedSur
 }
 
 }  // namespace
+
+void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene& scene) {
+  const auto check = [&](const std::filesystem::path& input) {
+    std::error_code unknown;
+    if (std::filesystem::equivalent(output, input, unknown))
+      throw InputError(output.string() + ": is read by this command, expected another file to write");
+  };
+  check(scene.file);
+  for (const BodyDescription& body : scene.bodies)
+    if (body.mesh) check(body.mesh->path);
+  for (const SurfaceDescription& surface : scene.surfaces)
+    if (surface.patch.mesh) check(surface.patch.mesh->path);
+}
 
 Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces, SweepResult sweep) {
   Run run{scene, std::move(sweep), patches_of(scene, surfaces), {}};

@@ -46,6 +46,7 @@ void override_range(const SweepCommand& command, Scene& scene) {
 int run_sweep(const SweepCommand& command) {
   check_output_file(command.output);
   Scene scene = read_scene(command.scene);
+  refuse_to_overwrite_inputs(command.output, scene);
   override_range(command, scene);
   fmt::print("{}\n\n", scene.title);
   const std::vector<FittedSurface> surfaces = fit_surfaces(scene);

@@ -1,10 +1,11 @@
 #pragma once
 
-/// A point of contact between a surface on B (ground) and one on A (moving), linearised for Newton's method
-/// [Dortmans 1986, 2.45-2.58, 2.87-2.104; theory: equilibrium.md sections 3 and 6].
+/// A point of contact between a surface on B (ground) and one on A (moving), linearised for
+/// Newton's method [Dortmans 1986, 2.45-2.58, 2.87-2.104; theory: equilibrium.md sections 3 and 6].
 ///
-/// Conditions g = a + s - c = 0 and h = n + m = 0 (c, n, K on B; s = R ĉ, m = R n̂, Kr = R K̂ Rᵀ from A). They
-/// determine how the contact point slides on both surfaces when the pose changes by (da, dπ):
+/// Conditions g = a + s - c = 0 and h = n + m = 0 (c, n, K on B; s = R ĉ, m = R n̂, Kr = R K̂ Rᵀ from
+/// A). They determine how the contact point slides on both surfaces when the pose changes by (da,
+/// dπ):
 ///     dc = D0 + D1 da + D2 dπ,   D1 = P Kr,  D2 = -P ([m]x + Kr [s]x),  D0 = P (h + Kr g),
 /// with P the inverse of K + Kr in the tangent plane of B. One row stays for the Newton system:
 ///     n.(g + da + dπ x s) = 0.
@@ -19,21 +20,22 @@
 namespace condyle {
 
 struct ContactLinearization {
-  SurfacePoint B;         ///< on the fixed body, ground frame
-  SurfacePoint A;         ///< on the moving body, in A's frame
-  Eigen::Vector3d s, m;   ///< R ĉ [mm] and R n̂
-  Eigen::Vector3d g, h;   ///< distance of the two points [mm] and of the opposite normals
-  Eigen::Vector3d arm;    ///< s x n [mm]: the moment of a unit contact force
-  Eigen::Matrix3d D1, D2; ///< ∂c/∂a, ∂c/∂π
-  Eigen::Vector3d D0;     ///< what brings the two points together at a fixed pose [mm]
-  /// Principal values of -(K + Kr) in the tangent plane [1/mm], ascending: both positive where the solids touch in
-  /// an isolated point.
+  SurfacePoint B;          ///< on the fixed body, ground frame
+  SurfacePoint A;          ///< on the moving body, in A's frame
+  Eigen::Vector3d s, m;    ///< R ĉ [mm] and R n̂
+  Eigen::Vector3d g, h;    ///< distance of the two points [mm] and of the opposite normals
+  Eigen::Vector3d arm;     ///< s x n [mm]: the moment of a unit contact force
+  Eigen::Matrix3d D1, D2;  ///< ∂c/∂a, ∂c/∂π
+  Eigen::Vector3d D0;      ///< what brings the two points together at a fixed pose [mm]
+  /// Principal values of -(K + Kr) in the tangent plane [1/mm], ascending: both positive where the
+  /// solids touch in an isolated point.
   std::array<double, 2> relative_curvature;
 
   [[nodiscard]] double gap() const { return B.n.dot(g); }
 };
 
-/// Below this magnitude [1/mm] a principal relative curvature counts as zero: the contact is a line or conforming.
+/// Below this magnitude [1/mm] a principal relative curvature counts as zero: the contact is a line
+/// or conforming.
 inline constexpr double kFlatCurvature = 1e-9;
 
 [[nodiscard]] ContactLinearization linearize_contact(const Surface& on_B,
@@ -42,11 +44,12 @@ inline constexpr double kFlatCurvature = 1e-9;
                                                      const Place& place_A,
                                                      const RigidTransform& X_BA);
 
-/// Adds the contact force p [N] with its derivatives, and the part of the force that the residual sliding D0 will
-/// bring, so that one Newton step removes g and h as well.
+/// Adds the contact force p [N] with its derivatives, and the part of the force that the residual
+/// sliding D0 will bring, so that one Newton step removes g and h as well.
 void add_contact_force(const ContactLinearization& contact, double p, Wrench& wrench);
 
-/// Moves both places by what a step (da, dπ) of the pose asks for (call before the pose is updated).
+/// Moves both places by what a step (da, dπ) of the pose asks for (call before the pose is
+/// updated).
 void slide_contact(const Surface& on_B,
                    Place& place_B,
                    const Surface& on_A,

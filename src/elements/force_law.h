@@ -1,12 +1,13 @@
 #pragma once
 
-/// Force laws f(L) of line elements, tension positive [N], length L [mm]. Each gives force, slope and energy.
+/// Force laws f(L) of line elements, tension positive [N], length L [mm]. Each gives force, slope
+/// and energy.
 ///
-///   toe-linear   ε = L/l₀ - 1:  f = 0 (ε <= 0),  k ε²/(2 ε_t) (toe),  k (ε - ε_t/2) (linear)   [Blankevoort 1991]
-///   quadratic    f = k (L - l₀)² for L > l₀, else 0                                            [Wismans 1980]
-///   polynomial   f = c₀ + c₁ L + c₂ L² ..., optionally cut off where negative                  [Dortmans 1986, 4]
-///   table        monotone cubic through (L_i, f_i), constant slope outside [Fritsch and Carlson 1980]
-///   custom       any function of yours
+///   toe-linear   ε = L/l₀ - 1:  f = 0 (ε <= 0),  k ε²/(2 ε_t) (toe),  k (ε - ε_t/2) (linear)
+///   [Blankevoort 1991] quadratic    f = k (L - l₀)² for L > l₀, else 0 [Wismans 1980] polynomial
+///   f = c₀ + c₁ L + c₂ L² ..., optionally cut off where negative                  [Dortmans 1986,
+///   4] table        monotone cubic through (L_i, f_i), constant slope outside [Fritsch and Carlson
+///   1980] custom       any function of yours
 
 #include <functional>
 #include <variant>
@@ -37,13 +38,15 @@ struct PolynomialLaw {
 struct TableLaw {
   std::vector<double> lengths;  ///< strictly increasing [mm]
   std::vector<double> forces;   ///< [N]
-  std::vector<double> slopes;   ///< at the lengths [N/mm], limited so that monotone data stay monotone
-  std::vector<double> energies; ///< ∫ f dL from lengths[0] [N mm]
+  std::vector<double>
+      slopes;  ///< at the lengths [N/mm], limited so that monotone data stay monotone
+  std::vector<double> energies;  ///< ∫ f dL from lengths[0] [N mm]
 };
 [[nodiscard]] TableLaw make_table_law(std::vector<double> lengths, std::vector<double> forces);
 
 struct CustomLaw {
-  std::function<Tension(double length)> tension;  ///< must not allocate; twice differentiable energy
+  std::function<Tension(double length)>
+      tension;  ///< must not allocate; twice differentiable energy
 };
 
 using ForceLaw = std::variant<ToeLinearLaw, QuadraticLaw, PolynomialLaw, TableLaw, CustomLaw>;
@@ -57,7 +60,8 @@ using ForceLaw = std::variant<ToeLinearLaw, QuadraticLaw, PolynomialLaw, TableLa
   const double stretch = length - l0;
   if (!(stretch > 0)) return {0, 0, 0};
   const double eps = stretch / l0, slope = k / l0;
-  if (eps >= eps_t) return {k * (eps - eps_t / 2), slope, k * (eps * (eps - eps_t) / 2 + eps_t * eps_t / 6) * l0};
+  if (eps >= eps_t)
+    return {k * (eps - eps_t / 2), slope, k * (eps * (eps - eps_t) / 2 + eps_t * eps_t / 6) * l0};
   const double part = eps / eps_t;
   return {k * eps * part / 2, slope * part, k * eps * eps * part / 6 * l0};
 }

@@ -1,9 +1,11 @@
 #pragma once
 
-/// Kinematic conditions k(a,R) = 0: a prescribed part of the motion [Dortmans 1986, 2.59-2.61, App. D].
+/// Kinematic conditions k(a,R) = 0: a prescribed part of the motion [Dortmans 1986, 2.59-2.61, App.
+/// D].
 ///
-/// dk = α.da + η.dπ and, for the Newton system, dα = D1 da + D2 dπ, dη = D3 da + D4 dπ. The load on A is
-/// f = -σ α, m = -σ η about O_A, with the multiplier σ: it does no power on admissible motions (2.111).
+/// dk = α.da + η.dπ and, for the Newton system, dα = D1 da + D2 dπ, dη = D3 da + D4 dπ. The load on
+/// A is f = -σ α, m = -σ η about O_A, with the multiplier σ: it does no power on admissible motions
+/// (2.111).
 
 #include "elements/joint_coordinates.h"
 #include "math/rigid_transform.h"
@@ -11,11 +13,15 @@
 namespace condyle {
 
 enum class ConditionKind {
-  kFlexion, kAdduction, kInternalRotation,           ///< Grood-Suntay angles [rad]; need [joint]
-  kLateralShift, kAnteriorDrawer, kDistraction,      ///< Grood-Suntay translations [mm]; need [joint]
-  kTranslation,                                      ///< of O_A along `axis` (ground frame) [mm]
-  kRotation,                                         ///< Cardan angle of R = Rz Rx' Ry'' about x, y or z [rad]
-  kDistance                                          ///< between two ends: an isometric fibre [mm]
+  kFlexion,
+  kAdduction,
+  kInternalRotation,  ///< Grood-Suntay angles [rad]; need [joint]
+  kLateralShift,
+  kAnteriorDrawer,
+  kDistraction,  ///< Grood-Suntay translations [mm]; need [joint]
+  kTranslation,  ///< of O_A along `axis` (ground frame) [mm]
+  kRotation,     ///< Cardan angle of R = Rz Rx' Ry'' about x, y or z [rad]
+  kDistance      ///< between two ends: an isometric fibre [mm]
 };
 
 /// Is the coordinate of this kind of condition an angle, or else a length?
@@ -34,15 +40,16 @@ struct KinematicCondition {
 };
 
 struct ConditionDerivatives {
-  double coordinate;            ///< the coordinate itself [rad] or [mm], angles in (-π, π]
-  double k;                     ///< coordinate - value, angles wrapped to (-π, π]
-  Eigen::Vector3d alpha, eta;   ///< ∂k/∂a, ∂k/∂π
+  double coordinate;           ///< the coordinate itself [rad] or [mm], angles in (-π, π]
+  double k;                    ///< coordinate - value, angles wrapped to (-π, π]
+  Eigen::Vector3d alpha, eta;  ///< ∂k/∂a, ∂k/∂π
   Eigen::Matrix3d D1, D2, D3, D4;
 };
 
-/// Finite everywhere except where the coordinate itself has no derivative (Cardan angle y or z at cos(x) = 0, flexion
-/// at ±90° of adduction, a distance of zero): there it returns what the formula gives with the denominator
-/// bounded away from zero by 1e-12, never NaN.
-[[nodiscard]] ConditionDerivatives evaluate(const KinematicCondition& condition, const RigidTransform& X_BA);
+/// Finite everywhere except where the coordinate itself has no derivative (Cardan angle y or z at
+/// cos(x) = 0, flexion at ±90° of adduction, a distance of zero): there it returns what the formula
+/// gives with the denominator bounded away from zero by 1e-12, never NaN.
+[[nodiscard]] ConditionDerivatives evaluate(const KinematicCondition& condition,
+                                            const RigidTransform& X_BA);
 
 }  // namespace condyle

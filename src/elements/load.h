@@ -1,7 +1,8 @@
 #pragma once
 
-/// External loads on the moving body A [Dortmans 1986, App. E]: dead (fixed in the ground frame) or follower (fixed
-/// in the body) force at a point of A, or moment; or any load f(a,R), m(a,R) with its derivatives.
+/// External loads on the moving body A [Dortmans 1986, App. E]: dead (fixed in the ground frame) or
+/// follower (fixed in the body) force at a point of A, or moment; or any load f(a,R), m(a,R) with
+/// its derivatives.
 
 #include <functional>
 
@@ -13,10 +14,13 @@ namespace condyle {
 struct Load {
   bool moment = false;
   bool follows_body = false;
-  Eigen::Vector3d vector = Eigen::Vector3d::Zero();  ///< [N] or [N mm]; ground frame, or A's frame for a follower
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();      ///< point of application in A's frame [mm]; forces only
-  double scale = 1;                                  ///< multiplies the vector
-  /// In place of all the above but `scale`: writes the wrench on A about O_A and its derivatives at the pose.
+  Eigen::Vector3d vector =
+      Eigen::Vector3d::Zero();  ///< [N] or [N mm]; ground frame, or A's frame for a follower
+  Eigen::Vector3d at =
+      Eigen::Vector3d::Zero();  ///< point of application in A's frame [mm]; forces only
+  double scale = 1;             ///< multiplies the vector
+  /// In place of all the above but `scale`: writes the wrench on A about O_A and its derivatives at
+  /// the pose.
   std::function<void(const RigidTransform& X_BA, Wrench& wrench)> custom;
 };
 

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Force and moment on the moving body A, about its origin O_A, with their derivatives with respect to a motion
-/// (da, dπ) of A: da translation of O_A [mm], dπ rotation vector in the ground frame [rad], R <- exp([dπ]x) R.
-/// The blocks are those of the Newton system [Dortmans 1986, 2.156].
+/// Force and moment on the moving body A, about its origin O_A, with their derivatives with respect
+/// to a motion (da, dπ) of A: da translation of O_A [mm], dπ rotation vector in the ground frame
+/// [rad], R <- exp([dπ]x) R. The blocks are those of the Newton system [Dortmans 1986, 2.156].
 
 #include <Eigen/Core>
 

@@ -13,9 +13,12 @@ std::array<Eigen::Vector3d, 2> fixed_then_moving(const std::array<Attachment, 2>
 
 ContactMode mode_of(ContactState state) {
   switch (state) {
-    case ContactState::kClosed: return ContactMode::kClosed;
-    case ContactState::kOpen: return ContactMode::kOpen;
-    default: return ContactMode::kAuto;
+    case ContactState::kClosed:
+      return ContactMode::kClosed;
+    case ContactState::kOpen:
+      return ContactMode::kOpen;
+    default:
+      return ContactMode::kAuto;
   }
 }
 

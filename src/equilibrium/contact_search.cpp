@@ -15,8 +15,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kLeafSize = 8;
-constexpr double kBeyondEdge = 2;  // how far beyond the known part a minimum may lie, in sample spacings
-constexpr double kSteep = 0.7;   // sine of the angle between two surfaces beyond which curvature bounds say nothing
+constexpr double kBeyondEdge =
+    2;  // how far beyond the known part a minimum may lie, in sample spacings
+constexpr double kSteep =
+    0.7;  // sine of the angle between two surfaces beyond which curvature bounds say nothing
 constexpr double kDeepest = 12;  // overlap that is still taken for one, in sample spacings
 
 struct PointCloud {
@@ -26,11 +28,13 @@ struct PointCloud {
     return points[i][static_cast<Eigen::Index>(axis)];
   }
   template <class Box>
-  bool kdtree_get_bbox(Box&) const { return false; }
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
 };
 
-/// The greater of the two principal values off the normal of a curvature tensor: where the sum of two is positive, the
-/// gap closes sideways.
+/// The greater of the two principal values off the normal of a curvature tensor: where the sum of
+/// two is positive, the gap closes sideways.
 double largest_principal(const Eigen::Matrix3d& K) {
   const double trace = K.trace();
   return 0.5 * (trace + std::sqrt(std::max(0.0, 2 * K.squaredNorm() - trace * trace)));
@@ -97,16 +101,17 @@ void ContactSearch::link_neighbours(double radius) {
   for (auto& list : neighbours_) list.fill(-1);
   if (points_.empty()) return;
   const PointCloud cloud{points_};
-  const nanoflann::
-      KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>, PointCloud, 3>
-          tree(3, cloud);
+  const nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>,
+                                            PointCloud, 3>
+      tree(3, cloud);
   std::array<unsigned int, 9> index;
   std::array<double, 9> square;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const std::size_t found = tree.knnSearch(points_[i].data(), 9, index.data(), square.data());
     int k = 0;
     for (std::size_t j = 0; j < found && k < 8; ++j)
-      if (index[j] != static_cast<unsigned int>(i) && square[j] < radius * radius) neighbours_[i][k++] = static_cast<int>(index[j]);
+      if (index[j] != static_cast<unsigned int>(i) && square[j] < radius * radius)
+        neighbours_[i][k++] = static_cast<int>(index[j]);
   }
 }
 
@@ -116,11 +121,14 @@ int ContactSearch::build(int first, int last) {
   const Eigen::Vector3d middle = box.center();
   Cluster cluster{order_[first], 0, 0, first, last, {-1, -1}};
   for (int k = first; k < last; ++k)
-    if ((points_[order_[k]] - middle).squaredNorm() < (points_[cluster.center] - middle).squaredNorm())
+    if ((points_[order_[k]] - middle).squaredNorm() <
+        (points_[cluster.center] - middle).squaredNorm())
       cluster.center = order_[k];
   for (int k = first; k < last; ++k) {
-    cluster.radius = std::max(cluster.radius, (points_[order_[k]] - points_[cluster.center]).norm());
-    cluster.spread = std::max(cluster.spread, (curvatures_[order_[k]] - curvatures_[cluster.center]).norm());
+    cluster.radius =
+        std::max(cluster.radius, (points_[order_[k]] - points_[cluster.center]).norm());
+    cluster.spread =
+        std::max(cluster.spread, (curvatures_[order_[k]] - curvatures_[cluster.center]).norm());
   }
   const int index = static_cast<int>(clusters_.size());
   clusters_.push_back(cluster);
@@ -175,9 +183,12 @@ double ContactSearch::gap_of(int sample, const RigidTransform& X_from_to) {
   return gap;
 }
 
-/// Below the gap at the centre by the slope over the radius, and by the relative curvature there with an allowance for
-/// how it varies within the cluster; never by more than the radius, since a distance is 1-Lipschitz.
-double ContactSearch::lowest_possible(const Cluster& cluster, const Eigen::Matrix3d& K_other, const Eigen::Matrix3d& R) const {
+/// Below the gap at the centre by the slope over the radius, and by the relative curvature there
+/// with an allowance for how it varies within the cluster; never by more than the radius, since a
+/// distance is 1-Lipschitz.
+double ContactSearch::lowest_possible(const Cluster& cluster,
+                                      const Eigen::Matrix3d& K_other,
+                                      const Eigen::Matrix3d& R) const {
   const double r = cluster.radius, gap = gap_[cluster.center], slope = slope_[cluster.center];
   if (slope > kSteep) return gap - r;
   const Eigen::Matrix3d K = K_other + R * curvatures_[cluster.center] * R.transpose();
@@ -199,13 +210,15 @@ void ContactSearch::visit(int index, const RigidTransform& X_from_to, double cut
     visit(cluster.child[1], X_from_to, cutoff);
     return;
   }
-  // A sample is at least as far as from the tangent plane at the centre's foot, less what the other surface can bulge.
+  // A sample is at least as far as from the tangent plane at the centre's foot, less what the other
+  // surface can bulge.
   const Eigen::Vector3d n = X_from_to.R.transpose() * at.n;
   const double bulge = 0.5 * std::max(0.0, largest_principal(at.K) + 0.5 * at.K.norm());
   for (int k = cluster.first; k < cluster.last; ++k) {
     const int sample = order_[k];
     const Eigen::Vector3d d = points_[sample] - points_[cluster.center];
-    if (slope_[cluster.center] < kSteep && gap + n.dot(d) - bulge * d.squaredNorm() > cutoff) continue;
+    if (slope_[cluster.center] < kSteep && gap + n.dot(d) - bulge * d.squaredNorm() > cutoff)
+      continue;
     const double sample_gap = gap_of(sample, X_from_to);
     if (sample_gap < cutoff && sample_gap > deepest) near_.push_back(sample);
   }
@@ -219,8 +232,8 @@ bool ContactSearch::is_lowest_of_neighbours(int sample) const {
   return true;
 }
 
-/// Newton to the minimum near a sample. Where that does not settle, or leads beyond the known part while the sample
-/// itself is within, the sample stands for it.
+/// Newton to the minimum near a sample. Where that does not settle, or leads beyond the known part
+/// while the sample itself is within, the sample stands for it.
 GapMinimum ContactSearch::refine(int sample, const RigidTransform& X_BA) const {
   GapMinimum minimum;
   minimum.on_A = sampled_on_A_ ? places_[sample] : feet_[sample];
@@ -261,7 +274,8 @@ void ContactSearch::find(const RigidTransform& X_BA,
   if (places_.empty()) return;
   const RigidTransform X_from_to = sampled_on_A_ ? X_BA : X_BA.inverse();
   const Surface& other = sampled_on_A_ ? *on_B_ : *on_A_;
-  // A minimum between samples lies lower than both: look a little higher, keep what the refinement says.
+  // A minimum between samples lies lower than both: look a little higher, keep what the refinement
+  // says.
   visit(0, X_from_to, cutoff + 0.06 * spacing_);
   for (const int sample : near_) {
     if (other.edge_distance(feet_[sample]) < 0) continue;

@@ -14,10 +14,10 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr std::size_t kMemorySize = 24;
-constexpr std::size_t kMostMinima = 12;     // of one pair
-constexpr double kCompliance = 1e-8;        // of the constraints, relative
-constexpr double kNewtonReach = 0.05;       // a step shorter than this [L] is worth an attempt of Newton
-constexpr double kLeastReach = 1e-6;        // of a step [L]: below, nothing more is gained
+constexpr std::size_t kMostMinima = 12;  // of one pair
+constexpr double kCompliance = 1e-8;     // of the constraints, relative
+constexpr double kNewtonReach = 0.05;  // a step shorter than this [L] is worth an attempt of Newton
+constexpr double kLeastReach = 1e-6;   // of a step [L]: below, nothing more is gained
 
 double weight(const Model& model, std::size_t condition) {
   return is_angle(model.conditions[condition].kind) ? model.length : 1;
@@ -115,8 +115,8 @@ bool Descent::iterate(const Accept& accept, DescentReport& report) {
   return true;
 }
 
-/// The programme for a step no longer than the reach: conditions and gaps are asked to close no farther than that, and
-/// the stiffness is raised until the step fits [Levenberg].
+/// The programme for a step no longer than the reach: conditions and gaps are asked to close no
+/// farther than that, and the stiffness is raised until the step fits [Levenberg].
 Descent::Vector6 Descent::step_within_reach(Programme& programme) const {
   SmallQp& qp = programme.qp;
   const double demand = 0.7 * reach_;
@@ -173,17 +173,22 @@ void Descent::add_memory(int pair,
     const Eigen::Vector3d point = X * on_A.evaluate(place).c;
     const Place foot = on_B.closest(point, on_B.seed(point));
     if (on_B.edge_distance(foot) < 0) continue;
-    const bool isolated = std::all_of(
-        constraints.begin() + static_cast<std::ptrdiff_t>(first), constraints.end(), [&](const Constraint& c) {
-          return (X * on_A.evaluate(c.on_A).c - point).norm() > 0.01 * model_.length;
-        });
-    if (isolated) constraints.push_back(constrain(pair, foot, place, X));
+    const bool isolated =
+        std::all_of(constraints.begin() + static_cast<std::ptrdiff_t>(first), constraints.end(),
+                    [&](const Constraint& c) {
+                      return (X * on_A.evaluate(c.on_A).c - point).norm() > 0.01 * model_.length;
+                    });
+    const Constraint constraint = constrain(pair, foot, place, X);
+    if (isolated && constraint.gap < 2 * options_.longest_step * model_.length) {
+      constraints.push_back(constraint);
+    }
   }
 }
 
 void Descent::remember(const std::vector<Constraint>& constraints) {
   for (const Constraint& constraint : constraints) {
-    if (constraint.bilateral || !constraint.refined || constraint.gap > 0.02 * model_.length) continue;
+    if (constraint.bilateral || !constraint.refined || constraint.gap > 0.02 * model_.length)
+      continue;
     const Surface& on_A = *model_.pairs[constraint.pair].on_A;
     const Eigen::Vector3d c = on_A.evaluate(constraint.on_A).c;
     const bool known = std::any_of(memory_.begin(), memory_.end(), [&](const auto& entry) {
@@ -243,7 +248,8 @@ void Descent::set_rows(Programme& programme) const {
   }
 }
 
-/// -p times the second derivative of each gap that carries: how a curved contact yields when the pose tilts.
+/// -p times the second derivative of each gap that carries: how a curved contact yields when the
+/// pose tilts.
 void Descent::add_contact_curvature(Programme& programme, const SmallQpSolution& solution) const {
   for (std::size_t j = 0; j < programme.one_sided.size(); ++j) {
     const Constraint& constraint = constraints_[programme.one_sided[j]];
@@ -252,13 +258,15 @@ void Descent::add_contact_curvature(Programme& programme, const SmallQpSolution&
     const ContactPair& pair = model_.pairs[constraint.pair];
     Wrench of_contact;
     add_contact_force(
-        linearize_contact(*pair.on_B, constraint.on_B, *pair.on_A, constraint.on_A, X_), p, of_contact);
+        linearize_contact(*pair.on_B, constraint.on_B, *pair.on_A, constraint.on_A, X_), p,
+        of_contact);
     const Matrix6 K = stiffness(of_contact, model_.length);
     if (K.allFinite()) programme.qp.H += K;
   }
 }
 
-Descent::Multipliers Descent::multipliers(const Programme& programme, const SmallQpSolution& solution) const {
+Descent::Multipliers Descent::multipliers(const Programme& programme,
+                                          const SmallQpSolution& solution) const {
   Multipliers forces;
   forces.p.assign(constraints_.size(), 0);
   for (std::size_t j = 0; j < programme.one_sided.size(); ++j)
@@ -275,7 +283,8 @@ Descent::Multipliers Descent::multipliers(const Programme& programme, const Smal
   return forces;
 }
 
-double Descent::violation(const std::vector<Constraint>& constraints, const RigidTransform& X) const {
+double Descent::violation(const std::vector<Constraint>& constraints,
+                          const RigidTransform& X) const {
   double sum = 0;
   for (const Constraint& constraint : constraints)
     sum += constraint.bilateral ? std::abs(constraint.gap) : std::max(0.0, -constraint.gap);
@@ -317,7 +326,8 @@ Vector6 Descent::corrected_step(const Programme& programme,
   return solve_qp(qp).x;
 }
 
-/// Goes where the merit falls: the step itself, or with a second-order correction; else the reach shrinks.
+/// Goes where the merit falls: the step itself, or with a second-order correction; else the reach
+/// shrinks.
 void Descent::take_step(const Programme& programme, const Vector6& step, DescentReport& report) {
   const double L = model_.length;
   const double violation_before = violation(constraints_, X_);
@@ -341,7 +351,8 @@ void Descent::take_step(const Programme& programme, const Vector6& step, Descent
   // Restoring the constraints may cost more energy than the forces of this moment suggest.
   if (violation_after < 0.9 * violation_before) {
     penalty_ *= 2;
-    if (energy + penalty_ * (violation_after - violation_before) < 0) return accept(to, step.norm());
+    if (energy + penalty_ * (violation_after - violation_before) < 0)
+      return accept(to, step.norm());
   }
   const Vector6 second = corrected_step(programme, step, to, trial_);
   if (second.allFinite() && second.norm() < 2 * step.norm()) {
@@ -360,7 +371,8 @@ bool Descent::try_newton(const Multipliers& multipliers,
   trial.sigma = multipliers.sigma;
   for (std::size_t k = 0; k < constraints.size(); ++k) {
     if (!constraints[k].bilateral && multipliers.p[k] <= 1e-9 * multipliers.largest) continue;
-    trial.contacts.push_back({constraints[k].pair, constraints[k].on_B, constraints[k].on_A, multipliers.p[k]});
+    trial.contacts.push_back(
+        {constraints[k].pair, constraints[k].on_B, constraints[k].on_A, multipliers.p[k]});
   }
   if (trial.sigma.size() > kMaxConstraints) return false;
   if (trial.contacts.size() > kMaxConstraints - trial.sigma.size()) {  // the strongest ones

@@ -1,13 +1,16 @@
 #pragma once
 
-/// The way to an equilibrium from afar, for poses where Newton on a guessed set of contacts does not succeed.
+/// The way to an equilibrium from afar, for poses where Newton on a guessed set of contacts does
+/// not succeed.
 ///
-/// Minimises the energy of line elements and loads over the admissible poses: sequential quadratic programmes in the
-/// six components of a step, with every local minimum of the gap (contact_search.h) as a constraint, found anew at
-/// every iteration, plus points where a gap was lowest in earlier iterations, which go on as material points: curved
-/// contacts split, merge and vanish while the pose moves, and non-penetration at any material point is always a
-/// valid constraint. Steps are accepted by an l1 merit with a second-order correction, so curved contacts do not
-/// stall it (Maratos effect). Loads that have no potential enter the merit by their work over the step.
+/// Minimises the energy of line elements and loads over the admissible poses: sequential quadratic
+/// programmes in the six components of a step, with every local minimum of the gap
+/// (contact_search.h) as a constraint, found anew at every iteration, plus points where a gap was
+/// lowest in earlier iterations, which go on as material points: curved contacts split, merge and
+/// vanish while the pose moves, and non-penetration at any material point is always a valid
+/// constraint. Steps are accepted by an l1 merit with a second-order correction, so curved contacts
+/// do not stall it (Maratos effect). Loads that have no potential enter the merit by their work
+/// over the step.
 ///
 /// Whenever the set of carrying contacts settles, Newton takes over; the caller verifies.
 
@@ -44,7 +47,8 @@ class Descent {
 
   using Accept = std::function<bool(EquilibriumState&)>;
 
-  /// Improves `state` in place. `accept` says whether a Newton solution is one (no pull, no overlap).
+  /// Improves `state` in place. `accept` says whether a Newton solution is one (no pull, no
+  /// overlap).
   DescentReport solve(EquilibriumState& state, const Accept& accept);
 
  private:
@@ -74,13 +78,20 @@ class Descent {
   void start(const RigidTransform& X);
   bool iterate(const Accept& accept, DescentReport& report);
   void gather(const RigidTransform& X, std::vector<Constraint>& constraints);
-  void add_memory(int pair, std::size_t first, const RigidTransform& X, std::vector<Constraint>& constraints);
+  void add_memory(int pair,
+                  std::size_t first,
+                  const RigidTransform& X,
+                  std::vector<Constraint>& constraints);
   void remember(const std::vector<Constraint>& constraints);
-  [[nodiscard]] Constraint constrain(int pair, const Place& on_B, const Place& on_A, const RigidTransform& X) const;
+  [[nodiscard]] Constraint constrain(int pair,
+                                     const Place& on_B,
+                                     const Place& on_A,
+                                     const RigidTransform& X) const;
   void set_forces(Programme& programme) const;
   void set_rows(Programme& programme) const;
   void add_contact_curvature(Programme& programme, const SmallQpSolution& solution) const;
-  [[nodiscard]] Multipliers multipliers(const Programme& programme, const SmallQpSolution& solution) const;
+  [[nodiscard]] Multipliers multipliers(const Programme& programme,
+                                        const SmallQpSolution& solution) const;
   [[nodiscard]] Vector6 corrected_step(const Programme& programme,
                                        const Vector6& step,
                                        const RigidTransform& to,
@@ -91,7 +102,8 @@ class Descent {
                   const std::vector<Constraint>& constraints,
                   const Accept& accept,
                   DescentReport& report);
-  [[nodiscard]] double violation(const std::vector<Constraint>& constraints, const RigidTransform& X) const;
+  [[nodiscard]] double violation(const std::vector<Constraint>& constraints,
+                                 const RigidTransform& X) const;
   [[nodiscard]] double energy_change(const RigidTransform& from, const RigidTransform& to) const;
 
   const Model& model_;

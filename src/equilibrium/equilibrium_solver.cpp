@@ -11,6 +11,7 @@ namespace condyle {
 namespace {
 
 constexpr double kSpacing = 0.04;  // of contact samples, in units of L (1.2 mm for a knee)
+constexpr double kAnywhere = 1e3;  // how far an open contact is looked for, in units of L
 constexpr double kMerge = 0.01;    // minima nearer than this are one contact, in units of L
 
 std::vector<ContactSearch> make_searches(const Model& model) {
@@ -41,7 +42,8 @@ void EquilibriumSolver::set_state(const EquilibriumState& state) {
 
 EquilibriumSolver::Drive EquilibriumSolver::drive() const {
   Drive drive;
-  for (const KinematicCondition& condition : model_->conditions) drive.values.push_back(condition.value);
+  for (const KinematicCondition& condition : model_->conditions)
+    drive.values.push_back(condition.value);
   for (const Load& load : model_->loads) drive.scales.push_back(load.scale);
   return drive;
 }
@@ -75,10 +77,12 @@ bool EquilibriumSolver::add_overlaps(EquilibriumState& state, bool& too_many) {
     searches_[p].find(state.X, 0.0, minima_, kMerge * L);
     for (const GapMinimum& minimum : minima_) {
       if (minimum.gap > -options_.overlap * L / 30) continue;
-      const bool known = std::any_of(state.contacts.begin(), state.contacts.end(), [&](const ClosedContact& c) {
-        return c.pair == static_cast<int>(p) &&
-               (model_->pairs[p].on_B->evaluate(c.on_B).c - minimum.point_B).norm() < kMerge * L;
-      });
+      const bool known =
+          std::any_of(state.contacts.begin(), state.contacts.end(), [&](const ClosedContact& c) {
+            return c.pair == static_cast<int>(p) &&
+                   (model_->pairs[p].on_B->evaluate(c.on_B).c - minimum.point_B).norm() <
+                       kMerge * L;
+          });
       if (known && minimum.gap > -1e-3 * kMerge * L) continue;
       if (state.contacts.size() + state.sigma.size() >= kMaxConstraints) {
         too_many = true;
@@ -91,8 +95,8 @@ bool EquilibriumSolver::add_overlaps(EquilibriumState& state, bool& too_many) {
   return added;
 }
 
-/// Contacts that Newton may have led astray: to a place where the solids interpenetrate beside the point, or far
-/// beyond the known part of a patch.
+/// Contacts that Newton may have led astray: to a place where the solids interpenetrate beside the
+/// point, or far beyond the known part of a patch.
 bool EquilibriumSolver::on_minima(const EquilibriumState& state) const {
   const std::vector<ContactLinearization>& contacts = newton_.system().contacts();
   for (std::size_t k = 0; k < state.contacts.size(); ++k) {
@@ -127,14 +131,19 @@ bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
 }
 
 bool EquilibriumSolver::descend(EquilibriumState& state, Attempt& attempt) {
-  attempt.descent = descent_.solve(state, [this](EquilibriumState& s) { return carries_and_clear(s); });
+  attempt.descent =
+      descent_.solve(state, [this](EquilibriumState& s) { return carries_and_clear(s); });
   attempt.newton = attempt.descent.newton;
   attempt.iterations += attempt.descent.iterations;
   return attempt.descent.converged;
 }
 
-/// From a solved state to another drive in parts: halved where a part fails, doubled where it succeeds.
-bool EquilibriumSolver::advance(EquilibriumState& state, const Drive& from, const Drive& to, Attempt& attempt) {
+/// From a solved state to another drive in parts: halved where a part fails, doubled where it
+/// succeeds.
+bool EquilibriumSolver::advance(EquilibriumState& state,
+                                const Drive& from,
+                                const Drive& to,
+                                Attempt& attempt) {
   constexpr double kLongest = 0.5, kShortest = 1.0 / 256, kDescend = 1.0 / 32;
   double part = kLongest;
   for (double t = 0; t < 1;) {
@@ -157,9 +166,11 @@ bool EquilibriumSolver::advance(EquilibriumState& state, const Drive& from, cons
   return true;
 }
 
-/// The first pose: where the start is far from what the conditions prescribe, the equilibrium at the start's own values
-/// comes first.
-bool EquilibriumSolver::solve_first(EquilibriumState& state, const Drive& target, Attempt& attempt) {
+/// The first pose: where the start is far from what the conditions prescribe, the equilibrium at
+/// the start's own values comes first.
+bool EquilibriumSolver::solve_first(EquilibriumState& state,
+                                    const Drive& target,
+                                    Attempt& attempt) {
   constexpr double kFar = 0.1;  // of L
   Drive own = target;
   bool far = false;
@@ -199,7 +210,8 @@ PoseResult EquilibriumSolver::solve(bool patient) {
     newton_.system().assemble(state);
     fill(result, state);
     judge(result);
-    set_state(state);  // beyond the patch as well: the next pose may come back
+    // Beyond the edge of a patch as well: the next pose may come back.
+    if (result.status != PoseStatus::kOverlap) set_state(state);
   } else {
     explain_failure(result, attempt);
   }
@@ -251,9 +263,21 @@ void EquilibriumSolver::fill_contacts(PoseResult& result, const EquilibriumState
   for (std::size_t p = 0; p < model_->pairs.size(); ++p) {
     ContactResult& contact = result.contacts[p];
     if (contact.closed) continue;
-    searches_[p].find(state.X, 2 * model_->length, minima_, kMerge * model_->length);
-    if (minima_.empty()) continue;
+    searches_[p].find(state.X, kAnywhere * model_->length, minima_, kMerge * model_->length);
+    if (minima_.empty()) {
+      if (model_->pairs[p].mode == ContactMode::kAuto && searches_[p].has_samples()) {
+        result.status = PoseStatus::kLeftPatch;
+        result.reason = "contact \"" + model_->pairs[p].name +
+                        "\": no known parts of its surfaces face each other";
+      }
+      continue;
+    }
     const GapMinimum& lowest = minima_.front();
+    if (lowest.gap < -options_.overlap * model_->length / 30 &&
+        model_->pairs[p].mode == ContactMode::kAuto) {
+      result.status = PoseStatus::kOverlap;
+      result.reason = "contact \"" + model_->pairs[p].name + "\": one body is buried in the other";
+    }
     const ContactPair& pair = model_->pairs[p];
     const ContactLinearization at =
         linearize_contact(*pair.on_B, lowest.on_B, *pair.on_A, lowest.on_A, state.X);
@@ -275,19 +299,24 @@ void EquilibriumSolver::judge(PoseResult& result) const {
     for (const ContactPointResult& point : result.contacts[p].points) {
       if (point.edge_distance >= 0) continue;
       result.status = PoseStatus::kLeftPatch;
-      result.reason = "contact \"" + model_->pairs[p].name + "\" lies beyond the known part of its surface";
+      result.reason =
+          "contact \"" + model_->pairs[p].name + "\" lies beyond the known part of its surface";
     }
   }
 }
 
 void EquilibriumSolver::explain_failure(PoseResult& result, const Attempt& attempt) const {
   const NewtonReport& newton = attempt.newton;
-  if (attempt.descent.ran_away) {
+  if (model_->conditions.size() > kMaxConstraints) {
+    result.status = PoseStatus::kSingular;
+    result.reason = "more than six conditions: a body has six freedoms";
+  } else if (attempt.descent.ran_away) {
     result.status = PoseStatus::kNoEquilibrium;
     result.reason = "the body runs away: nothing carries the load";
   } else if (newton.outcome == NewtonOutcome::kZeroLength) {
     result.status = PoseStatus::kZeroLength;
-    result.reason = "line element \"" + model_->element_names[newton.zero_element] + "\" has no length";
+    result.reason =
+        "line element \"" + model_->element_names[newton.zero_element] + "\" has no length";
   } else if (newton.outcome == NewtonOutcome::kSingular) {
     result.status = PoseStatus::kSingular;
     result.reason = "conditions and contacts depend on each other, or nothing resists a motion";
@@ -299,7 +328,8 @@ void EquilibriumSolver::explain_failure(PoseResult& result, const Attempt& attem
     result.reason = "Newton's method diverged";
   } else {
     result.status = PoseStatus::kIterationLimit;
-    result.reason = "no equilibrium within the iteration limit; last step " + std::to_string(attempt.descent.step) + " mm";
+    result.reason = "no equilibrium within the iteration limit; last step " +
+                    std::to_string(attempt.descent.step) + " mm";
   }
 }
 

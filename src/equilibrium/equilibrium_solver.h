@@ -2,11 +2,12 @@
 
 /// Positions of equilibrium of one model, one after the other.
 ///
-/// Newton on the contacts of the pose before comes first; then contacts that pull are released, overlaps that the
-/// search finds become contacts, and Newton goes on, until forces and gaps agree (Dortmans repeats the increment
-/// likewise [1986, 4.6], but cannot find a new contact). Where this does not settle, the step from the last pose is
-/// taken in parts, halved as needed; where no part settles, and for the first pose, the descent finds the way.
-/// A pose is converged only when no part of the known surfaces overlaps by more than `overlap`.
+/// Newton on the contacts of the pose before comes first; then contacts that pull are released,
+/// overlaps that the search finds become contacts, and Newton goes on, until forces and gaps agree
+/// (Dortmans repeats the increment likewise [1986, 4.6], but cannot find a new contact). Where this
+/// does not settle, the step from the last pose is taken in parts, halved as needed; where no part
+/// settles, and for the first pose, the descent finds the way. A pose is converged only when no
+/// part of the known surfaces overlaps by more than `overlap`.
 
 #include <memory>
 #include <vector>
@@ -21,8 +22,8 @@ namespace condyle {
 struct EquilibriumOptions {
   NewtonOptions newton;
   DescentOptions descent;
-  double overlap = 5e-7;       ///< largest overlap of a converged pose [mm], and relative to L/30 mm
-  double edge_margin = 3;      ///< a contact nearer than this to the edge of its patch is flagged [mm]
+  double overlap = 5e-7;   ///< largest overlap of a converged pose [mm], and relative to L/30 mm
+  double edge_margin = 3;  ///< a contact nearer than this to the edge of its patch is flagged [mm]
   bool stability = true;
 };
 
@@ -35,8 +36,9 @@ class EquilibriumSolver {
   /// Values of conditions and scales of loads may change between poses; nothing else may.
   [[nodiscard]] Model& model() { return *model_; }
 
-  /// Solves from the last converged state, or from the model's start when there is none. The state is kept when
-  /// the pose converges. Without patience a step that does not settle is not taken in parts.
+  /// Solves from the last converged state, or from the model's start when there is none. The state
+  /// is kept when the pose converges. Without patience a step that does not settle is not taken in
+  /// parts.
   PoseResult solve(bool patient = true);
 
   /// The last converged state; set_state restores one, solved with the model's present values.

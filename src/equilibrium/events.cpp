@@ -14,8 +14,9 @@ int points_of(const PoseResult& pose, std::size_t contact) {
 
 bool beyond_edge(const PoseResult& pose, std::size_t contact) {
   const ContactResult& c = pose.contacts[contact];
-  return c.closed && std::any_of(c.points.begin(), c.points.end(),
-                                 [](const ContactPointResult& point) { return point.edge_distance < 0; });
+  return c.closed &&
+         std::any_of(c.points.begin(), c.points.end(),
+                     [](const ContactPointResult& point) { return point.edge_distance < 0; });
 }
 
 bool same_contacts(const PoseResult& a, const PoseResult& b) {
@@ -69,7 +70,8 @@ class EventSearch {
     return pose;
   }
 
-  /// A pose between two others: half way, or near it where that has no equilibrium from either side.
+  /// A pose between two others: half way, or near it where that has no equilibrium from either
+  /// side.
   std::optional<SolvedPose> between(const SolvedPose& left, const SolvedPose& right) {
     for (const double part : {0.5, 0.35, 0.65, 0.42, 0.58}) {
       const double value = left.value + part * (right.value - left.value);
@@ -79,7 +81,8 @@ class EventSearch {
     return std::nullopt;
   }
 
-  /// Closes in on the first change of contacts right of `left`; false where a trial has no equilibrium.
+  /// Closes in on the first change of contacts right of `left`; false where a trial has no
+  /// equilibrium.
   bool bisect_change(SolvedPose& left, SolvedPose& right) {
     while (std::abs(right.value - left.value) > options_.tolerance) {
       std::optional<SolvedPose> middle = between(left, right);
@@ -110,7 +113,9 @@ class EventSearch {
 
 }  // namespace
 
-bool is_solved(const PoseResult& pose) { return pose.converged() || pose.status == PoseStatus::kLeftPatch; }
+bool is_solved(const PoseResult& pose) {
+  return pose.converged() || pose.status == PoseStatus::kLeftPatch;
+}
 
 void locate_events(EquilibriumSolver& solver,
                    double& swept,
@@ -128,7 +133,9 @@ void locate_events(EquilibriumSolver& solver,
   }
   const double L = solver.model().length;
   for (std::size_t c = 0; c < left.result.contacts.size(); ++c) {
-    if (!same_contacts(left.result, right.result) || motion(left.result, right.result, c) < options.far * L) continue;
+    if (!same_contacts(left.result, right.result) ||
+        motion(left.result, right.result, c) < options.far * L)
+      continue;
     SolvedPose before = left, after = right;
     if (search.bisect_jump(before, after, c, options.jump * L))
       events.push_back({0.5 * (before.value + after.value), EventKind::kJump, static_cast<int>(c)});

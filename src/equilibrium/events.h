@@ -1,12 +1,13 @@
 #pragma once
 
-/// Events on a sweep, located on the swept value: a point of contact closes or opens, a contact jumps from one place to
-/// another, or passes the edge of the known surface.
+/// Events on a sweep, located on the swept value: a point of contact closes or opens, a contact
+/// jumps from one place to another, or passes the edge of the known surface.
 ///
-/// Two neighbouring poses whose contacts differ enclose an event. Bisection, each trial solved from the pose on the left,
-/// closes in until the bracket is shorter than the tolerance; several events between two poses are found one after the
-/// other. Where a contact merely moved far, the half with the greater part of the motion is followed: a motion that does
-/// not shrink with the bracket is a jump.
+/// Two neighbouring poses whose contacts differ enclose an event. Bisection, each trial solved from
+/// the pose on the left, closes in until the bracket is shorter than the tolerance; several events
+/// between two poses are found one after the other. Where a contact merely moved far, the half with
+/// the greater part of the motion is followed: a motion that does not shrink with the bracket is a
+/// jump.
 
 #include <vector>
 
@@ -23,16 +24,18 @@ struct SolvedPose {
 
 struct EventOptions {
   double tolerance = 1e-9;  ///< of the swept value [rad], [mm] or [-]
-  double far = 0.1;         ///< a contact that moved farther than this between two poses may have jumped, in units of L
-  double jump = 0.01;       ///< and has, when it still moves farther than this within the tolerance, in units of L
-  int most_events = 16;     ///< between two poses
+  double far = 0.1;  ///< a contact that moved farther than this between two poses may have jumped,
+                     ///< in units of L
+  double jump =
+      0.01;  ///< and has, when it still moves farther than this within the tolerance, in units of L
+  int most_events = 16;  ///< between two poses
 };
 
 /// Does the pose hold contacts that can be compared? Those beyond the edge of a patch do.
 [[nodiscard]] bool is_solved(const PoseResult& pose);
 
-/// Appends the events between two poses of one sweep. `swept` is the value in the solver's model; it and the solver's
-/// state are changed.
+/// Appends the events between two poses of one sweep. `swept` is the value in the solver's model;
+/// it and the solver's state are changed.
 void locate_events(EquilibriumSolver& solver,
                    double& swept,
                    const SolvedPose& left,

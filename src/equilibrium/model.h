@@ -1,7 +1,7 @@
 #pragma once
 
-/// The scene as the solver wants it: every point on the body that carries it, bodies reduced to B (fixed, ground
-/// frame) and A (moving). Constant while poses are solved, but for the swept value.
+/// The scene as the solver wants it: every point on the body that carries it, bodies reduced to B
+/// (fixed, ground frame) and A (moving). Constant while poses are solved, but for the swept value.
 
 #include <memory>
 #include <optional>
@@ -36,7 +36,8 @@ struct Model {
   std::vector<ContactPair> pairs;
   std::optional<JointFrames> joint;
   RigidTransform start;  ///< first estimate of X_BA
-  double length = 30;    ///< L [mm]: lever arms of the model; makes rotations L dπ and moments m/L comparable
+  double length =
+      30;  ///< L [mm]: lever arms of the model; makes rotations L dπ and moments m/L comparable
 };
 
 /// Most contacts plus conditions at once: with six the pose is a mechanism and the loads follow

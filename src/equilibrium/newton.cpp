@@ -38,7 +38,8 @@ bool NewtonSystem::assemble(const EquilibriumState& state) {
   contacts_.clear();
   for (const ClosedContact& contact : state.contacts) {
     const ContactPair& pair = model_.pairs[contact.pair];
-    contacts_.push_back(linearize_contact(*pair.on_B, contact.on_B, *pair.on_A, contact.on_A, state.X));
+    contacts_.push_back(
+        linearize_contact(*pair.on_B, contact.on_B, *pair.on_A, contact.on_A, state.X));
     add_contact_force(contacts_.back(), contact.p, wrench_);
     force_scale_ += std::abs(contact.p);
   }
@@ -114,7 +115,8 @@ double NewtonSystem::largest_distance() const {
 
 double NewtonSystem::largest_gap() const {
   double largest = 0;
-  for (const ContactLinearization& contact : contacts_) largest = std::max(largest, contact.g.norm());
+  for (const ContactLinearization& contact : contacts_)
+    largest = std::max(largest, contact.g.norm());
   return largest;
 }
 
@@ -145,7 +147,8 @@ NewtonReport Newton::solve(EquilibriumState& state) {
       report.outcome = NewtonOutcome::kDiverged;
       return report;
     }
-    // Round-off may keep a stiff model above the tolerance: then a step that no longer moves it is as good.
+    // Round-off may keep a stiff model above the tolerance: then a step that no longer moves it is
+    // as good.
     const double slack = last_step < 1e-12 * L ? 1e3 : 1;
     if (report.residual <= slack * options_.tolerance * report.force_scale &&
         distance <= slack * options_.tolerance * L) {
@@ -183,7 +186,8 @@ void Newton::apply_step(EquilibriumState& state, const double* step) const {
   for (std::size_t k = 0; k < n; ++k) {
     ClosedContact& contact = state.contacts[k];
     const ContactPair& pair = model_.pairs[contact.pair];
-    slide_contact(*pair.on_B, contact.on_B, *pair.on_A, contact.on_A, system_.contacts()[k], state.X, da, dpi, L);
+    slide_contact(*pair.on_B, contact.on_B, *pair.on_A, contact.on_A, system_.contacts()[k],
+                  state.X, da, dpi, L);
     contact.p += step[6 + k];
   }
   for (std::size_t k = 0; k < state.sigma.size(); ++k)

@@ -1,18 +1,20 @@
 #pragma once
 
-/// Newton's method on the equilibrium of a given set of closed contacts [Dortmans 1986, 2.156-2.160].
+/// Newton's method on the equilibrium of a given set of closed contacts [Dortmans
+/// 1986, 2.156-2.160].
 ///
-/// Unknowns da, dπ, dp (n contacts), dσ (m conditions), 6 + n + m rows; the surface coordinates are eliminated
-/// (elements/contact.h). Rotations are scaled by the model's length L, moments by 1/L, angle conditions by L, so that
-/// all rows are newtons or millimetres:
+/// Unknowns da, dπ, dp (n contacts), dσ (m conditions), 6 + n + m rows; the surface coordinates are
+/// eliminated (elements/contact.h). Rotations are scaled by the model's length L, moments by 1/L,
+/// angle conditions by L, so that all rows are newtons or millimetres:
 ///
 ///     [ F1      F2/L     n      -w α    ] [da  ]     [ f   ]
 ///     [ M1/L    M2/L²    s x n/L -w η/L ] [L dπ] = - [ m/L ]
 ///     [ nᵀ      (s x n)ᵀ/L  0     0     ] [dp  ]     [ n.g ]
 ///     [ w αᵀ    w ηᵀ/L   0       0      ] [dσ/w]     [ w k ]
 ///
-/// Converged means: force and moment/L below tolerance times the sum of all force magnitudes, distances below
-/// tolerance times L. Which contacts are closed is somebody else's decision (equilibrium_solver.h).
+/// Converged means: force and moment/L below tolerance times the sum of all force magnitudes,
+/// distances below tolerance times L. Which contacts are closed is somebody else's decision
+/// (equilibrium_solver.h).
 
 #include <vector>
 
@@ -40,8 +42,9 @@ enum class NewtonOutcome { kConverged, kIterationLimit, kDiverged, kSingular, kZ
 
 struct NewtonOptions {
   int max_iterations = 25;
-  double tolerance = 1e-12;     ///< relative
-  double longest_step = 0.35;   ///< of one iteration, in units of L (translation and rotation together)
+  double tolerance = 1e-12;  ///< relative
+  double longest_step =
+      0.35;  ///< of one iteration, in units of L (translation and rotation together)
 };
 
 struct NewtonReport {
@@ -69,9 +72,10 @@ class NewtonSystem {
   [[nodiscard]] const std::vector<ConditionDerivatives>& conditions() const { return conditions_; }
   [[nodiscard]] double force_scale() const { return force_scale_; }
   [[nodiscard]] int zero_element() const { return zero_element_; }
-  [[nodiscard]] double out_of_balance() const;   ///< max(|f|, |m|/L) [N]
-  [[nodiscard]] double largest_distance() const; ///< of coincidence |g|, alignment L|h| and conditions [mm]
-  [[nodiscard]] double largest_gap() const;      ///< |g| [mm]
+  [[nodiscard]] double out_of_balance() const;  ///< max(|f|, |m|/L) [N]
+  [[nodiscard]] double largest_distance()
+      const;  ///< of coincidence |g|, alignment L|h| and conditions [mm]
+  [[nodiscard]] double largest_gap() const;  ///< |g| [mm]
 
  private:
   const Model& model_;

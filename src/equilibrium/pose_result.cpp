@@ -4,26 +4,40 @@ namespace condyle {
 
 const char* name(PoseStatus status) {
   switch (status) {
-    case PoseStatus::kConverged: return "converged";
-    case PoseStatus::kIterationLimit: return "iteration limit";
-    case PoseStatus::kDiverged: return "diverged";
-    case PoseStatus::kSingular: return "singular";
-    case PoseStatus::kLeftPatch: return "left patch";
-    case PoseStatus::kNoEquilibrium: return "no equilibrium";
-    case PoseStatus::kZeroLength: return "zero length";
-    case PoseStatus::kOverlap: return "overlap";
-    case PoseStatus::kNotComputed: return "not computed";
+    case PoseStatus::kConverged:
+      return "converged";
+    case PoseStatus::kIterationLimit:
+      return "iteration limit";
+    case PoseStatus::kDiverged:
+      return "diverged";
+    case PoseStatus::kSingular:
+      return "singular";
+    case PoseStatus::kLeftPatch:
+      return "left patch";
+    case PoseStatus::kNoEquilibrium:
+      return "no equilibrium";
+    case PoseStatus::kZeroLength:
+      return "zero length";
+    case PoseStatus::kOverlap:
+      return "overlap";
+    case PoseStatus::kNotComputed:
+      return "not computed";
   }
   return "unknown";
 }
 
 const char* name(EventKind kind) {
   switch (kind) {
-    case EventKind::kClosing: return "closing";
-    case EventKind::kOpening: return "opening";
-    case EventKind::kJump: return "jump";
-    case EventKind::kLeavingPatch: return "leaving patch";
-    case EventKind::kReturningToPatch: return "returning to patch";
+    case EventKind::kClosing:
+      return "closing";
+    case EventKind::kOpening:
+      return "opening";
+    case EventKind::kJump:
+      return "jump";
+    case EventKind::kLeavingPatch:
+      return "leaving patch";
+    case EventKind::kReturningToPatch:
+      return "returning to patch";
   }
   return "unknown";
 }

@@ -1,7 +1,8 @@
 #pragma once
 
-/// What the equilibrium solver says about one pose, and a sweep about all: plain data for results and pictures.
-/// Units inside: mm, N, N mm, rad. B is the fixed body (ground frame), A the moving one.
+/// What the equilibrium solver says about one pose, and a sweep about all: plain data for results
+/// and pictures. Units inside: mm, N, N mm, rad. B is the fixed body (ground frame), A the moving
+/// one.
 
 #include <Eigen/Core>
 
@@ -18,13 +19,14 @@ namespace condyle {
 /// The values are those of /sweep/status.
 enum class PoseStatus {
   kConverged = 0,
-  kIterationLimit = 1,   ///< the iteration did not settle
-  kDiverged = 2,         ///< the pose ran away or a number overflowed
-  kSingular = 3,         ///< dependent conditions or contacts, or a motion that nothing resists (named in `reason`)
-  kLeftPatch = 4,        ///< a closed contact lies beyond the known part of its surface
-  kNoEquilibrium = 5,    ///< a load that nothing carries
-  kZeroLength = 6,       ///< a line element of zero length
-  kOverlap = 7,          ///< the surfaces overlap elsewhere and no admissible set of contacts was found
+  kIterationLimit = 1,  ///< the iteration did not settle
+  kDiverged = 2,        ///< the pose ran away or a number overflowed
+  kSingular = 3,   ///< dependent conditions or contacts, or a motion that nothing resists (named in
+                   ///< `reason`)
+  kLeftPatch = 4,  ///< a closed contact lies beyond the known part of its surface
+  kNoEquilibrium = 5,  ///< a load that nothing carries
+  kZeroLength = 6,     ///< a line element of zero length
+  kOverlap = 7,  ///< the surfaces overlap elsewhere and no admissible set of contacts was found
   kNotComputed = 8
 };
 inline constexpr int kPoseStatusCount = 9;
@@ -34,25 +36,29 @@ inline constexpr int kPoseStatusCount = 9;
 
 /// One point of contact.
 struct ContactPointResult {
-  double force = 0;                     ///< p [N], > 0 pushes apart
-  Eigen::Vector3d point_ground;         ///< [mm]
-  Eigen::Vector3d point_moving;         ///< the same point in A's frame [mm]
-  Eigen::Vector3d normal_ground;        ///< unit, out of the fixed body's solid
-  double gap = 0;                       ///< [mm]
-  std::array<double, 2> relative_curvature;  ///< principal values of -(K + Kr) [1/mm], ascending; > 0 isolated
-  double edge_distance = std::numeric_limits<double>::infinity();  ///< to the edge of the known surfaces [mm]
-  bool on_edge = false;                 ///< within the margin of a patch's known region
+  double force = 0;               ///< p [N], > 0 pushes apart
+  Eigen::Vector3d point_ground;   ///< [mm]
+  Eigen::Vector3d point_moving;   ///< the same point in A's frame [mm]
+  Eigen::Vector3d normal_ground;  ///< unit, out of the fixed body's solid
+  double gap = 0;                 ///< [mm]
+  std::array<double, 2>
+      relative_curvature;  ///< principal values of -(K + Kr) [1/mm], ascending; > 0 isolated
+  double edge_distance =
+      std::numeric_limits<double>::infinity();  ///< to the edge of the known surfaces [mm]
+  bool on_edge = false;                         ///< within the margin of a patch's known region
 };
 
 /// A pair of surfaces. Closed with one or more points; open, it tells where the gap is smallest.
 struct ContactResult {
   bool closed = false;
-  double force = 0;                          ///< sum over the points [N]
-  std::vector<ContactPointResult> points;    ///< closed: those that carry; open: the nearest one, force 0
+  double force = 0;  ///< sum over the points [N]
+  std::vector<ContactPointResult>
+      points;  ///< closed: those that carry; open: the nearest one, force 0
 };
 
 struct LigamentResult {
-  double length = 0, strain = 0, force = 0;  ///< [mm], [-] (0 where the law has no slack length), [N]
+  double length = 0, strain = 0,
+         force = 0;  ///< [mm], [-] (0 where the law has no slack length), [N]
 };
 
 struct ConditionResult {
@@ -70,20 +76,21 @@ struct PoseResult {
   std::vector<LigamentResult> ligaments;    ///< as in Scene::ligaments
   std::vector<ConditionResult> conditions;  ///< as in Scene::conditions
   int stability = -1;                       ///< 1 stable, 0 neutral or unstable, -1 not computed
-  double lowest_stiffness = std::numeric_limits<double>::quiet_NaN();  ///< of the reduced stiffness [N/mm]
-  int iterations = 0;      ///< Newton iterations
-  double residual = 0;     ///< largest out-of-balance force [N], moments divided by the model's length
+  double lowest_stiffness =
+      std::numeric_limits<double>::quiet_NaN();  ///< of the reduced stiffness [N/mm]
+  int iterations = 0;                            ///< Newton iterations
+  double residual = 0;  ///< largest out-of-balance force [N], moments divided by the model's length
   double seconds = 0;
   [[nodiscard]] bool converged() const { return status == PoseStatus::kConverged; }
 };
 
 /// What happens to a contact at one value of a sweep; the values are those of /events/kind.
 enum class EventKind {
-  kClosing = 0,           ///< a point of contact begins to carry
-  kOpening = 1,           ///< a point of contact ceases to carry
-  kJump = 2,              ///< the contact goes from one place to another
-  kLeavingPatch = 3,      ///< the contact passes the edge of the known surface outwards
-  kReturningToPatch = 4   ///< and inwards
+  kClosing = 0,          ///< a point of contact begins to carry
+  kOpening = 1,          ///< a point of contact ceases to carry
+  kJump = 2,             ///< the contact goes from one place to another
+  kLeavingPatch = 3,     ///< the contact passes the edge of the known surface outwards
+  kReturningToPatch = 4  ///< and inwards
 };
 inline constexpr int kEventKindCount = 5;
 
@@ -93,7 +100,7 @@ inline constexpr int kEventKindCount = 5;
 struct Event {
   double value = 0;  ///< of what is swept [rad], [mm] or [-]
   EventKind kind = EventKind::kClosing;
-  int contact = 0;   ///< index into Scene::contacts
+  int contact = 0;  ///< index into Scene::contacts
 };
 
 struct SweepResult {

@@ -71,7 +71,8 @@ SmallQpSolution solve_qp(const SmallQp& qp) {
   if (free > 0) {
     const Eigen::SelfAdjointEigenSolver<SmallMatrix> eigen(SmallMatrix(Z.transpose() * qp.H * Z));
     solution.least_eigenvalue = eigen.eigenvalues().minCoeff();
-    const Eigen::VectorXd inverse = eigen.eigenvalues().cwiseAbs().cwiseMax(qp.floor).cwiseInverse();
+    const Eigen::VectorXd inverse =
+        eigen.eigenvalues().cwiseAbs().cwiseMax(qp.floor).cwiseInverse();
     const Eigen::MatrixXd W =
         eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
     const Eigen::VectorXd g = Z.transpose() * (qp.g + qp.H * x0);

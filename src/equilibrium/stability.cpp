@@ -15,7 +15,8 @@ Stability stability(const Model& model, const NewtonSystem& system) {
   K << w.F1, w.F2 / L, w.M1 / L, w.M2 / (L * L);
   K = (-0.5 * (K + K.transpose())).eval();
 
-  const auto rows = static_cast<Eigen::Index>(system.contacts().size() + system.conditions().size());
+  const auto rows =
+      static_cast<Eigen::Index>(system.contacts().size() + system.conditions().size());
   SmallMatrix columns(6, std::min<Eigen::Index>(rows, 6));
   Eigen::Index k = 0;
   for (const ContactLinearization& contact : system.contacts())

@@ -19,7 +19,9 @@ double& swept_value(const SweepDescription& sweep, Model& model) {
 
 }  // namespace
 
-SweepResult sweep(const Scene& scene, const std::vector<FittedSurface>& surfaces, const SweepOptions& options) {
+SweepResult sweep(const Scene& scene,
+                  const std::vector<FittedSurface>& surfaces,
+                  const SweepOptions& options) {
   assert(scene.sweep);
   EquilibriumOptions equilibrium;
   equilibrium.stability = options.stability;

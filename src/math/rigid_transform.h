@@ -12,7 +12,9 @@ struct RigidTransform {
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
 
   /// A point, [mm].
-  [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& point) const { return R * point + p; }
+  [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
+    return R * point + p;
+  }
   [[nodiscard]] RigidTransform operator*(const RigidTransform& other) const {
     return {R * other.R, R * other.p + p};
   }

@@ -35,7 +35,8 @@ Eigen::Matrix3d exp_rotation(const Eigen::Vector3d& theta) {
 }
 
 Eigen::Vector3d log_rotation(const Eigen::Matrix3d& R) {
-  // Through the unit quaternion: its vector part is θ/|θ| sin(|θ|/2), well conditioned for every angle.
+  // Through the unit quaternion: its vector part is θ/|θ| sin(|θ|/2), well conditioned for every
+  // angle.
   Eigen::Quaterniond q(R);
   q.normalize();
   if (q.w() < 0) q.coeffs() = -q.coeffs();

@@ -1,7 +1,7 @@
 #pragma once
 
-/// LU factorisation with partial pivoting of a small dense system, in place and without allocation: the Newton
-/// matrices of this program have at most 6 + 6 rows.
+/// LU factorisation with partial pivoting of a small dense system, in place and without allocation:
+/// the Newton matrices of this program have at most 6 + 6 rows.
 
 #include <array>
 
@@ -18,7 +18,8 @@ class SmallLu {
   /// Sets the leading n x n block to zero.
   void clear(int n);
 
-  /// Factors the leading n x n block. False where a pivot vanishes relative to its row's largest entry.
+  /// Factors the leading n x n block. False where a pivot vanishes relative to its row's largest
+  /// entry.
   bool factor(int n);
 
   /// Solves A x = b for b and x of length n; `b` becomes x.

@@ -29,7 +29,8 @@ int drop_degenerate(TriangleMesh& mesh, double tolerance) {
   std::vector<bool> keep(mesh.triangles.size());
   for (std::size_t t = 0; t < keep.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
-    const Vector3d ab = mesh.vertices[b] - mesh.vertices[a], ac = mesh.vertices[c] - mesh.vertices[a];
+    const Vector3d ab = mesh.vertices[b] - mesh.vertices[a],
+                   ac = mesh.vertices[c] - mesh.vertices[a];
     const double longest = std::max({ab.norm(), ac.norm(), (ab - ac).norm()});
     keep[t] = a != b && b != c && c != a && ab.cross(ac).norm() > tolerance * longest;
   }
@@ -45,7 +46,8 @@ int drop_duplicates(TriangleMesh& mesh) {
   std::sort(order.begin(), order.end(),
             [&](int x, int y) { return std::tie(sorted[x], x) < std::tie(sorted[y], y); });
   std::vector<bool> keep(sorted.size(), true);
-  for (std::size_t i = 1; i < order.size(); ++i) keep[order[i]] = sorted[order[i]] != sorted[order[i - 1]];
+  for (std::size_t i = 1; i < order.size(); ++i)
+    keep[order[i]] = sorted[order[i]] != sorted[order[i - 1]];
   keep_triangles(mesh, keep);
   return static_cast<int>(std::count(keep.begin(), keep.end(), false));
 }
@@ -71,7 +73,8 @@ CleanMesh clean_mesh(TriangleMesh mesh, const CleaningOptions& options) {
   CleaningReport& report = result.report;
   Eigen::AlignedBox3d box;
   for (const Vector3d& p : mesh.vertices) box.extend(p);
-  const double tolerance = mesh.vertices.empty() ? 0 : options.merge_tolerance * box.diagonal().norm();
+  const double tolerance =
+      mesh.vertices.empty() ? 0 : options.merge_tolerance * box.diagonal().norm();
 
   report.merged_vertices = merge_vertices(mesh, tolerance);
   report.degenerate_triangles = drop_degenerate(mesh, tolerance);
@@ -83,7 +86,8 @@ CleanMesh clean_mesh(TriangleMesh mesh, const CleaningOptions& options) {
   result.component = find_components(mesh, edges);
   report.flipped_triangles = orient_components(mesh, edges, result.component, result.closed);
   report.components = static_cast<int>(result.closed.size());
-  report.closed_components = static_cast<int>(std::count(result.closed.begin(), result.closed.end(), true));
+  report.closed_components =
+      static_cast<int>(std::count(result.closed.begin(), result.closed.end(), true));
   for (const MeshEdge& e : edges) {
     report.boundary_edges += e.count == 1;
     report.non_manifold_edges += e.count > 2;

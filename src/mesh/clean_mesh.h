@@ -1,7 +1,8 @@
 #pragma once
 
-/// Mends what segmentation and mesh tools leave behind: coincident vertices, degenerate and duplicate
-/// triangles, strays, triangles turned the wrong way round. Everything that is done is counted.
+/// Mends what segmentation and mesh tools leave behind: coincident vertices, degenerate and
+/// duplicate triangles, strays, triangles turned the wrong way round. Everything that is done is
+/// counted.
 
 #include <string>
 #include <vector>
@@ -13,7 +14,8 @@ namespace condyle {
 struct CleaningOptions {
   double merge_tolerance =
       1e-6;  ///< vertices closer than this times the diagonal of the bounding box are one
-  double stray_fraction = 0.01;  ///< components below this share of the largest one's area are dropped
+  double stray_fraction =
+      0.01;  ///< components below this share of the largest one's area are dropped
 };
 
 struct CleaningReport {
@@ -37,7 +39,8 @@ struct CleanMesh {
   CleaningReport report;
 };
 
-/// Triangles belong to one component when they are linked through edges that just two triangles share.
+/// Triangles belong to one component when they are linked through edges that just two triangles
+/// share.
 [[nodiscard]] CleanMesh clean_mesh(TriangleMesh mesh, const CleaningOptions& options = {});
 
 /// One line for everything that was mended or dropped, none where the mesh was clean.

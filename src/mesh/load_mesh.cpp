@@ -31,8 +31,8 @@ void append(TriangleMesh& mesh, const aiMesh& part, double to_mm) {
   for (unsigned i = 0; i < part.mNumFaces; ++i) {
     const aiFace& face = part.mFaces[i];
     if (face.mNumIndices != 3) continue;  // points and lines
-    const bool known = face.mIndices[0] < part.mNumVertices && face.mIndices[1] < part.mNumVertices &&
-                       face.mIndices[2] < part.mNumVertices;
+    const bool known = face.mIndices[0] < part.mNumVertices &&
+                       face.mIndices[1] < part.mNumVertices && face.mIndices[2] < part.mNumVertices;
     if (!known) throw InputError("face refers to a vertex that is not there");
     mesh.triangles.push_back({offset + static_cast<int>(face.mIndices[0]),
                               offset + static_cast<int>(face.mIndices[1]),
@@ -72,7 +72,8 @@ void check_size(const std::filesystem::path& file, const TriangleMesh& mesh, dou
   Eigen::AlignedBox3d box;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     if (!mesh.vertices[i].allFinite())
-      throw InputError(fmt::format("{}: vertex {} is not a number (NaN or infinite)", file.string(), i));
+      throw InputError(
+          fmt::format("{}: vertex {} is not a number (NaN or infinite)", file.string(), i));
     box.extend(mesh.vertices[i]);
   }
   const double extent = box.sizes().maxCoeff();
@@ -97,8 +98,8 @@ TriangleMesh load_mesh(const std::filesystem::path& file, double to_mm) {
   }
   if (mesh.triangles.empty()) throw InputError(fmt::format("{}: mesh has no faces", file.string()));
   if (promised.faces && static_cast<long>(mesh.triangles.size()) < *promised.faces)
-    throw InputError(fmt::format("{}: {} of {} faces can be read; the file is damaged", file.string(),
-                                 mesh.triangles.size(), *promised.faces));
+    throw InputError(fmt::format("{}: {} of {} faces can be read; the file is damaged",
+                                 file.string(), mesh.triangles.size(), *promised.faces));
   check_size(file, mesh, to_mm);
   return mesh;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
-/// Triangle meshes from files: STL, PLY, OBJ, OFF, ASCII or binary. assimp lives here and nowhere else.
+/// Triangle meshes from files: STL, PLY, OBJ, OFF, ASCII or binary. assimp lives here and nowhere
+/// else.
 
 #include <filesystem>
 
@@ -8,10 +9,10 @@
 
 namespace condyle {
 
-/// The mesh of `file` as it stands there, its lengths times `to_mm`; polygons are cut into triangles.
-/// Throws InputError where the file is missing, damaged, without faces, with coordinates that are no
-/// numbers, or of a size that no knee has: larger than 2000 mm or smaller than 5 mm, with the unit that is
-/// suspected.
+/// The mesh of `file` as it stands there, its lengths times `to_mm`; polygons are cut into
+/// triangles. Throws InputError where the file is missing, damaged, without faces, with coordinates
+/// that are no numbers, or of a size that no knee has: larger than 2000 mm or smaller than 5 mm,
+/// with the unit that is suspected.
 [[nodiscard]] TriangleMesh load_mesh(const std::filesystem::path& file, double to_mm);
 
 }  // namespace condyle

@@ -20,7 +20,8 @@ std::uint64_t key_of(const Cell& cell) {
   return key;
 }
 
-/// Points in a grid of cells much larger than the tolerance, so that nearly every look-up visits one cell.
+/// Points in a grid of cells much larger than the tolerance, so that nearly every look-up visits
+/// one cell.
 class PointGrid {
  public:
   PointGrid(double tolerance, std::size_t capacity) : tolerance_(tolerance), cell_(64 * tolerance) {

@@ -75,8 +75,8 @@ void check_coordinates(const std::filesystem::path& file, Scanner& line, long li
     double value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
-      fail(file,
-           fmt::format("line {}: vertex coordinate \"{}\", expected a finite number", line_number, word));
+      fail(file, fmt::format("line {}: vertex coordinate \"{}\", expected a finite number",
+                             line_number, word));
   }
 }
 
@@ -97,8 +97,8 @@ MeshFileCounts check_ascii_stl(const std::filesystem::path& file, string_view te
   }
   if (facets == 0 && ended) fail(file, "mesh has no faces");
   if (!ended || facets != closed || vertices != 3 * facets)
-    fail(file, fmt::format("ASCII STL is cut short: {} facets begun, {} ended, {} vertices{}", facets,
-                           closed, vertices, ended ? "" : ", no endsolid"));
+    fail(file, fmt::format("ASCII STL is cut short: {} facets begun, {} ended, {} vertices{}",
+                           facets, closed, vertices, ended ? "" : ", no endsolid"));
   return {.vertices = std::nullopt, .faces = facets};
 }
 
@@ -113,8 +113,8 @@ MeshFileCounts check_stl(const std::filesystem::path& file, const std::string& b
   if (bytes.size() < kHeader)
     fail(file, fmt::format("binary STL of {} bytes, expected at least {}", bytes.size(), kHeader));
   if (!exact)
-    fail(file, fmt::format("binary STL states {} triangles = {} bytes, but the file holds {} bytes", facets,
-                           expected, bytes.size()));
+    fail(file, fmt::format("binary STL states {} triangles = {} bytes, but the file holds {} bytes",
+                           facets, expected, bytes.size()));
   if (facets == 0) fail(file, "mesh has no faces");
   return {.vertices = std::nullopt, .faces = facets};
 }
@@ -128,8 +128,8 @@ void check_obj_corner(const std::filesystem::path& file,
   const bool known =
       index && ((*index >= 1 && *index <= vertices) || (*index <= -1 && *index >= -vertices));
   if (!known)
-    fail(file, fmt::format("line {}: face refers to vertex \"{}\", expected 1 to {}", line_number, corner,
-                           vertices));
+    fail(file, fmt::format("line {}: face refers to vertex \"{}\", expected 1 to {}", line_number,
+                           corner, vertices));
 }
 
 MeshFileCounts check_obj(const std::filesystem::path& file, const std::string& bytes) {
@@ -150,7 +150,8 @@ MeshFileCounts check_obj(const std::filesystem::path& file, const std::string& b
     for (string_view c = line.word(); !c.empty(); c = line.word(), ++corners)
       check_obj_corner(file, c, vertices, line_number);
     if (corners < 3)
-      fail(file, fmt::format("line {}: face with {} corners, expected at least 3", line_number, corners));
+      fail(file,
+           fmt::format("line {}: face with {} corners, expected at least 3", line_number, corners));
     ++faces;
   }
   if (vertices == 0) fail(file, "mesh has no vertices, expected lines \"v x y z\"");
@@ -161,7 +162,8 @@ MeshFileCounts check_obj(const std::filesystem::path& file, const std::string& b
 struct PlyElement {
   std::string name;
   long count = 0;
-  std::size_t smallest = 0;  ///< bytes of one entry in a binary file; a list counted with three items
+  std::size_t smallest =
+      0;  ///< bytes of one entry in a binary file; a list counted with three items
 };
 
 std::size_t ply_size(string_view type) {
@@ -181,7 +183,8 @@ struct PlyHeader {
 
 PlyHeader read_ply_header(const std::filesystem::path& file, const std::string& bytes) {
   Scanner scan{bytes};
-  if (Scanner{scan.line()}.word() != "ply") fail(file, "not a PLY file: the first line must be \"ply\"");
+  if (Scanner{scan.line()}.word() != "ply")
+    fail(file, "not a PLY file: the first line must be \"ply\"");
   PlyHeader header;
   while (!scan.rest.empty()) {
     Scanner line{scan.line()};
@@ -228,15 +231,17 @@ MeshFileCounts check_ply(const std::filesystem::path& file, const std::string& b
   if (counts.faces.value_or(0) == 0) fail(file, "mesh has no faces");
   if (header.binary && header.body.size() < smallest)
     fail(file,
-         fmt::format("binary PLY is cut short: its header asks for at least {} bytes, the file holds {}",
-                     smallest, header.body.size()));
+         fmt::format(
+             "binary PLY is cut short: its header asks for at least {} bytes, the file holds {}",
+             smallest, header.body.size()));
   if (!header.binary) {
     long lines = 0;
     for (Scanner scan{header.body}; !scan.rest.empty();)
       if (!Scanner{scan.line()}.word().empty()) ++lines;
     if (lines < entries)
-      fail(file, fmt::format("ASCII PLY is cut short: its header asks for {} lines, the file holds {}",
-                             entries, lines));
+      fail(file,
+           fmt::format("ASCII PLY is cut short: its header asks for {} lines, the file holds {}",
+                       entries, lines));
   }
   return counts;
 }
@@ -259,13 +264,16 @@ MeshFileCounts check_off(const std::filesystem::path& file, const std::string& b
     counts_line = Scanner{lines[next++]};
     word = counts_line.word();
   }
-  const long vertices = to_integer(word).value_or(-1), faces = to_integer(counts_line.word()).value_or(-1);
-  if (vertices < 0 || faces < 0) fail(file, "OFF: expected the numbers of vertices, faces and edges");
+  const long vertices = to_integer(word).value_or(-1),
+             faces = to_integer(counts_line.word()).value_or(-1);
+  if (vertices < 0 || faces < 0)
+    fail(file, "OFF: expected the numbers of vertices, faces and edges");
   if (vertices == 0) fail(file, "mesh has no vertices");
   if (faces == 0) fail(file, "mesh has no faces");
   if (static_cast<long>(lines.size() - next) < vertices + faces)
-    fail(file, fmt::format("OFF is cut short: it states {} vertices and {} faces, but {} lines follow",
-                           vertices, faces, lines.size() - next));
+    fail(file,
+         fmt::format("OFF is cut short: it states {} vertices and {} faces, but {} lines follow",
+                     vertices, faces, lines.size() - next));
   for (long i = 0; i < faces; ++i) {
     Scanner line{lines[next + static_cast<std::size_t>(vertices + i)]};
     const long corners = to_integer(line.word()).value_or(0);
@@ -275,8 +283,8 @@ MeshFileCounts check_off(const std::filesystem::path& file, const std::string& b
       const string_view index = line.word();
       const long k = to_integer(index).value_or(-1);
       if (k < 0 || k >= vertices)
-        fail(file,
-             fmt::format("OFF: face {} refers to vertex \"{}\", expected 0 to {}", i, index, vertices - 1));
+        fail(file, fmt::format("OFF: face {} refers to vertex \"{}\", expected 0 to {}", i, index,
+                               vertices - 1));
     }
   }
   return {.vertices = vertices, .faces = faces};
@@ -293,7 +301,8 @@ MeshFileCounts check_mesh_file(const std::filesystem::path& file) {
   if (extension == ".obj") return check_obj(file, bytes);
   if (extension == ".ply") return check_ply(file, bytes);
   if (extension == ".off") return check_off(file, bytes);
-  fail(file, fmt::format("unsupported mesh format \"{}\", expected .stl, .ply, .obj or .off", extension));
+  fail(file,
+       fmt::format("unsupported mesh format \"{}\", expected .stl, .ply, .obj or .off", extension));
 }
 
 }  // namespace condyle

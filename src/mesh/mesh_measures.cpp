@@ -73,7 +73,8 @@ std::vector<MeshEdge> mesh_edges(const TriangleMesh& mesh) {
 double mean_edge_length(const TriangleMesh& mesh) {
   double sum = 0;
   for (const auto& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) sum += (mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]).norm();
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += (mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]).norm();
   return mesh.triangles.empty() ? 0 : sum / (3 * static_cast<double>(mesh.triangles.size()));
 }
 

@@ -20,8 +20,8 @@ namespace condyle {
 
 /// One edge, once, and the triangles that share it.
 struct MeshEdge {
-  int a = 0, b = 0;                        ///< vertices, a < b
-  int count = 0;                           ///< triangles that share it: 1 on a boundary, 2 on a manifold
+  int a = 0, b = 0;  ///< vertices, a < b
+  int count = 0;     ///< triangles that share it: 1 on a boundary, 2 on a manifold
   std::array<int, 2> triangle = {-1, -1};  ///< the first two of them
   std::array<bool, 2> forward = {};        ///< whether the triangle runs from a to b
 };

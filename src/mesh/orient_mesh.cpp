@@ -12,8 +12,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A component with fewer boundary edges than this share of its triangles counts as closed: pinholes of a
-/// segmentation, not the rim of a sheet (a sheet of n triangles has about 2 √n of them).
+/// A component with fewer boundary edges than this share of its triangles counts as closed:
+/// pinholes of a segmentation, not the rim of a sheet (a sheet of n triangles has about 2 √n of
+/// them).
 constexpr double kPinholes = 0.005;
 
 struct Neighbour {
@@ -33,7 +34,8 @@ std::vector<std::vector<Neighbour>> neighbours(const TriangleMesh& mesh,
   return result;
 }
 
-/// Which triangles to turn for a component that contains `seed`: marks and lists the component on the way.
+/// Which triangles to turn for a component that contains `seed`: marks and lists the component on
+/// the way.
 std::vector<int> make_consistent(const std::vector<std::vector<Neighbour>>& links,
                                  int seed,
                                  std::vector<bool>& turned,
@@ -47,7 +49,8 @@ std::vector<int> make_consistent(const std::vector<std::vector<Neighbour>>& link
       turned[other] = turned[members[next]] != !agrees;
       members.push_back(other);
     }
-  const auto count = std::count_if(members.begin(), members.end(), [&](int t) { return turned[t]; });
+  const auto count =
+      std::count_if(members.begin(), members.end(), [&](int t) { return turned[t]; });
   if (2 * static_cast<std::size_t>(count) > members.size())
     for (const int t : members) turned[t] = !turned[t];
   return members;
@@ -63,8 +66,8 @@ double enclosed_volume(const TriangleMesh& mesh,
   double volume = 0;
   for (const int t : members) {
     const auto& [a, b, c] = mesh.triangles[t];
-    const double part =
-        (mesh.vertices[a] - center).dot((mesh.vertices[b] - center).cross(mesh.vertices[c] - center));
+    const double part = (mesh.vertices[a] - center)
+                            .dot((mesh.vertices[b] - center).cross(mesh.vertices[c] - center));
     volume += turned[t] ? -part : part;
   }
   return volume;

@@ -9,12 +9,14 @@
 
 namespace condyle {
 
-/// Number of the component of each triangle, by falling area; linked through edges of just two triangles.
+/// Number of the component of each triangle, by falling area; linked through edges of just two
+/// triangles.
 [[nodiscard]] std::vector<int> find_components(const TriangleMesh& mesh,
                                                const std::vector<MeshEdge>& edges);
 
-/// Turns triangles so that each component is consistent in itself (the fewest are turned) and closed
-/// components face outward. Returns how many triangles end up turned; fills `closed` per component.
+/// Turns triangles so that each component is consistent in itself (the fewest are turned) and
+/// closed components face outward. Returns how many triangles end up turned; fills `closed` per
+/// component.
 int orient_components(TriangleMesh& mesh,
                       const std::vector<MeshEdge>& edges,
                       const std::vector<int>& component,

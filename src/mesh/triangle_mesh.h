@@ -1,7 +1,7 @@
 #pragma once
 
-/// A triangle mesh as plain data. Vertices in mm, in the frame of the body (or cartilage) that the file
-/// describes.
+/// A triangle mesh as plain data. Vertices in mm, in the frame of the body (or cartilage) that the
+/// file describes.
 
 #include <Eigen/Core>
 
@@ -11,8 +11,9 @@
 namespace condyle {
 
 struct TriangleMesh {
-  std::vector<Eigen::Vector3d> vertices;      ///< [mm]
-  std::vector<std::array<int, 3>> triangles;  ///< indices into vertices, counter-clockwise from outside
+  std::vector<Eigen::Vector3d> vertices;  ///< [mm]
+  std::vector<std::array<int, 3>>
+      triangles;  ///< indices into vertices, counter-clockwise from outside
 };
 
 }  // namespace condyle

@@ -37,8 +37,8 @@ struct Paint {
 /// roughness of segmentation does not glitter.
 [[nodiscard]] ShadedMesh shade(const TriangleMesh& mesh, const Paint& paint, int smoothing = 2);
 
-/// Every edge has two triangles, which run along it in opposite directions, and the volume is positive: from outside no
-/// back face is ever seen.
+/// Every edge has two triangles, which run along it in opposite directions, and the volume is
+/// positive: from outside no back face is ever seen.
 [[nodiscard]] bool is_closed(const TriangleMesh& mesh);
 
 /// Adds `part` to `whole`.

@@ -179,7 +179,7 @@ void Hdf5Group::attach(const Hdf5Handle& object,
   const Hdf5Handle attribute = checked(
       H5Acreate2(object.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
       H5Aclose, what);
-  check(H5Awrite(attribute.id(), type.id(), pointers(texts).data()), what);
+  if (!texts.empty()) check(H5Awrite(attribute.id(), type.id(), pointers(texts).data()), what);
 }
 
 void Hdf5Group::write_attribute(const std::string& name, const std::string& text) const {

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A run on disk: HDF5 as shared between programs (format "condyle 1"). All the reader of pictures needs is inside:
-/// the scene text, poses, patches, and the bodies' meshes.
+/// A run on disk: HDF5 as shared between programs (format "condyle 1"). All the reader of pictures
+/// needs is inside: the scene text, poses, patches, and the bodies' meshes.
 
 #include <filesystem>
 #include <string>
@@ -34,8 +34,8 @@ struct Run {
   std::vector<BodyMesh> bodies;
 };
 
-/// Writes to a temporary file beside `path` and renames it: never a half-written file. Throws InputError when the
-/// folder does not exist or the disk is full.
+/// Writes to a temporary file beside `path` and renames it: never a half-written file. Throws
+/// InputError when the folder does not exist or the disk is full.
 void write_run(const std::filesystem::path& path, const Run& run);
 
 /// Throws InputError for a file that is missing or is not a run.

@@ -140,7 +140,8 @@ std::vector<std::string> event_lines(const Scene& scene, const SweepResult& swee
   const Unit unit = scene.sweep ? border_sweep_unit(scene) : Unit{"1", 1};
   std::vector<std::string> lines;
   for (const Event& event : sweep.events) {
-    lines.push_back(fmt::format("{}: {} at {:.6f} {}", scene.contacts.at(static_cast<std::size_t>(event.contact)).name,
+    lines.push_back(fmt::format("{}: {} at {:.6f} {}",
+                                scene.contacts.at(static_cast<std::size_t>(event.contact)).name,
                                 name(event.kind), event.value / unit.factor, unit.name));
   }
   return lines;

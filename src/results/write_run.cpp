@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ctime>
 #include <functional>
+#include <limits>
 
 #include "results/hdf5_file.h"
 #include "results/output_file.h"
@@ -95,8 +96,20 @@ void write_pose(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) 
   }
 }
 
+ContactPointResult no_point() {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  ContactPointResult point;
+  point.point_ground.setConstant(kNaN);
+  point.point_moving = point.normal_ground = point.point_ground;
+  point.gap = std::numeric_limits<double>::infinity();
+  point.relative_curvature = {kNaN, kNaN};
+  return point;
+}
+
 // The point that stands for a pair of surfaces: the one with the greatest force.
+// An open contact without a place near carries nothing, infinitely far away.
 ContactPointResult main_point(const ContactResult& contact) {
+  if (contact.points.empty()) return no_point();
   ContactPointResult point =
       *std::max_element(contact.points.begin(), contact.points.end(),
                         [](const auto& a, const auto& b) { return a.force < b.force; });
@@ -150,7 +163,6 @@ void write_contact(const Hdf5Group& group, const Poses& poses, std::size_t index
   for (const PointColumn& column : kPointColumns) {
     const FillRow fill = [&](const PoseResult& pose, double* row) {
       const ContactResult& contact = pose.contacts[index];
-      if (contact.points.empty()) return;
       ContactPointResult point = main_point(contact);
       std::copy_n(column.data(point), column.width, row);
     };

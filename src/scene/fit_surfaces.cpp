@@ -62,9 +62,9 @@ MeshFile mesh_of(const Scene& scene, const SurfaceDescription& surface) {
   if (surface.patch.mesh) return *surface.patch.mesh;
   const BodyDescription& body = scene.bodies[surface.body];
   if (body.mesh) return *body.mesh;
-  throw InputError(
-      fmt::format("{}: kind = \"patch\" needs a mesh: neither the surface nor its body \"{}\" names one",
-                  place_of(scene, surface), body.name));
+  throw InputError(fmt::format(
+      "{}: kind = \"patch\" needs a mesh: neither the surface nor its body \"{}\" names one",
+      place_of(scene, surface), body.name));
 }
 
 void check_patch(const Scene& scene, const SurfaceDescription& surface) {
@@ -72,12 +72,13 @@ void check_patch(const Scene& scene, const SurfaceDescription& surface) {
   if (surface.patch.region_box) return;
   if (!surface.patch.compartment)
     throw InputError(fmt::format(
-        "{}: a patch needs compartment = \"medial\" or \"lateral\", or region = {{ box = ... }}", place));
+        "{}: a patch needs compartment = \"medial\" or \"lateral\", or region = {{ box = ... }}",
+        place));
   if (!scene.joint)
     throw InputError(fmt::format("{}: compartment is found from [joint], which is missing", place));
   if (surface.body != scene.joint->femur.body && surface.body != scene.joint->tibia.body)
-    throw InputError(fmt::format("{}: body \"{}\" is neither the femur nor the tibia of [joint]", place,
-                                 scene.bodies[surface.body].name));
+    throw InputError(fmt::format("{}: body \"{}\" is neither the femur nor the tibia of [joint]",
+                                 place, scene.bodies[surface.body].name));
 }
 
 /// Patches by mesh, so that each file is read once per body.
@@ -92,8 +93,12 @@ std::vector<Source> collect_sources(const Scene& scene) {
       return s.body == surface.body && s.file.path == file.path && s.file.to_mm == file.to_mm;
     });
     if (source == sources.end()) {
-      sources.push_back(
-          {.file = file, .body = surface.body, .surfaces = {}, .mesh = {}, .axis = {}, .notes = {}});
+      sources.push_back({.file = file,
+                         .body = surface.body,
+                         .surfaces = {},
+                         .mesh = {},
+                         .axis = {},
+                         .notes = {}});
       source = sources.end() - 1;
     }
     source->surfaces.push_back(static_cast<int>(i));
@@ -116,8 +121,9 @@ bool is_tibia(const Scene& scene, const Source& source) {
 }
 
 bool needs_axis(const Scene& scene, const Source& source) {
-  return is_femur(scene, source) && std::any_of(source.surfaces.begin(), source.surfaces.end(),
-                                                [&](int i) { return !scene.surfaces[i].patch.region_box; });
+  return is_femur(scene, source) &&
+         std::any_of(source.surfaces.begin(), source.surfaces.end(),
+                     [&](int i) { return !scene.surfaces[i].patch.region_box; });
 }
 
 void load_source(const Scene& scene, Source& source) {
@@ -125,10 +131,11 @@ void load_source(const Scene& scene, Source& source) {
   source.notes = describe(source.mesh.report);
   int turned = 0;
   if (is_femur(scene, source)) turned = face_out_of_femur(source.mesh);
-  if (is_tibia(scene, source)) turned = face_out_of_tibia(source.mesh, bone_frame(scene.joint->tibia));
+  if (is_tibia(scene, source))
+    turned = face_out_of_tibia(source.mesh, bone_frame(scene.joint->tibia));
   if (turned > 0)
-    source.notes.push_back(fmt::format("{} of {} sheets faced into the bone and were turned", turned,
-                                       source.mesh.closed.size()));
+    source.notes.push_back(fmt::format("{} of {} sheets faced into the bone and were turned",
+                                       turned, source.mesh.closed.size()));
   if (!needs_axis(scene, source)) return;
   try {
     const TriangleMesh& mesh = source.mesh.mesh;
@@ -138,7 +145,9 @@ void load_source(const Scene& scene, Source& source) {
   }
 }
 
-ArticularRegion find_region(const Scene& scene, const Source& source, const PatchDescription& patch) {
+ArticularRegion find_region(const Scene& scene,
+                            const Source& source,
+                            const PatchDescription& patch) {
   const TriangleMesh& mesh = source.mesh.mesh;
   if (patch.region_box) return box_region(mesh, *patch.region_box);
   const Half half = *patch.compartment == Compartment::kMedial ? Half::kMedial : Half::kLateral;
@@ -175,11 +184,12 @@ FittedSurface fit_one(const Scene& scene, const Source& source, const SurfaceDes
     FitReport report = report_of(surface.name, region, fit);
     for (const std::vector<std::string>& notes : {source.notes, region.notes, fit.notes})
       report.notes.insert(report.notes.end(), notes.begin(), notes.end());
-    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return {std::make_shared<const Patch>(std::move(fit.patch)), std::move(report)};
   } catch (const InputError& error) {
-    throw InputError(
-        fmt::format("{}: {} ({})", place_of(scene, surface), error.what(), source.file.path.string()));
+    throw InputError(fmt::format("{}: {} ({})", place_of(scene, surface), error.what(),
+                                 source.file.path.string()));
   }
 }
 
@@ -188,9 +198,11 @@ void fit_source(const Scene& scene, Source& source, std::vector<FittedSurface>& 
   for (const int i : source.surfaces) surfaces[i] = fit_one(scene, source, scene.surfaces[i]);
 }
 
-/// Work for all sources on two threads, the first error rethrown: sources share nothing but their own
-/// places in `surfaces`.
-void fit_sources(const Scene& scene, std::vector<Source>& sources, std::vector<FittedSurface>& surfaces) {
+/// Work for all sources on two threads, the first error rethrown: sources share nothing but their
+/// own places in `surfaces`.
+void fit_sources(const Scene& scene,
+                 std::vector<Source>& sources,
+                 std::vector<FittedSurface>& surfaces) {
   std::vector<std::exception_ptr> errors(sources.size());
   const auto work = [&](std::size_t first, std::size_t step) {
     for (std::size_t k = first; k < sources.size(); k += step) {
@@ -215,7 +227,8 @@ std::vector<FittedSurface> fit_surfaces(const Scene& scene) {
   std::vector<FittedSurface> surfaces(scene.surfaces.size());
   fit_sources(scene, sources, surfaces);
   for (std::size_t i = 0; i < surfaces.size(); ++i)
-    if (scene.surfaces[i].kind != SurfaceKind::kPatch) surfaces[i].surface = make_exact(scene.surfaces[i]);
+    if (scene.surfaces[i].kind != SurfaceKind::kPatch)
+      surfaces[i].surface = make_exact(scene.surfaces[i]);
   return surfaces;
 }
 

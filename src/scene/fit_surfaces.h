@@ -1,7 +1,7 @@
 #pragma once
 
-/// From the described surfaces of a scene to surfaces that can be evaluated: exact kinds are made, patches are
-/// fitted to the meshes (mesh room: load, clean, articular region; surface room: fit).
+/// From the described surfaces of a scene to surfaces that can be evaluated: exact kinds are made,
+/// patches are fitted to the meshes (mesh room: load, clean, articular region; surface room: fit).
 
 #include <memory>
 #include <string>
@@ -15,14 +15,15 @@ namespace condyle {
 
 /// How a patch came out; distances in mm, between the patch and the mesh of the articular region.
 struct FitReport {
-  std::string surface;            ///< name
-  int mesh_vertices = 0;          ///< in the region
+  std::string surface;    ///< name
+  int mesh_vertices = 0;  ///< in the region
   std::array<int, 2> control_points = {0, 0};
-  double smoothing_length = 0;    ///< [mm]
+  double smoothing_length = 0;  ///< [mm]
   double rms = 0, p95 = 0, max = 0;
-  double core_rms = 0, core_max = 0;   ///< farther than 4 mm from the edge of the region
-  double normal_rms = 0;          ///< [rad], core
-  std::array<double, 2> curvature_range = {0, 0};  ///< least and greatest principal curvature in the core [1/mm]
+  double core_rms = 0, core_max = 0;  ///< farther than 4 mm from the edge of the region
+  double normal_rms = 0;              ///< [rad], core
+  std::array<double, 2> curvature_range = {
+      0, 0};  ///< least and greatest principal curvature in the core [1/mm]
   double seconds = 0;
   std::vector<std::string> notes;  ///< what was dropped, mended or suspicious, one line each
 };

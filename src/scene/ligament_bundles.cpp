@@ -39,7 +39,8 @@ std::vector<LigamentBundle> ligament_bundles(const std::vector<std::string>& nam
   return group_by(names, [](const std::string& name) { return without_number(name); });
 }
 
-std::vector<LigamentBundle> ligament_columns(const std::vector<std::string>& names, std::size_t most) {
+std::vector<LigamentBundle> ligament_columns(const std::vector<std::string>& names,
+                                             std::size_t most) {
   if (names.size() <= most) return group_by(names, [](const std::string& name) { return name; });
   std::vector<LigamentBundle> bundles = ligament_bundles(names);
   return bundles.size() <= most ? bundles : group_by(names, without_part);

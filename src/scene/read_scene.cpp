@@ -23,6 +23,8 @@ std::string contents(const std::filesystem::path& file) {
     throw InputError(name + ": no such file, expected a scene (TOML)");
   if (std::filesystem::is_directory(status))
     throw InputError(name + ": is a folder, expected a scene (TOML)");
+  if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_fifo(status))
+    throw InputError(name + ": is neither a file nor a pipe, expected a scene (TOML)");
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();

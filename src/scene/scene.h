@@ -1,8 +1,10 @@
 #pragma once
 
-/// The described knee: plain data, what a scene file says, in the units used inside (mm, N, N mm, rad, tonne).
+/// The described knee: plain data, what a scene file says, in the units used inside (mm, N, N mm,
+/// rad, tonne).
 ///
-/// Indices refer to the vectors of the same Scene. A scene refers to meshes by path; nothing is loaded here.
+/// Indices refer to the vectors of the same Scene. A scene refers to meshes by path; nothing is
+/// loaded here.
 
 #include <Eigen/Core>
 
@@ -30,22 +32,24 @@ struct BodyDescription {
   std::string name;
   bool fixed = false;
   std::optional<MeshFile> mesh;
-  /// Start pose of a moving body in the ground frame, a first estimate. Joint angles, where given, stand in for
-  /// the rotation (they need [joint]).
+  /// Start pose of a moving body in the ground frame, a first estimate. Joint angles, where given,
+  /// stand in for the rotation (they need [joint]).
   Eigen::Vector3d start_translation = Eigen::Vector3d::Zero();  ///< of O_A [mm]
   Eigen::Vector3d start_rotation = Eigen::Vector3d::Zero();     ///< rotation vector [rad]
-  std::optional<std::array<double, 3>> start_joint_angles;      ///< flexion, adduction, internal rotation [rad]
+  std::optional<std::array<double, 3>>
+      start_joint_angles;  ///< flexion, adduction, internal rotation [rad]
   /// Mass data, read only by `simulate`.
-  std::optional<double> density;          ///< [tonne/mm³]
-  std::optional<double> mass;             ///< [tonne]
-  std::optional<Eigen::Vector3d> center;  ///< of mass, body frame [mm]
-  std::optional<Eigen::Matrix3d> inertia; ///< about the mass centre, body frame [tonne mm²]
+  std::optional<double> density;           ///< [tonne/mm³]
+  std::optional<double> mass;              ///< [tonne]
+  std::optional<Eigen::Vector3d> center;   ///< of mass, body frame [mm]
+  std::optional<Eigen::Matrix3d> inertia;  ///< about the mass centre, body frame [tonne mm²]
 };
 
 enum class Side { kRight, kLeft };
 
-/// An anatomical frame fixed to a body. `lateral` points away from the body's midplane on either side, so the triad
-/// (lateral, anterior, proximal) is right-handed for a right knee and left-handed for a left one.
+/// An anatomical frame fixed to a body. `lateral` points away from the body's midplane on either
+/// side, so the triad (lateral, anterior, proximal) is right-handed for a right knee and
+/// left-handed for a left one.
 struct AnatomicalFrame {
   int body = -1;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [mm], body frame
@@ -62,11 +66,12 @@ enum class Compartment { kMedial, kLateral };
 
 /// Which part of a mesh a patch covers, and how it is fitted.
 struct PatchDescription {
-  std::optional<Compartment> compartment;                             ///< or a region:
-  std::optional<std::array<Eigen::Vector3d, 2>> region_box;           ///< two opposite corners, body frame [mm]
-  std::optional<MeshFile> mesh;                                       ///< of its own, in place of the body's
-  std::optional<std::array<int, 2>> control_points;                   ///< absent: chosen from the data
-  std::optional<double> smoothing;                                    ///< smoothing length [mm]; absent: "auto"
+  std::optional<Compartment> compartment;  ///< or a region:
+  std::optional<std::array<Eigen::Vector3d, 2>>
+      region_box;                                    ///< two opposite corners, body frame [mm]
+  std::optional<MeshFile> mesh;                      ///< of its own, in place of the body's
+  std::optional<std::array<int, 2>> control_points;  ///< absent: chosen from the data
+  std::optional<double> smoothing;                   ///< smoothing length [mm]; absent: "auto"
   int degree = 3;
 };
 
@@ -77,14 +82,16 @@ struct SurfaceDescription {
   bool solid_inside = true;  ///< closed kinds: the solid is within (a ball) or around (a socket)
   PatchDescription patch;    ///< kPatch
 
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();     ///< plane: a point; cylinder: on the axis; sphere, ellipsoid,
-                                                       ///< torus: the centre [mm]
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();///< plane: normal out of the solid; cylinder, torus: axis; unit
-  double radius = 0;                                   ///< sphere, cylinder, torus: major radius [mm]
-  double minor_radius = 0;                             ///< torus [mm]
-  Eigen::Vector3d semi_axes = Eigen::Vector3d::Ones(); ///< ellipsoid [mm]
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< ellipsoid: columns are the axes; polynomial: x, y, height
-  std::vector<PolynomialTerm> terms;                   ///< polynomial: height over the plane through `point`
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< plane: a point; cylinder: on the axis;
+                                                    ///< sphere, ellipsoid, torus: the centre [mm]
+  Eigen::Vector3d direction =
+      Eigen::Vector3d::UnitZ();  ///< plane: normal out of the solid; cylinder, torus: axis; unit
+  double radius = 0;             ///< sphere, cylinder, torus: major radius [mm]
+  double minor_radius = 0;       ///< torus [mm]
+  Eigen::Vector3d semi_axes = Eigen::Vector3d::Ones();  ///< ellipsoid [mm]
+  Eigen::Matrix3d axes =
+      Eigen::Matrix3d::Identity();    ///< ellipsoid: columns are the axes; polynomial: x, y, height
+  std::vector<PolynomialTerm> terms;  ///< polynomial: height over the plane through `point`
 };
 
 enum class ContactState { kAuto, kClosed, kOpen };
@@ -106,41 +113,44 @@ struct LigamentDescription {
   std::string name;
   std::array<Attachment, 2> ends;
   ForceLaw law;
-  /// toe-linear or quadratic with `reference_strain` and no `reference_length`: the slack length follows from the
-  /// length at the start pose; reading the scene fills it in.
+  /// toe-linear or quadratic with `reference_strain` and no `reference_length`: the slack length
+  /// follows from the length at the start pose; reading the scene fills it in.
   std::optional<double> reference_strain;
 };
 
 struct ConditionDescription {
   std::string name;
   ConditionKind kind = ConditionKind::kFlexion;
-  double value = 0;                                       ///< prescribed [rad] or [mm]
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();        ///< kTranslation: unit vector
-  int cardan_axis = 0;                                    ///< kRotation: 0 x, 1 y, 2 z
-  std::array<Attachment, 2> ends;                         ///< kDistance
+  double value = 0;                                 ///< prescribed [rad] or [mm]
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< kTranslation: unit vector
+  int cardan_axis = 0;                              ///< kRotation: 0 x, 1 y, 2 z
+  std::array<Attachment, 2> ends;                   ///< kDistance
 };
 
 struct LoadDescription {
   std::string name;
   int body = -1;
-  bool moment = false;                             ///< a moment [N mm] in place of a force [N]
-  Eigen::Vector3d vector = Eigen::Vector3d::Zero();///< in the ground frame (dead) or the body frame (follower)
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();    ///< point of application, body frame [mm]; forces only
+  bool moment = false;  ///< a moment [N mm] in place of a force [N]
+  Eigen::Vector3d vector =
+      Eigen::Vector3d::Zero();  ///< in the ground frame (dead) or the body frame (follower)
+  Eigen::Vector3d at =
+      Eigen::Vector3d::Zero();  ///< point of application, body frame [mm]; forces only
   bool follows_body = false;
 };
 
 struct SweepDescription {
-  bool varies_load = false;    ///< `vary = "NAME.scale"`: the factor on a load; else a condition's value
-  int index = -1;              ///< of the condition or the load
-  std::string vary;            ///< as written
+  bool varies_load =
+      false;         ///< `vary = "NAME.scale"`: the factor on a load; else a condition's value
+  int index = -1;    ///< of the condition or the load
+  std::string vary;  ///< as written
   std::vector<double> values;  ///< [rad], [mm] or [-], in the order to be visited
 };
 
 struct Scene {
   std::string title;
-  std::string text;                 ///< the whole file, for the result file
-  std::filesystem::path file;       ///< where it was read
-  double length_to_mm = 1;          ///< declared units, for messages
+  std::string text;            ///< the whole file, for the result file
+  std::filesystem::path file;  ///< where it was read
+  double length_to_mm = 1;     ///< declared units, for messages
   double angle_to_rad = 1;
   double force_to_n = 1;
   std::vector<BodyDescription> bodies;
@@ -153,12 +163,14 @@ struct Scene {
   std::optional<SweepDescription> sweep;
 
   [[nodiscard]] int fixed_body() const {
-    for (std::size_t i = 0; i < bodies.size(); ++i) if (bodies[i].fixed) return static_cast<int>(i);
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (bodies[i].fixed) return static_cast<int>(i);
     return -1;
   }
   /// The moving body (one today).
   [[nodiscard]] int moving_body() const {
-    for (std::size_t i = 0; i < bodies.size(); ++i) if (!bodies[i].fixed) return static_cast<int>(i);
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (!bodies[i].fixed) return static_cast<int>(i);
     return -1;
   }
 };

@@ -29,16 +29,20 @@ void turn_components(CleanMesh& mesh, const std::vector<double>& outwardness) {
 
 int count_inward(const CleanMesh& mesh, const std::vector<double>& outwardness) {
   int count = 0;
-  for (std::size_t c = 0; c < outwardness.size(); ++c) count += !mesh.closed[c] && outwardness[c] < 0;
+  for (std::size_t c = 0; c < outwardness.size(); ++c)
+    count += !mesh.closed[c] && outwardness[c] < 0;
   return count;
 }
 
-/// Normals averaged over a few rings, about as far as `distance`; a staircase of voxels has no say in them.
+/// Normals averaged over a few rings, about as far as `distance`; a staircase of voxels has no say
+/// in them.
 std::vector<Vector3d> smoothed_normals(const TriangleMesh& mesh, double distance) {
   std::vector<Vector3d> normals = vertex_normals(mesh);
   const double edge = mean_edge_length(mesh);
   const int rounds =
-      edge > 0 ? std::clamp(static_cast<int>(std::lround(distance * distance / (edge * edge))), 0, 12) : 0;
+      edge > 0
+          ? std::clamp(static_cast<int>(std::lround(distance * distance / (edge * edge))), 0, 12)
+          : 0;
   for (int round = 0; round < rounds; ++round) {
     std::vector<Vector3d> next(normals.size(), Vector3d::Zero());
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -129,9 +133,11 @@ struct InnerEnds {
   double medial, lateral;
 };
 
-/// In the gap between two sheets; on a whole bone at the crests of the medial and the lateral half of the
-/// eminence. A mesh that is deeper than wide is one plateau alone.
-InnerEnds inner_ends(const TriangleMesh& mesh, const BoneFrame& frame, const std::vector<bool>& upward) {
+/// In the gap between two sheets; on a whole bone at the crests of the medial and the lateral half
+/// of the eminence. A mesh that is deeper than wide is one plateau alone.
+InnerEnds inner_ends(const TriangleMesh& mesh,
+                     const BoneFrame& frame,
+                     const std::vector<bool>& upward) {
   std::vector<double> z;
   Eigen::AlignedBox3d box;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -141,10 +147,12 @@ InnerEnds inner_ends(const TriangleMesh& mesh, const BoneFrame& frame, const std
     z.push_back(p.z());
   }
   if (z.size() < 20)
-    throw InputError("no tibial plateau found: expected faces towards the proximal direction of [joint]");
+    throw InputError(
+        "no tibial plateau found: expected faces towards the proximal direction of [joint]");
   if (box.sizes().z() < 1.1 * box.sizes().x()) return {box.max().z() + 1, box.min().z() - 1};
   const double first = box.min().z(), extent = box.sizes().z();
-  if (const Gap gap = widest_gap(std::move(z)); gap.width > 0.03 * extent) return {gap.center, gap.center};
+  if (const Gap gap = widest_gap(std::move(z)); gap.width > 0.03 * extent)
+    return {gap.center, gap.center};
 
   constexpr int kBins = 40;
   std::vector<double> top(kBins, -1e300);
@@ -166,12 +174,14 @@ InnerEnds inner_ends(const TriangleMesh& mesh, const BoneFrame& frame, const std
 int face_out_of_femur(CleanMesh& mesh) {
   std::vector<Eigen::AlignedBox3d> boxes(mesh.closed.size());
   for (std::size_t t = 0; t < mesh.component.size(); ++t)
-    for (const int v : mesh.mesh.triangles[t]) boxes[mesh.component[t]].extend(mesh.mesh.vertices[v]);
+    for (const int v : mesh.mesh.triangles[t])
+      boxes[mesh.component[t]].extend(mesh.mesh.vertices[v]);
   const std::vector<Vector3d> areas = triangle_areas(mesh.mesh);
   std::vector<double> outwardness(mesh.closed.size(), 0.0);
   for (std::size_t t = 0; t < areas.size(); ++t) {
     const int c = mesh.component[t];
-    outwardness[c] += areas[t].dot(mesh.mesh.vertices[mesh.mesh.triangles[t][0]] - boxes[c].center());
+    outwardness[c] +=
+        areas[t].dot(mesh.mesh.vertices[mesh.mesh.triangles[t][0]] - boxes[c].center());
   }
   turn_components(mesh, outwardness);
   return count_inward(mesh, outwardness);
@@ -204,10 +214,12 @@ ArticularRegion femoral_region(const TriangleMesh& mesh,
   for (std::size_t i = 0; i < passes.size(); ++i) {
     const Vector3d& p = mesh.vertices[i];
     const Vector3d q = radial(p);
-    const double r = q.norm(), theta = angle(q), z = axis.direction.dot(p - axis.point) - axis.split;
+    const double r = q.norm(), theta = angle(q),
+                 z = axis.direction.dot(p - axis.point) - axis.split;
     passes[i] = (half == Half::kMedial) == (z < 0) && theta > options.femur_first_angle &&
-                theta < options.femur_last_angle && normals[i].dot(q) > options.femur_least_cosine * r &&
-                r > 0.55 * radius && r < 2.2 * radius;
+                theta < options.femur_last_angle &&
+                normals[i].dot(q) > options.femur_least_cosine * r && r > 0.55 * radius &&
+                r < 2.2 * radius;
   }
   ArticularRegion region = make_region(
       mesh, select(mesh, passes),
@@ -220,9 +232,9 @@ ArticularRegion femoral_region(const TriangleMesh& mesh,
     low = std::min(low, uv.x() / radius);
     high = std::max(high, uv.x() / radius);
   }
-  region.notes.push_back(
-      fmt::format("condylar axis: radius {:.2f} mm, {:.2f} mm rms; condyle from {:.0f} to {:.0f} degrees",
-                  radius, axis.rms, low * 180 / M_PI, high * 180 / M_PI));
+  region.notes.push_back(fmt::format(
+      "condylar axis: radius {:.2f} mm, {:.2f} mm rms; condyle from {:.0f} to {:.0f} degrees",
+      radius, axis.rms, low * 180 / M_PI, high * 180 / M_PI));
   return region;
 }
 
@@ -261,9 +273,9 @@ ArticularRegion tibial_region(const TriangleMesh& mesh,
   }
   ArticularRegion region = plane_region(mesh, keep, height, frame.anterior);
   const Vector3d h = frame.components(height);
-  region.notes.push_back(fmt::format("plateau slopes {:.1f} degrees backwards, {:.1f} towards lateral",
-                                     std::atan2(-h.x(), h.y()) * 180 / M_PI,
-                                     std::atan2(h.z(), h.y()) * 180 / M_PI));
+  region.notes.push_back(
+      fmt::format("plateau slopes {:.1f} degrees backwards, {:.1f} towards lateral",
+                  std::atan2(-h.x(), h.y()) * 180 / M_PI, std::atan2(h.z(), h.y()) * 180 / M_PI));
   return region;
 }
 
@@ -275,7 +287,8 @@ ArticularRegion box_region(const TriangleMesh& mesh, const std::array<Vector3d, 
   const std::vector<bool> all = select(mesh, inside);
   const Vector3d height = total_area(mesh, all).stableNormalized();
   const std::vector<Vector3d> normals = vertex_normals(mesh);
-  for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = inside[i] && normals[i].dot(height) > 0.25;
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    inside[i] = inside[i] && normals[i].dot(height) > 0.25;
   const std::vector<bool> keep = select(mesh, inside);
   if (std::find(keep.begin(), keep.end(), true) == keep.end())
     throw InputError("the region box holds no part of the mesh");

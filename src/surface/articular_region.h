@@ -2,10 +2,11 @@
 
 /// The articular part of a bone or cartilage mesh, and the chart on which a patch is laid over it.
 ///
-/// Works on open cartilage sheets (one femoral sheet for both condyles, two tibial ones), closed cartilage
-/// slabs (the inner face is left out) and whole bones (shaft, trochlea, notch walls and eminence walls are
-/// left out). The femur is charted by (arc length, width) about the common axis of its posterior condyles,
-/// the tibia by its height over the mean plane of the plateau; see docs/surface.md.
+/// Works on open cartilage sheets (one femoral sheet for both condyles, two tibial ones), closed
+/// cartilage slabs (the inner face is left out) and whole bones (shaft, trochlea, notch walls and
+/// eminence walls are left out). The femur is charted by (arc length, width) about the common axis
+/// of its posterior condyles, the tibia by its height over the mean plane of the plateau; see
+/// docs/surface.md.
 
 #include <array>
 #include <string>
@@ -24,25 +25,29 @@ struct ArticularRegion {
   TriangleMesh mesh;                     ///< of the region alone, facing out of the bone
   std::vector<Eigen::Vector3d> normals;  ///< unit normals of the vertices, out of the bone
   std::vector<Eigen::Vector2d> chart;    ///< (u, v) of the vertices [mm of chart length]
-  std::vector<double> slope;             ///< cosine between normal and chart direction at the vertices
-  std::vector<std::string> notes;        ///< what was chosen and left out, one line each
+  std::vector<double> slope;       ///< cosine between normal and chart direction at the vertices
+  std::vector<std::string> notes;  ///< what was chosen and left out, one line each
 };
 
 /// Limits of the articular area.
 struct RegionOptions {
   double femur_first_angle = -0.98,
-         femur_last_angle = 2.45;    ///< about the condylar axis, 0 distal, + posterior [rad]
-  double femur_least_cosine = 0.55;  ///< of normal and radial direction: beyond it lie notch and side walls
-  double tibia_least_cosine = 0.5;   ///< of normal and plateau direction: beyond lie eminence and rim walls
-  double normal_smoothing = 1.5;     ///< normals are averaged over this distance before they decide [mm]
+         femur_last_angle = 2.45;  ///< about the condylar axis, 0 distal, + posterior [rad]
+  double femur_least_cosine =
+      0.55;  ///< of normal and radial direction: beyond it lie notch and side walls
+  double tibia_least_cosine =
+      0.5;  ///< of normal and plateau direction: beyond lie eminence and rim walls
+  double normal_smoothing =
+      1.5;  ///< normals are averaged over this distance before they decide [mm]
 };
 
-/// Turns open components so that they face out of the bone (closed ones do already); returns how many.
+/// Turns open components so that they face out of the bone (closed ones do already); returns how
+/// many.
 int face_out_of_femur(CleanMesh& mesh);
 int face_out_of_tibia(CleanMesh& mesh, const BoneFrame& frame);
 
-/// Region of one compartment. Throws InputError (without the name of the surface) where nothing can be
-/// found.
+/// Region of one compartment. Throws InputError (without the name of the surface) where nothing can
+/// be found.
 [[nodiscard]] ArticularRegion femoral_region(const TriangleMesh& mesh,
                                              const CondylarAxis& axis,
                                              Half half,

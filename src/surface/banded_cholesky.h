@@ -1,7 +1,7 @@
 #pragma once
 
-/// Symmetric positive definite systems whose entries lie near the diagonal: the normal equations of a
-/// tensor-product fit.
+/// Symmetric positive definite systems whose entries lie near the diagonal: the normal equations of
+/// a tensor-product fit.
 
 #include <Eigen/Core>
 

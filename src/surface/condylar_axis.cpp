@@ -16,7 +16,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A vertex in anatomical components (x anterior, y proximal, z lateral) with its normal and its area.
+/// A vertex in anatomical components (x anterior, y proximal, z lateral) with its normal and its
+/// area.
 struct Sample {
   Vector3d p, n;
   double area;
@@ -46,12 +47,13 @@ std::vector<Sample> samples_of(const TriangleMesh& mesh,
   std::vector<Sample> samples;
   samples.reserve(mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
-    samples.push_back(
-        {frame.components(mesh.vertices[i] - frame.origin), frame.components(normals[i]), areas[i]});
+    samples.push_back({frame.components(mesh.vertices[i] - frame.origin),
+                       frame.components(normals[i]), areas[i]});
   return samples;
 }
 
-/// Posterior-distal faces of the lower end: mostly condyles, with some of the notch and the epicondyles.
+/// Posterior-distal faces of the lower end: mostly condyles, with some of the notch and the
+/// epicondyles.
 std::vector<Sample> posterior_candidates(const std::vector<Sample>& all) {
   Eigen::AlignedBox3d box;
   for (const Sample& s : all) box.extend(s.p);
@@ -62,15 +64,15 @@ std::vector<Sample> posterior_candidates(const std::vector<Sample>& all) {
   std::vector<Sample> kept;
   for (const Sample& s : all) {
     const double angle = angle_of(s.n.x(), s.n.y());
-    if (s.p.y() < top && s.p.x() < back + 0.4 * box.sizes().z() && std::abs(s.n.z()) < 0.4 && angle > 0.4 &&
-        angle < 1.9)
+    if (s.p.y() < top && s.p.x() < back + 0.4 * box.sizes().z() && std::abs(s.n.z()) < 0.4 &&
+        angle > 0.4 && angle < 1.9)
       kept.push_back(s);
   }
   return kept;
 }
 
-/// A point of a cylinder lies one radius along its normal from the axis: p = a(z) + R n, linear in the
-/// unknowns. Least squares, reweighted so that what is no condyle loses its say.
+/// A point of a cylinder lies one radius along its normal from the axis: p = a(z) + R n, linear in
+/// the unknowns. Least squares, reweighted so that what is no condyle loses its say.
 Cylinders first_estimate(const std::vector<Sample>& samples) {
   constexpr double kScale = 1.5;  // [mm]
   using Vector5 = Eigen::Matrix<double, 5, 1>;
@@ -82,7 +84,8 @@ Cylinders first_estimate(const std::vector<Sample>& samples) {
       Eigen::Matrix<double, 2, 5> row;
       row << 1, 0, s.p.z(), 0, s.n.x(), 0, 1, 0, s.p.z(), s.n.y();
       const Eigen::Vector2d p = s.p.head<2>(), r = p - row * x;
-      const double weight = iteration == 0 ? s.area : s.area / (1 + r.squaredNorm() / (kScale * kScale));
+      const double weight =
+          iteration == 0 ? s.area : s.area / (1 + r.squaredNorm() / (kScale * kScale));
       A += weight * row.transpose() * row;
       b += weight * row.transpose() * p;
     }
@@ -92,12 +95,15 @@ Cylinders first_estimate(const std::vector<Sample>& samples) {
 }
 
 /// Posterior arcs near the cylinders, normals radial.
-std::vector<Sample> condyle_samples(const std::vector<Sample>& all, const Cylinders& c, double band) {
+std::vector<Sample> condyle_samples(const std::vector<Sample>& all,
+                                    const Cylinders& c,
+                                    double band) {
   std::vector<Sample> kept;
   for (const Sample& s : all) {
     const Vector3d q = c.from_axis(s.p);
     const double r = q.norm(), angle = angle_of(q.x(), q.y());
-    if (std::abs(r - c.radius[c.side(s.p)]) < band && s.n.dot(q) > 0.7 * r && angle > 0.35 && angle < 1.92)
+    if (std::abs(r - c.radius[c.side(s.p)]) < band && s.n.dot(q) > 0.7 * r && angle > 0.35 &&
+        angle < 1.92)
       kept.push_back(s);
   }
   return kept;
@@ -144,11 +150,12 @@ void check(const Cylinders& c, const std::vector<Sample>& samples) {
     throw InputError("no posterior condyles found: expected a femur, in the frame of [joint]");
   for (const double r : c.radius)
     if (!(r > 8 && r < 45))
-      throw InputError(fmt::format("posterior condyles of radius {:.3g} mm, expected 8 to 45 mm", r));
+      throw InputError(
+          fmt::format("posterior condyles of radius {:.3g} mm, expected 8 to 45 mm", r));
   const double tilt = std::atan(std::hypot(c.tx, c.ty)) * 180 / M_PI;
   if (tilt > 30)
-    throw InputError(
-        fmt::format("the condylar axis lies {:.0f} degrees off the lateral direction of [joint]", tilt));
+    throw InputError(fmt::format(
+        "the condylar axis lies {:.0f} degrees off the lateral direction of [joint]", tilt));
 }
 
 CondylarAxis in_body_frame(const Cylinders& c, const BoneFrame& frame) {
@@ -179,8 +186,10 @@ Gap widest_gap(std::vector<double> positions) {
   const double low = positions.front(), extent = positions.back() - low;
   gap.center = low + extent / 2;
   for (std::size_t i = 1; i < positions.size(); ++i) {
-    const double center = (positions[i] + positions[i - 1]) / 2, width = positions[i] - positions[i - 1];
-    if (width > gap.width && std::abs(center - low - extent / 2) < extent / 4) gap = {center, width};
+    const double center = (positions[i] + positions[i - 1]) / 2,
+                 width = positions[i] - positions[i - 1];
+    if (width > gap.width && std::abs(center - low - extent / 2) < extent / 4)
+      gap = {center, width};
   }
   return gap;
 }

@@ -1,7 +1,8 @@
 #pragma once
 
-/// Exact surfaces: plane, sphere, cylinder, ellipsoid, torus and height polynomial. A place on one is the point
-/// itself, so no chart has a pole. `solid_inside` says on which side of a closed kind the solid lies.
+/// Exact surfaces: plane, sphere, cylinder, ellipsoid, torus and height polynomial. A place on one
+/// is the point itself, so no chart has a pole. `solid_inside` says on which side of a closed kind
+/// the solid lies.
 
 #include <memory>
 #include <vector>
@@ -11,8 +12,11 @@
 namespace condyle {
 
 /// Plane through `point`; `normal` points out of the solid.
-[[nodiscard]] std::unique_ptr<Surface> make_plane(const Eigen::Vector3d& point, const Eigen::Vector3d& normal);
-[[nodiscard]] std::unique_ptr<Surface> make_sphere(const Eigen::Vector3d& center, double radius, bool solid_inside);
+[[nodiscard]] std::unique_ptr<Surface> make_plane(const Eigen::Vector3d& point,
+                                                  const Eigen::Vector3d& normal);
+[[nodiscard]] std::unique_ptr<Surface> make_sphere(const Eigen::Vector3d& center,
+                                                   double radius,
+                                                   bool solid_inside);
 /// Infinite circular cylinder about the axis through `point`.
 [[nodiscard]] std::unique_ptr<Surface> make_cylinder(const Eigen::Vector3d& point,
                                                      const Eigen::Vector3d& axis,
@@ -34,8 +38,8 @@ struct PolynomialTerm {
   int i, j;  ///< exponents of x and y, >= 0
   double a;  ///< coefficient [mm^(1-i-j)]
 };
-/// Height z = Σ a x^i y^j over the plane through `origin`; columns of `axes` are x, y and the height direction.
-/// The solid lies below (`solid_inside`) or above.
+/// Height z = Σ a x^i y^j over the plane through `origin`; columns of `axes` are x, y and the
+/// height direction. The solid lies below (`solid_inside`) or above.
 [[nodiscard]] std::unique_ptr<Surface> make_polynomial(const Eigen::Vector3d& origin,
                                                        const Eigen::Matrix3d& axes,
                                                        std::vector<PolynomialTerm> terms,

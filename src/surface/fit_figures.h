@@ -9,7 +9,8 @@
 
 namespace condyle {
 
-/// Distances in mm, root mean squares by area. Core: farther than `core_margin` from the edge of the data.
+/// Distances in mm, root mean squares by area. Core: farther than `core_margin` from the edge of
+/// the data.
 struct FitFigures {
   double rms = 0, p95 = 0, max = 0;
   double core_rms = 0, core_max = 0;

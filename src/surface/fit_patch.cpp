@@ -42,15 +42,16 @@ SplineGrid make_grid(const ArticularRegion& region, const FitOptions& options) {
     grid.nu = (*options.control_points)[0], grid.nv = (*options.control_points)[1];
   const int least = options.degree + 1, vertices = static_cast<int>(region.mesh.vertices.size());
   if (grid.nu < least || grid.nv < least)
-    throw InputError(
-        fmt::format("{} x {} control points, expected at least {} each way", grid.nu, grid.nv, least));
+    throw InputError(fmt::format("{} x {} control points, expected at least {} each way", grid.nu,
+                                 grid.nv, least));
   if (vertices < 30 || (options.control_points && vertices < grid.size()))
     throw InputError(fmt::format("the region holds {} vertices, too few for {} x {} control points",
                                  vertices, grid.nu, grid.nv));
   return grid;
 }
 
-/// Area of each vertex; in the first fit, where distances run along the chart direction, slopes count less.
+/// Area of each vertex; in the first fit, where distances run along the chart direction, slopes
+/// count less.
 std::vector<DataPoint> data_points(const ArticularRegion& region) {
   const std::vector<double> areas = vertex_areas(region.mesh);
   std::vector<DataPoint> points;
@@ -62,27 +63,32 @@ std::vector<DataPoint> data_points(const ArticularRegion& region) {
   return points;
 }
 
-/// Stretch of the chart on a patch at the centres of the cells; which cells hold data, from its mask.
+/// Stretch of the chart on a patch at the centres of the cells; which cells hold data, from its
+/// mask.
 std::vector<CellMetric> measure_cells(const SplineGrid& grid, const Patch& patch) {
   std::vector<CellMetric> cells;
   for (int i = 0; i < grid.cells_u(); ++i)
     for (int j = 0; j < grid.cells_v(); ++j) {
-      const double u = grid.u_min + (i + 0.5) * grid.step_u(), v = grid.v_min + (j + 0.5) * grid.step_v();
+      const double u = grid.u_min + (i + 0.5) * grid.step_u(),
+                   v = grid.v_min + (j + 0.5) * grid.step_v();
       const PatchDerivatives d = patch.derivatives(u, v);
       const double inside = patch.edge_distance({u, v, 0});
       cells.push_back(
           {.stretch_u = std::clamp(d.c_u.norm(), 0.5, 4.0),
            .stretch_v = std::clamp(d.c_v.norm(), 0.5, 4.0),
-           .smoothing = inside < -2 ? 1
-                                    : std::clamp(kEdgeSmoothing + (1 - kEdgeSmoothing) * inside / kEdgeBand,
-                                                 kEdgeSmoothing, 1.0),
+           .smoothing = inside < -2
+                            ? 1
+                            : std::clamp(kEdgeSmoothing + (1 - kEdgeSmoothing) * inside / kEdgeBand,
+                                         kEdgeSmoothing, 1.0),
            .known = inside > -0.5});
     }
   return cells;
 }
 
 /// The chart itself as a flat patch, with its mask.
-Patch flat_patch(const SplineGrid& grid, const ArticularRegion& region, const RegionOutline& outline) {
+Patch flat_patch(const SplineGrid& grid,
+                 const ArticularRegion& region,
+                 const RegionOutline& outline) {
   std::vector<Vector3d> net;
   for (int i = 0; i < grid.nu; ++i)
     for (int j = 0; j < grid.nv; ++j)
@@ -96,19 +102,23 @@ Patch flat_patch(const SplineGrid& grid, const ArticularRegion& region, const Re
   return Patch(std::move(flat));
 }
 
-/// The smoothing length is judged away from the edge, where side walls and rims begin, as long as that
-/// leaves enough.
+/// The smoothing length is judged away from the edge, where side walls and rims begin, as long as
+/// that leaves enough.
 std::vector<bool> judged_points(const Patch& flat, const std::vector<DataPoint>& points) {
   constexpr double kEdge = 2;  // [mm]
   std::vector<bool> judged;
-  for (const DataPoint& p : points) judged.push_back(flat.edge_distance({p.uv.x(), p.uv.y(), 0}) > kEdge);
+  for (const DataPoint& p : points)
+    judged.push_back(flat.edge_distance({p.uv.x(), p.uv.y(), 0}) > kEdge);
   const auto count = std::count(judged.begin(), judged.end(), true);
   if (static_cast<std::size_t>(count) < points.size() / 5) judged.assign(points.size(), true);
   return judged;
 }
 
-/// Closest points from the last parameters; where the way leads astray, from the nearest seed of the patch.
-double correct_parameters(const SplineGrid& grid, const Patch& patch, std::vector<DataPoint>& points) {
+/// Closest points from the last parameters; where the way leads astray, from the nearest seed of
+/// the patch.
+double correct_parameters(const SplineGrid& grid,
+                          const Patch& patch,
+                          std::vector<DataPoint>& points) {
   double change = 0;
   for (DataPoint& point : points) {
     const Place before(point.uv.x(), point.uv.y(), 0);
@@ -165,14 +175,17 @@ PatchFit fit_patch(const ArticularRegion& region, const FitOptions& options) {
   PenaltyTerm penalty = assemble_penalty(grid, cells);
 
   PatchFit fit;
-  fit.smoothing_length = options.smoothing_length
-                             ? *options.smoothing_length
-                             : choose_smoothing(grid, points, judged_points(flat, points), penalty).length;
-  PatchData data = patch_data(grid, solve_fit(assemble_data(grid, points), penalty, fit.smoothing_length));
+  fit.smoothing_length =
+      options.smoothing_length
+          ? *options.smoothing_length
+          : choose_smoothing(grid, points, judged_points(flat, points), penalty).length;
+  PatchData data =
+      patch_data(grid, solve_fit(assemble_data(grid, points), penalty, fit.smoothing_length));
 
   const std::vector<double> areas = vertex_areas(region.mesh);
   for (std::size_t i = 0; i < points.size(); ++i) points[i].weight = areas[i];
-  for (double change = 1e300; fit.rounds < options.rounds && change > options.settled; ++fit.rounds) {
+  for (double change = 1e300; fit.rounds < options.rounds && change > options.settled;
+       ++fit.rounds) {
     const Patch patch(data);
     change = correct_parameters(grid, patch, points);
     const std::vector<CellMetric> stretched = measure_cells(grid, patch);

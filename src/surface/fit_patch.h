@@ -1,10 +1,12 @@
 #pragma once
 
-/// A C² spline patch through an articular region: regularised least squares with parameter correction.
+/// A C² spline patch through an articular region: regularised least squares with parameter
+/// correction.
 ///
 /// The chart of the region gives the first parameters; after each linear fit every vertex gets the
-/// parameters of its closest point on the patch, until they settle, so that distances are measured at right
-/// angles to the surface. The mathematics, and how the smoothing length is chosen, is in docs/surface.md.
+/// parameters of its closest point on the patch, until they settle, so that distances are measured
+/// at right angles to the surface. The mathematics, and how the smoothing length is chosen, is in
+/// docs/surface.md.
 
 #include <array>
 #include <optional>
@@ -25,8 +27,8 @@ struct FitOptions {
   double settled = 0.02;       ///< rms change of the parameters that ends them [mm]
 };
 
-/// A smoothing spline leans outwards near its last data: this margin of the data, in smoothing lengths, does not count
-/// as known, and the mask of the patch ends there.
+/// A smoothing spline leans outwards near its last data: this margin of the data, in smoothing
+/// lengths, does not count as known, and the mask of the patch ends there.
 inline constexpr double kUncertainRim = 0.6;
 
 struct PatchFit {
@@ -35,12 +37,12 @@ struct PatchFit {
   int rounds = 0;                           ///< of parameter correction that were done
   std::vector<Eigen::Vector2d> parameters;  ///< of the closest point to each vertex of the region
   std::vector<double> distance;             ///< of each vertex, positive outside the patch [mm]
-  std::vector<double> edge_distance;        ///< of each closest point from the edge of the data [mm]
+  std::vector<double> edge_distance;  ///< of each closest point from the edge of the data [mm]
   std::vector<std::string> notes;
 };
 
-/// Throws InputError (without the name of the surface) where the region is too small for the control
-/// points.
+/// Throws InputError (without the name of the surface) where the region is too small for the
+/// control points.
 [[nodiscard]] PatchFit fit_patch(const ArticularRegion& region, const FitOptions& options = {});
 
 }  // namespace condyle

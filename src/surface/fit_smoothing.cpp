@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kReference = 1;  // smoothing length at which the texture is measured [mm]
 
-/// (1/2π) ∫ s(k) weight(H(k)) k dk for texture of unit variance and correlation length l, where the fit
-/// passes H = 1/(1 + (ℓk)⁶) of a wave of wave number k.
+/// (1/2π) ∫ s(k) weight(H(k)) k dk for texture of unit variance and correlation length l, where the
+/// fit passes H = 1/(1 + (ℓk)⁶) of a wave of wave number k.
 template <class Weight>
 double over_spectrum(double smoothing_length, double l, Weight weight) {
   constexpr int kSteps = 200;
@@ -69,13 +69,14 @@ SmoothingChoice choose_smoothing(const SplineGrid& grid,
   const auto left = [&](double length) {
     return mean_square_distance(grid, points, judged, data, penalty, length);
   };
-  const double variance =
-      std::max(left(kReference) / share_left(kReference, l), options.least_texture * options.least_texture);
+  const double variance = std::max(left(kReference) / share_left(kReference, l),
+                                   options.least_texture * options.least_texture);
   const auto expected_error = [&](double length) {
     return left(length) + 2 * variance * share_followed(length, l);
   };
 
-  // Golden section over log ℓ: the error falls while texture is smoothed away and rises when shape is.
+  // Golden section over log ℓ: the error falls while texture is smoothed away and rises when shape
+  // is.
   const double golden = (std::sqrt(5.0) - 1) / 2;
   double a = std::log(options.least), b = std::log(options.greatest);
   double x = b - golden * (b - a), y = a + golden * (b - a);

@@ -3,12 +3,12 @@
 /// The smoothing length chosen from the data.
 ///
 /// What a mesh leaves beside a smooth surface is texture that neighbouring vertices share, so plain
-/// cross-validation always votes for following it. Here the expected error of the patch is estimated with
-/// that sharing in the account [Mallows 1973]:
+/// cross-validation always votes for following it. Here the expected error of the patch is
+/// estimated with that sharing in the account [Mallows 1973]:
 ///     E(ℓ) = mean squared distance(ℓ) + 2/(2π) ∫ S(k) k dk / (1 + (ℓk)⁶),
-/// where S is the spectrum of the texture: its variance from what is left at ℓ = 1 mm but no less than any
-/// segmentation has, its correlation length that of segmentations. docs/surface.md derives it and shows
-/// what was measured.
+/// where S is the spectrum of the texture: its variance from what is left at ℓ = 1 mm but no less
+/// than any segmentation has, its correlation length that of segmentations. docs/surface.md derives
+/// it and shows what was measured.
 
 #include <vector>
 
@@ -18,8 +18,10 @@ namespace condyle {
 
 struct SmoothingOptions {
   double least = 0.75, greatest = 6;  ///< lengths allowed [mm]
-  double texture_correlation = 1.5;   ///< length l of the correlation exp(-d²/2l²) that is expected [mm]
-  double least_texture = 0.08;  ///< rms amplitude that every segmentation has, smoothed as it may be [mm]
+  double texture_correlation =
+      1.5;  ///< length l of the correlation exp(-d²/2l²) that is expected [mm]
+  double least_texture =
+      0.08;  ///< rms amplitude that every segmentation has, smoothed as it may be [mm]
 };
 
 struct SmoothingChoice {

@@ -13,8 +13,8 @@ namespace {
 constexpr int kMost = kMaxDegree + 1;
 using LocalMatrix = std::array<std::array<double, kMost>, kMost>;
 
-/// Gram matrices ∫ B_a^(k) B_b^(k) dt over one knot cell of width `step`, k = 0 to 3; the same for all
-/// cells.
+/// Gram matrices ∫ B_a^(k) B_b^(k) dt over one knot cell of width `step`, k = 0 to 3; the same for
+/// all cells.
 std::array<LocalMatrix, 4> cell_grams(int degree, double step) {
   // Gauss points and weights on [0, 1], exact to degree 11.
   constexpr double kPoint[] = {0.0337652428984240, 0.1693953067668677, 0.3806904069584016};
@@ -90,12 +90,13 @@ PenaltyTerm assemble_penalty(const SplineGrid& grid, const std::vector<CellMetri
     for (int j = 0; j < grid.cells_v(); ++j) {
       // ∂/∂s = (1/stretch) ∂/∂u along the surface; binomial factors of |∇^k c|².
       const CellMetric& cell = cells[static_cast<std::size_t>(i) * grid.cells_v() + j];
-      const double u2 = 1 / (cell.stretch_u * cell.stretch_u), v2 = 1 / (cell.stretch_v * cell.stretch_v);
+      const double u2 = 1 / (cell.stretch_u * cell.stretch_u),
+                   v2 = 1 / (cell.stretch_v * cell.stretch_v);
       const double area = cell.stretch_u * cell.stretch_v;
       const double local = area * std::pow(cell.smoothing, 6);
-      add_cell<4>(
-          term.third, grid, i, j, gram_u, gram_v,
-          {local * v2 * v2 * v2, 3 * local * u2 * v2 * v2, 3 * local * u2 * u2 * v2, local * u2 * u2 * u2});
+      add_cell<4>(term.third, grid, i, j, gram_u, gram_v,
+                  {local * v2 * v2 * v2, 3 * local * u2 * v2 * v2, 3 * local * u2 * u2 * v2,
+                   local * u2 * u2 * u2});
       if (!cell.known)
         add_cell<3>(term.second_outside, grid, i, j, gram_u, gram_v,
                     {area * v2 * v2, 2 * area * u2 * v2, area * u2 * u2});

@@ -2,9 +2,9 @@
 
 /// The linear half of a fit: with parameters held fixed, the control points of least
 ///     Σ w_i |c(u_i, v_i) - p_i|² + ℓ⁶ ∫ |∇³c|² dA + ℓ⁴ ∫_outside |∇²c|² dA.
-/// Derivatives and areas are taken per mm of the surface, so that the smoothing length ℓ [mm] neither
-/// depends on the mesh nor on the chart. The last term acts only where there are no data: the patch goes on
-/// without bending.
+/// Derivatives and areas are taken per mm of the surface, so that the smoothing length ℓ [mm]
+/// neither depends on the mesh nor on the chart. The last term acts only where there are no data:
+/// the patch goes on without bending.
 
 #include <Eigen/Core>
 
@@ -54,7 +54,8 @@ struct PenaltyTerm {
   BandedMatrix third;
   BandedMatrix second_outside;
 };
-[[nodiscard]] PenaltyTerm assemble_penalty(const SplineGrid& grid, const std::vector<CellMetric>& cells);
+[[nodiscard]] PenaltyTerm assemble_penalty(const SplineGrid& grid,
+                                           const std::vector<CellMetric>& cells);
 
 /// Control points, v fastest. Throws InputError where the data do not determine them.
 [[nodiscard]] std::vector<Eigen::Vector3d> solve_fit(const DataTerm& data,
@@ -62,6 +63,7 @@ struct PenaltyTerm {
                                                      double smoothing_length);
 
 /// The grid with its control points as a patch; no mask yet.
-[[nodiscard]] PatchData patch_data(const SplineGrid& grid, std::vector<Eigen::Vector3d> control_points);
+[[nodiscard]] PatchData patch_data(const SplineGrid& grid,
+                                   std::vector<Eigen::Vector3d> control_points);
 
 }  // namespace condyle

@@ -26,7 +26,9 @@ struct Patch::SeedIndex {
     return points[i][static_cast<Eigen::Index>(axis)];
   }
   template <class Box>
-  bool kdtree_get_bbox(Box&) const { return false; }
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
 
   using Tree = nanoflann::
       KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, SeedIndex>, SeedIndex, 3>;
@@ -51,7 +53,8 @@ Patch::Patch(PatchData data)
   const int nu = std::clamp(2 * u_.spans, 4, 60), nv = std::clamp(2 * v_.spans, 4, 60);
   for (int i = 0; i <= nu; ++i)
     for (int j = 0; j <= nv; ++j) {
-      const Place place(u_.min + (u_.max - u_.min) * i / nu, v_.min + (v_.max - v_.min) * j / nv, 0);
+      const Place place(u_.min + (u_.max - u_.min) * i / nu, v_.min + (v_.max - v_.min) * j / nv,
+                        0);
       if (edge_distance(place) < -3) continue;
       seeds->places.push_back(place);
       seeds->points.push_back(derivatives(place.x(), place.y()).c);
@@ -76,10 +79,12 @@ Patch::Direction Patch::make_direction(const std::vector<double>& knots, int deg
   const double step = (direction.max - direction.min) / direction.spans;
   bool uniform = true;
   for (int s = 0; s <= direction.spans; ++s)
-    uniform &= std::abs(direction.breaks[s] - direction.min - s * step) < 1e-12 * (1 + std::abs(direction.max));
+    uniform &= std::abs(direction.breaks[s] - direction.min - s * step) <
+               1e-12 * (1 + std::abs(direction.max));
   direction.inverse_step = uniform ? 1 / step : 0;
 
-  // On each span the basis functions are polynomials: interpolate them at degree + 1 points of the span.
+  // On each span the basis functions are polynomials: interpolate them at degree + 1 points of the
+  // span.
   const int m = degree + 1;
   direction.coefficients.assign(static_cast<std::size_t>(direction.spans) * m * m, 0);
   for (int s = 0; s < direction.spans; ++s) {
@@ -95,7 +100,8 @@ Patch::Direction Patch::make_direction(const std::vector<double>& knots, int deg
     const Eigen::MatrixXd polynomial = powers.fullPivLu().solve(values);
     for (int k = 0; k < m; ++k)
       for (int j = 0; j < m; ++j)
-        direction.coefficients[(static_cast<std::size_t>(s) * m + k) * m + j] = polynomial(k, j) / std::pow(width, k);
+        direction.coefficients[(static_cast<std::size_t>(s) * m + k) * m + j] =
+            polynomial(k, j) / std::pow(width, k);
   }
   return direction;
 }
@@ -105,25 +111,36 @@ namespace {
 // The helpers below never cross a library's border, so how vectors are passed does not matter.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-/// Four numbers at once (GCC and Clang): two SSE2 registers, or one of AVX where the build allows it.
+/// Four numbers at once (GCC and Clang): two SSE2 registers, or one of AVX where the build allows
+/// it.
 using Four = double __attribute__((vector_size(32)));
 
-// A second body of the hot loop for processors with fused multiply-add, chosen when the program starts.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+// A second body of the hot loop for processors with fused multiply-add, chosen when the program
+// starts.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
 #define CONDYLE_FMA_CLONE __attribute__((target_clones("default", "fma")))
 #else
 #define CONDYLE_FMA_CLONE
 #endif
 
-/// The bicubic case in one go: basis functions of both directions from their polynomials (16 coefficients each, at x and
-/// y within the span, continued by `beyond`), then the 16 control points of `net`, whose rows are `stride` apart.
-/// Writes c, c_u, c_v and, where `second`, c_uu, c_uv, c_vv; four numbers each.
+/// The bicubic case in one go: basis functions of both directions from their polynomials (16
+/// coefficients each, at x and y within the span, continued by `beyond`), then the 16 control
+/// points of `net`, whose rows are `stride` apart. Writes c, c_u, c_v and, where `second`, c_uu,
+/// c_uv, c_vv; four numbers each.
 CONDYLE_FMA_CLONE
-void bicubic(const double* coefficients_u, double x, double beyond_u,
-             const double* coefficients_v, double y, double beyond_v,
-             const double* net, std::size_t stride, bool second, double* out) {
+void bicubic(const double* coefficients_u,
+             double x,
+             double beyond_u,
+             const double* coefficients_v,
+             double y,
+             double beyond_v,
+             const double* net,
+             std::size_t stride,
+             bool second,
+             double* out) {
   double bu[3][4], bv[3][4];
-  const auto basis = [](const double* c, double t, double beyond, double (*b)[4]) {
+  const auto basis = [](const double* c, double t, double beyond, double(*b)[4]) {
     Four c0, c1, c2, c3;
     __builtin_memcpy(&c0, c, sizeof c0);
     __builtin_memcpy(&c1, c + 4, sizeof c1);
@@ -181,7 +198,8 @@ void horner(const double* c, int m, double x, double* f, double* df, double* d2f
 
 int Patch::find_span(const Direction& direction, double t) {
   if (direction.inverse_step > 0)
-    return std::min(static_cast<int>((t - direction.min) * direction.inverse_step), direction.spans - 1);
+    return std::min(static_cast<int>((t - direction.min) * direction.inverse_step),
+                    direction.spans - 1);
   const auto above = std::upper_bound(direction.breaks.begin() + 1, direction.breaks.end() - 1, t);
   return static_cast<int>(above - direction.breaks.begin()) - 1;
 }
@@ -209,8 +227,11 @@ PatchDerivatives Patch::bicubic_derivatives(double u, double v, bool second) con
   double out[24];
   bicubic(&u_.coefficients[static_cast<std::size_t>(i) * 16], inside_u - u_.breaks[i], u - inside_u,
           &v_.coefficients[static_cast<std::size_t>(j) * 16], inside_v - v_.breaks[j], v - inside_v,
-          net_[static_cast<std::size_t>(i) * data_.nv + j].data(), 4 * static_cast<std::size_t>(data_.nv), second, out);
-  const auto vector = [&](int k) { return Eigen::Vector3d(out[4 * k], out[4 * k + 1], out[4 * k + 2]); };
+          net_[static_cast<std::size_t>(i) * data_.nv + j].data(),
+          4 * static_cast<std::size_t>(data_.nv), second, out);
+  const auto vector = [&](int k) {
+    return Eigen::Vector3d(out[4 * k], out[4 * k + 1], out[4 * k + 2]);
+  };
   return {vector(0), vector(1), vector(2), vector(3), vector(4), vector(5)};
 }
 
@@ -223,7 +244,8 @@ PatchDerivatives Patch::general_derivatives(double u, double v) const {
   d.c_u = d.c_v = d.c_uu = d.c_uv = d.c_vv = d.c;
   for (int i = 0; i <= u_.degree; ++i)
     for (int j = 0; j <= v_.degree; ++j) {
-      const Eigen::Vector3d& p = data_.control_points[static_cast<std::size_t>(i0 + i) * data_.nv + j0 + j];
+      const Eigen::Vector3d& p =
+          data_.control_points[static_cast<std::size_t>(i0 + i) * data_.nv + j0 + j];
       d.c += bu.b[0][i] * bv.b[0][j] * p;
       d.c_u += bu.b[1][i] * bv.b[0][j] * p;
       d.c_v += bu.b[0][i] * bv.b[1][j] * p;
@@ -235,10 +257,13 @@ PatchDerivatives Patch::general_derivatives(double u, double v) const {
 }
 
 PatchDerivatives Patch::derivatives(double u, double v) const {
-  return u_.degree == 3 && v_.degree == 3 ? bicubic_derivatives(u, v, true) : general_derivatives(u, v);
+  return u_.degree == 3 && v_.degree == 3 ? bicubic_derivatives(u, v, true)
+                                          : general_derivatives(u, v);
 }
 
-SurfacePoint Patch::evaluate(const Place& place) const { return point_from(derivatives(place.x(), place.y())); }
+SurfacePoint Patch::evaluate(const Place& place) const {
+  return point_from(derivatives(place.x(), place.y()));
+}
 
 SurfacePoint Patch::evaluate_frame(const Place& place) const {
   const bool cubic = u_.degree == 3 && v_.degree == 3;
@@ -308,7 +333,8 @@ Place Patch::seed(const Eigen::Vector3d& p) const {
 double Patch::edge_distance(const Place& place) const {
   const double u = std::clamp(place.x(), u_.min, u_.max), v = std::clamp(place.y(), v_.min, v_.max);
   const double outside = std::hypot(place.x() - u, place.y() - v);
-  const double inside = std::min(std::min(u - u_.min, u_.max - u), std::min(v - v_.min, v_.max - v));
+  const double inside =
+      std::min(std::min(u - u_.min, u_.max - u), std::min(v - v_.min, v_.max - v));
   if (data_.mask.empty()) return outside > 0 ? -outside : inside;
   const double s = (u - u_.min) / (u_.max - u_.min) * data_.mask_nu;
   const double t = (v - v_.min) / (v_.max - v_.min) * data_.mask_nv;
@@ -317,7 +343,8 @@ double Patch::edge_distance(const Place& place) const {
   const double a = s - i, b = t - j;
   const double* m = &data_.mask[static_cast<std::size_t>(i) * (data_.mask_nv + 1) + j];
   const double* m_next = m + data_.mask_nv + 1;
-  const double known = (1 - a) * ((1 - b) * m[0] + b * m[1]) + a * ((1 - b) * m_next[0] + b * m_next[1]);
+  const double known =
+      (1 - a) * ((1 - b) * m[0] + b * m[1]) + a * ((1 - b) * m_next[0] + b * m_next[1]);
   return outside > 0 ? std::min(known, 0.0) - outside : known;
 }
 
@@ -328,15 +355,18 @@ std::vector<Place> Patch::samples(double spacing) const {
   constexpr int kPieces = 64;
   for (int k = 0; k < kPieces; ++k) {
     const double t = (k + 0.5) / kPieces;
-    length_u += derivatives(u_.min + t * (u_.max - u_.min), vm).c_u.norm() * (u_.max - u_.min) / kPieces;
-    length_v += derivatives(um, v_.min + t * (v_.max - v_.min)).c_v.norm() * (v_.max - v_.min) / kPieces;
+    length_u +=
+        derivatives(u_.min + t * (u_.max - u_.min), vm).c_u.norm() * (u_.max - u_.min) / kPieces;
+    length_v +=
+        derivatives(um, v_.min + t * (v_.max - v_.min)).c_v.norm() * (v_.max - v_.min) / kPieces;
   }
   const int nu = std::max(2, static_cast<int>(std::ceil(length_u / spacing)));
   const int nv = std::max(2, static_cast<int>(std::ceil(length_v / spacing)));
   std::vector<Place> places;
   for (int i = 0; i <= nu; ++i)
     for (int j = 0; j <= nv; ++j) {
-      const Place place(u_.min + (u_.max - u_.min) * i / nu, v_.min + (v_.max - v_.min) * j / nv, 0);
+      const Place place(u_.min + (u_.max - u_.min) * i / nu, v_.min + (v_.max - v_.min) * j / nv,
+                        0);
       if (edge_distance(place) >= 0) places.push_back(place);
     }
   return places;

@@ -2,12 +2,13 @@
 
 /// A tensor-product B-spline patch with continuous curvature (C2), c(u,v) = Σ B_i(u) B_j(v) P_ij.
 ///
-/// Plain data and one evaluation: everything that contact asks for at (u,v) in one pass. Knots are clamped or
-/// uniform, non-decreasing; degree 2 to 5. Outside its parameter box each basis function goes on as its own
-/// second-order Taylor expansion at the end, so that c stays C2 and Newton never falls off; `edge_distance` tells.
+/// Plain data and one evaluation: everything that contact asks for at (u,v) in one pass. Knots are
+/// clamped or uniform, non-decreasing; degree 2 to 5. Outside its parameter box each basis function
+/// goes on as its own second-order Taylor expansion at the end, so that c stays C2 and Newton never
+/// falls off; `edge_distance` tells.
 ///
-/// The normal is the side of c_u x c_v when `orientation` is +1, the other side when -1; it points out of the bone.
-/// References: [Piegl and Tiller 1997, ch. 2-3]; theory: equilibrium.md section 2.
+/// The normal is the side of c_u x c_v when `orientation` is +1, the other side when -1; it points
+/// out of the bone. References: [Piegl and Tiller 1997, ch. 2-3]; theory: equilibrium.md section 2.
 
 #include "surface/surface.h"
 
@@ -19,17 +20,20 @@
 
 namespace condyle {
 
-/// Control net, knots and the known region of a patch: what /patches/SURFACE of a result file holds.
+/// Control net, knots and the known region of a patch: what /patches/SURFACE of a result file
+/// holds.
 struct PatchData {
   std::array<int, 2> degree = {3, 3};
-  std::vector<double> knots_u, knots_v;        ///< sizes nu + degree + 1, nv + degree + 1; in mm of chart length
-  int nu = 0, nv = 0;                          ///< number of control points
-  std::vector<Eigen::Vector3d> control_points; ///< [nu * nv], v fastest, [mm] in the frame of the body
-  int orientation = 1;                         ///< +1: out of the bone along c_u x c_v; -1: against it
+  std::vector<double> knots_u,
+      knots_v;         ///< sizes nu + degree + 1, nv + degree + 1; in mm of chart length
+  int nu = 0, nv = 0;  ///< number of control points
+  std::vector<Eigen::Vector3d>
+      control_points;   ///< [nu * nv], v fastest, [mm] in the frame of the body
+  int orientation = 1;  ///< +1: out of the bone along c_u x c_v; -1: against it
 
-  /// Known region: on the grid of (mask_nu x mask_nv) equal cells of the parameter box, the distance [mm] from the
-  /// cell corner to the edge of the data, positive inside; (mask_nu+1)*(mask_nv+1) values, v fastest. Empty: the
-  /// whole box is known.
+  /// Known region: on the grid of (mask_nu x mask_nv) equal cells of the parameter box, the
+  /// distance [mm] from the cell corner to the edge of the data, positive inside;
+  /// (mask_nu+1)*(mask_nv+1) values, v fastest. Empty: the whole box is known.
   int mask_nu = 0, mask_nv = 0;
   std::vector<double> mask;
 };

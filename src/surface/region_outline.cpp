@@ -58,8 +58,9 @@ struct CornerGrid {
     const double area = cross(b - a, c - a);
     if (std::abs(area) < 1e-14) return;
     const auto range = [](double low, double high, double origin, double step, int n) {
-      return std::array<int, 2>{std::max(0, static_cast<int>(std::ceil((low - origin) / step))),
-                                std::min(n - 1, static_cast<int>(std::floor((high - origin) / step)))};
+      return std::array<int, 2>{
+          std::max(0, static_cast<int>(std::ceil((low - origin) / step))),
+          std::min(n - 1, static_cast<int>(std::floor((high - origin) / step)))};
     };
     const auto [i0, i1] =
         range(std::min({a.x(), b.x(), c.x()}), std::max({a.x(), b.x(), c.x()}), u0, step_u, nu);

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The edge of the data: outline of a region, its inside in the parameter plane, and the validity mask of a
-/// patch.
+/// The edge of the data: outline of a region, its inside in the parameter plane, and the validity
+/// mask of a patch.
 
 #include <array>
 #include <vector>
@@ -21,8 +21,8 @@ struct RegionOutline {
 /// Holes of a perimeter below `small_hole` [mm] count as data.
 [[nodiscard]] RegionOutline trace_outline(const TriangleMesh& region, double small_hole);
 
-/// Signed distance [mm, in space] of every corner of a grid over the parameter box from the outline,
-/// positive inside. `uv` are the parameters of the region's vertices.
+/// Signed distance [mm, in space] of every corner of a grid over the parameter box from the
+/// outline, positive inside. `uv` are the parameters of the region's vertices.
 void fill_mask(PatchData& patch,
                const TriangleMesh& region,
                const RegionOutline& outline,

@@ -2,12 +2,13 @@
 
 /// A smooth surface bounding a solid, as contact mechanics sees it [Dortmans 1986, 2.18-2.44].
 ///
-/// At a place on the surface mechanics wants the point c, the unit normal n that points OUT of the solid, and
-/// the curvature tensor K with dn = -K dc (symmetric, K n = 0). With this sign a ball of radius r has
-/// K = -(I - nn)/r and a cup of radius r has K = +(I - nn)/r.
+/// At a place on the surface mechanics wants the point c, the unit normal n that points OUT of the
+/// solid, and the curvature tensor K with dn = -K dc (symmetric, K n = 0). With this sign a ball of
+/// radius r has K = -(I - nn)/r and a cup of radius r has K = +(I - nn)/r.
 ///
-/// A `Place` is whatever the surface uses to name one of its points: (u, v, 0) on a patch, the point itself on
-/// an exact surface. The mechanics only moves places by tangent displacements, so no chart has a pole for it.
+/// A `Place` is whatever the surface uses to name one of its points: (u, v, 0) on a patch, the
+/// point itself on an exact surface. The mechanics only moves places by tangent displacements, so
+/// no chart has a pole for it.
 ///
 /// All lengths in mm, in the frame of the body that carries the surface.
 
@@ -21,10 +22,11 @@ namespace condyle {
 using Place = Eigen::Vector3d;
 
 struct SurfacePoint {
-  Eigen::Vector3d c;                ///< point [mm]
-  Eigen::Vector3d n;                ///< unit normal, out of the solid
-  Eigen::Matrix3d K;                ///< curvature tensor [1/mm], dn = -K dc
-  Eigen::Matrix<double, 3, 2> dual; ///< reciprocal tangents g_u, g_v: du = g_u.dc, dv = g_v.dc; patches only
+  Eigen::Vector3d c;  ///< point [mm]
+  Eigen::Vector3d n;  ///< unit normal, out of the solid
+  Eigen::Matrix3d K;  ///< curvature tensor [1/mm], dn = -K dc
+  Eigen::Matrix<double, 3, 2>
+      dual;  ///< reciprocal tangents g_u, g_v: du = g_u.dc, dv = g_v.dc; patches only
 };
 
 class Surface {
@@ -35,10 +37,12 @@ class Surface {
   [[nodiscard]] virtual SurfacePoint evaluate(const Place& place) const = 0;
 
   /// The same without the curvature (K is not to be used), where that is cheaper.
-  [[nodiscard]] virtual SurfacePoint evaluate_frame(const Place& place) const { return evaluate(place); }
+  [[nodiscard]] virtual SurfacePoint evaluate_frame(const Place& place) const {
+    return evaluate(place);
+  }
 
-  /// The place reached from `at` (evaluated there) by the tangent displacement dc [mm]; on the surface, and equal
-  /// to the true displacement to first order.
+  /// The place reached from `at` (evaluated there) by the tangent displacement dc [mm]; on the
+  /// surface, and equal to the true displacement to first order.
   [[nodiscard]] virtual Place moved(const Place& place,
                                     const SurfacePoint& at,
                                     const Eigen::Vector3d& dc) const = 0;
@@ -49,14 +53,15 @@ class Surface {
   /// A place to start `closest` from when nothing better is known.
   [[nodiscard]] virtual Place seed(const Eigen::Vector3d& p) const = 0;
 
-  /// Distance from the place to the edge of the part that is known from data [mm]: negative beyond it, infinite
-  /// for a surface without an edge.
+  /// Distance from the place to the edge of the part that is known from data [mm]: negative beyond
+  /// it, infinite for a surface without an edge.
   [[nodiscard]] virtual double edge_distance(const Place&) const {
     return std::numeric_limits<double>::infinity();
   }
 
-  /// Places that cover the surface, neighbours about `spacing` [mm] apart, for the search for contacts. Empty for
-  /// a surface without bounds (plane, cylinder): then the other surface of a pair is sampled.
+  /// Places that cover the surface, neighbours about `spacing` [mm] apart, for the search for
+  /// contacts. Empty for a surface without bounds (plane, cylinder): then the other surface of a
+  /// pair is sampled.
   [[nodiscard]] virtual std::vector<Place> samples(double spacing) const = 0;
 };
 

@@ -11,12 +11,14 @@
 namespace condyle {
 namespace {
 
-/// Two ellipsoids near each other; the places solve g = h = 0 after each displacement only up to the gap, so the tests
-/// follow the pair of points whose normals are opposite and whose connection is normal.
+/// Two ellipsoids near each other; the places solve g = h = 0 after each displacement only up to
+/// the gap, so the tests follow the pair of points whose normals are opposite and whose connection
+/// is normal.
 struct Pair {
   std::unique_ptr<Surface> on_B =
       make_ellipsoid({0, 0, 0}, exp_rotation({0.2, 0.1, -0.3}), {30, 22, 20}, true);
-  std::unique_ptr<Surface> on_A = make_ellipsoid({1, -2, 3}, exp_rotation({0.5, -0.1, 0.2}), {25, 18, 21}, true);
+  std::unique_ptr<Surface> on_A =
+      make_ellipsoid({1, -2, 3}, exp_rotation({0.5, -0.1, 0.2}), {25, 18, 21}, true);
   Place B = on_B->seed({0, 0, 50}), A = on_A->seed({0, 0, -50});
 
   /// Newton on the two places at a fixed pose.
@@ -49,17 +51,22 @@ TEST(Contact, SlidesAsDifferencesSay) {
   ASSERT_LT(contact.g.norm(), 1e-10);
   ASSERT_LT(contact.h.norm(), 1e-12);
   EXPECT_GT(contact.relative_curvature[0], 0);
-  // Motions that keep the gap closed: along the tangent plane, and turns about the point of contact.
-  const auto point_after = [&](const Eigen::Vector3d& da, const Eigen::Vector3d& dpi) -> Eigen::Vector3d {
+  // Motions that keep the gap closed: along the tangent plane, and turns about the point of
+  // contact.
+  const auto point_after = [&](const Eigen::Vector3d& da,
+                               const Eigen::Vector3d& dpi) -> Eigen::Vector3d {
     return pair.settle(test::displaced(X, da, dpi)).B.c;
   };
   const Eigen::Vector3d t = contact.B.n.unitOrthogonal();
   const double h = 1e-4;
-  const Eigen::Vector3d slid = (point_after(h * t, Eigen::Vector3d::Zero()) - point_after(-h * t, Eigen::Vector3d::Zero())) / (2 * h);
+  const Eigen::Vector3d slid =
+      (point_after(h * t, Eigen::Vector3d::Zero()) - point_after(-h * t, Eigen::Vector3d::Zero())) /
+      (2 * h);
   EXPECT_LT((slid - contact.D1 * t).norm(), 1e-6);
   const Eigen::Vector3d turn(0.3, -0.8, 0.5);
   const Eigen::Vector3d a = -turn.cross(contact.s);
-  const Eigen::Vector3d rolled = (point_after(h * a, h * turn) - point_after(-h * a, -h * turn)) / (2 * h);
+  const Eigen::Vector3d rolled =
+      (point_after(h * a, h * turn) - point_after(-h * a, -h * turn)) / (2 * h);
   EXPECT_LT((rolled - (contact.D1 * a + contact.D2 * turn)).norm(), 1e-5);
 }
 
@@ -67,14 +74,15 @@ TEST(Contact, SlidesAsDifferencesSay) {
 TEST(Contact, RelativeCurvatureOfABallOnAPlane) {
   const auto plane = make_plane({0, 0, 0}, {0, 0, 1});
   const auto ball = make_sphere({0, 0, 0}, 20, true);
-  const ContactLinearization contact =
-      linearize_contact(*plane, {3, 4, 0}, *ball, {0, 0, -20}, {Eigen::Matrix3d::Identity(), {3, 4, 20}});
+  const ContactLinearization contact = linearize_contact(*plane, {3, 4, 0}, *ball, {0, 0, -20},
+                                                         {Eigen::Matrix3d::Identity(), {3, 4, 20}});
   EXPECT_NEAR(contact.relative_curvature[0], 0.05, 1e-15);
   EXPECT_NEAR(contact.relative_curvature[1], 0.05, 1e-15);
   EXPECT_NEAR(contact.gap(), 0, 1e-14);
 }
 
-// A ball in a socket of nearly its radius, and a cylinder on a plane: finite, whatever the curvature.
+// A ball in a socket of nearly its radius, and a cylinder on a plane: finite, whatever the
+// curvature.
 TEST(Contact, StaysFiniteWhereTheCurvatureVanishes) {
   const auto socket = make_sphere({0, 0, 0}, 20, false);
   const auto ball = make_sphere({0, 0, 0}, 20, true);
@@ -84,8 +92,8 @@ TEST(Contact, StaysFiniteWhereTheCurvatureVanishes) {
   EXPECT_NEAR(conforming.relative_curvature[0], 0, 1e-15);
   const auto plane = make_plane({0, 0, 0}, {0, 0, 1});
   const auto roll = make_cylinder({0, 0, 0}, {1, 0, 0}, 10, true);
-  const ContactLinearization line =
-      linearize_contact(*plane, {0, 0, 0}, *roll, {0, 0, -10}, {Eigen::Matrix3d::Identity(), {0, 0, 10}});
+  const ContactLinearization line = linearize_contact(*plane, {0, 0, 0}, *roll, {0, 0, -10},
+                                                      {Eigen::Matrix3d::Identity(), {0, 0, 10}});
   EXPECT_TRUE(line.D1.allFinite() && line.D2.allFinite());
   EXPECT_NEAR(line.relative_curvature[0], 0, 1e-15);
   EXPECT_NEAR(line.relative_curvature[1], 0.1, 1e-15);

@@ -19,7 +19,8 @@ ContactPair pair_of(std::unique_ptr<Surface> on_B, std::unique_ptr<Surface> on_A
 }
 
 TEST(ContactSearch, FindsTheLowestPointOfABallOverAPlane) {
-  const ContactPair pair = pair_of(make_plane({0, 0, 0}, {0, 0, 1}), make_sphere({0, 0, 0}, 20, true));
+  const ContactPair pair =
+      pair_of(make_plane({0, 0, 0}, {0, 0, 1}), make_sphere({0, 0, 0}, 20, true));
   ContactSearch search(pair);
   std::vector<GapMinimum> minima;
   search.find({exp_rotation({0.3, -0.8, 0.2}), {3, -7, 20.05}}, 0.1, minima);
@@ -30,7 +31,8 @@ TEST(ContactSearch, FindsTheLowestPointOfABallOverAPlane) {
 }
 
 TEST(ContactSearch, SeesNothingBeyondTheCutoffAndAnOverlapBelowIt) {
-  const ContactPair pair = pair_of(make_sphere({0, 0, 0}, 20, true), make_sphere({0, 0, 0}, 15, true));
+  const ContactPair pair =
+      pair_of(make_sphere({0, 0, 0}, 20, true), make_sphere({0, 0, 0}, 15, true));
   ContactSearch search(pair);
   std::vector<GapMinimum> minima;
   search.find({Eigen::Matrix3d::Identity(), {0, 0, 35.5}}, 0.1, minima);
@@ -40,13 +42,13 @@ TEST(ContactSearch, SeesNothingBeyondTheCutoffAndAnOverlapBelowIt) {
   EXPECT_NEAR(minima[0].gap, -3, 1e-9);
 }
 
-// A wavy floor of height 0.5 cos(x) cos(y)-like polynomial bumps: x⁴ - 2x² has two pits at x = ±1 (scaled by 10 mm), so
-// a large ball over a double ridge touches in two places.
+// A wavy floor of height 0.5 cos(x) cos(y)-like polynomial bumps: x⁴ - 2x² has two pits at x = ±1
+// (scaled by 10 mm), so a large ball over a double ridge touches in two places.
 TEST(ContactSearch, FindsTwoPlacesWhereABallTouchesTwoRidges) {
   // z = 2 x²/100 - x⁴/10000: ridges of height 1 at x = ±10.
-  const ContactPair pair = pair_of(
-      make_polynomial({0, 0, 0}, Eigen::Matrix3d::Identity(), {{2, 0, 0.02}, {4, 0, -0.0001}}, true),
-      make_sphere({0, 0, 0}, 60, true));
+  const ContactPair pair = pair_of(make_polynomial({0, 0, 0}, Eigen::Matrix3d::Identity(),
+                                                   {{2, 0, 0.02}, {4, 0, -0.0001}}, true),
+                                   make_sphere({0, 0, 0}, 60, true));
   ContactSearch search(pair);
   std::vector<GapMinimum> minima;
   search.find({Eigen::Matrix3d::Identity(), {0, 0, 60.3}}, 0.5, minima);
@@ -64,9 +66,9 @@ TEST(ContactSearch, FindsTwoPlacesWhereABallTouchesTwoRidges) {
 }
 
 TEST(ContactSearch, FindsTheSameMinimumWarmAndFresh) {
-  const ContactPair pair = pair_of(
-      make_ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {30, 22, 20}, true),
-      make_ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {18, 12, 15}, true));
+  const ContactPair pair =
+      pair_of(make_ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {30, 22, 20}, true),
+              make_ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {18, 12, 15}, true));
   ContactSearch warm(pair);
   std::vector<GapMinimum> minima, fresh_minima;
   for (int k = 0; k < 20; ++k) {

@@ -9,14 +9,15 @@
 #include "math/rotation.h"
 #include "support/report_problems.h"
 #include "support/spring_knee.h"
+#include "surface/exact_surfaces.h"
 
 namespace condyle {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
 
-// Cancellation test [Dortmans 1986, 4.6]: a pull in -x beyond p(0) = 32.1 N opens the contact; without it the contact is
-// back, with the same answer.
+// Cancellation test [Dortmans 1986, 4.6]: a pull in -x beyond p(0) = 32.1 N opens the contact;
+// without it the contact is back, with the same answer.
 TEST(EquilibriumSolver, ContactOpensUnderAPullAndClosesAgain) {
   Model model = test::Problem1::model(0);
   model.start.R = exp_rotation({0, -1.3, 0});
@@ -42,13 +43,16 @@ struct SpringKneePose {
   double flexion, adduction, internal_rotation;  // [deg]
   double x, y, z;                                // femoral origin in the tibial frame [mm]
 };
-// An independent equilibrium path of the twelve-spring model (minimum of spring energy under two unilateral gaps), made
-// from parameters recalled from the literature, not published results; good to 0.02 mm and 0.05 degrees.
-constexpr SpringKneePose kSpringKnee[] = {
-    {0, -0.8355, -0.0375, 0.6282, 6.4148, 214.7503},  {15, -0.2263, -1.3411, -1.1488, 8.4888, 219.5492},
-    {30, 0.7111, -0.3562, -2.6283, 9.4562, 224.8070}, {45, 1.2273, 4.1676, -2.4324, 9.3240, 230.1872},
-    {60, 0.9974, 9.0884, -1.3753, 7.7760, 235.3811},  {75, 0.1931, 12.7215, -0.2799, 5.0770, 240.0078},
-    {90, -0.6032, 17.3462, 0.5966, 0.8054, 243.8068}};
+// An independent equilibrium path of the twelve-spring model (minimum of spring energy under two
+// unilateral gaps), made from parameters recalled from the literature, not published results; good
+// to 0.02 mm and 0.05 degrees.
+constexpr SpringKneePose kSpringKnee[] = {{0, -0.8355, -0.0375, 0.6282, 6.4148, 214.7503},
+                                          {15, -0.2263, -1.3411, -1.1488, 8.4888, 219.5492},
+                                          {30, 0.7111, -0.3562, -2.6283, 9.4562, 224.8070},
+                                          {45, 1.2273, 4.1676, -2.4324, 9.3240, 230.1872},
+                                          {60, 0.9974, 9.0884, -1.3753, 7.7760, 235.3811},
+                                          {75, 0.1931, 12.7215, -0.2799, 5.0770, 240.0078},
+                                          {90, -0.6032, 17.3462, 0.5966, 0.8054, 243.8068}};
 
 TEST(EquilibriumSolver, FollowsTheIndependentPathOfTheTwelveSpringKnee) {
   EquilibriumSolver solver(test::spring_knee());
@@ -97,8 +101,8 @@ TEST(EquilibriumSolver, TurningTheWholeSceneTurnsTheAnswer) {
   EXPECT_NEAR(turned_pose.conditions[0].multiplier, pose.conditions[0].multiplier, 1e-7);
 }
 
-// Forces on the tibia from ligaments, contacts and the flexion moment add up to nothing, computed here from what the
-// pose reports and not from the solver's own sums.
+// Forces on the tibia from ligaments, contacts and the flexion moment add up to nothing, computed
+// here from what the pose reports and not from the solver's own sums.
 TEST(EquilibriumSolver, ReportedForcesBalance) {
   EquilibriumSolver solver(test::spring_knee());
   solver.model().conditions[0].value = 60 * kDegree;
@@ -133,6 +137,65 @@ TEST(EquilibriumSolver, LoadThatNothingCarriesIsNamed) {
   EquilibriumSolver solver(std::move(model));
   const PoseResult pose = solver.solve();
   EXPECT_EQ(pose.status, PoseStatus::kNoEquilibrium) << pose.reason;
+}
+
+/// A ball of radius 10 on A over a floor, pushed or pulled by a load.
+Model ball_over_floor(double load) {
+  Model model;
+  ContactPair pair;
+  pair.name = "floor";
+  pair.on_B = make_plane({0, 0, 0}, {0, 0, 1});
+  pair.on_A = make_sphere({0, 0, 0}, 10, true);
+  model.pairs = {pair};
+  Load push;
+  push.vector = {0, 0, load};
+  model.loads = {push};
+  model.load_names = {"push"};
+  model.start.p = {0, 0, 9.5};
+  model.length = characteristic_length(model);
+  return model;
+}
+
+TEST(EquilibriumSolver, ABallPulledOffItsFloorRunsAway) {
+  EquilibriumSolver solver(ball_over_floor(10));
+  const PoseResult pose = solver.solve();
+  EXPECT_EQ(pose.status, PoseStatus::kNoEquilibrium) << pose.reason;
+}
+
+// A ball held deep inside the solid of a floor by its conditions: whatever is found there is no
+// equilibrium.
+TEST(EquilibriumSolver, ABuriedBodyIsNeverConverged) {
+  for (const double depth : {3.0, 30.0, 300.0}) {
+    Model model = ball_over_floor(-10);
+    for (const Eigen::Vector3d& axis :
+         {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()}) {
+      KinematicCondition hold;
+      hold.kind = ConditionKind::kTranslation;
+      hold.axis = axis;
+      hold.value = axis.z() > 0 ? -depth : 0;
+      model.conditions.push_back(hold);
+      model.condition_names.emplace_back("hold");
+    }
+    model.start.p = {0, 0, -depth};
+    EquilibriumSolver solver(std::move(model));
+    EXPECT_FALSE(solver.solve().converged()) << depth;
+  }
+}
+
+TEST(EquilibriumSolver, SevenConditionsAreTooMany) {
+  Model model = ball_over_floor(-10);
+  for (int k = 0; k < 7; ++k) {
+    KinematicCondition hold;
+    hold.kind = k % 2 == 0 ? ConditionKind::kTranslation : ConditionKind::kRotation;
+    hold.axis = Eigen::Vector3d::Unit(k % 3);
+    hold.cardan_axis = k % 3;
+    model.conditions.push_back(hold);
+    model.condition_names.emplace_back("hold");
+  }
+  EquilibriumSolver solver(std::move(model));
+  const PoseResult pose = solver.solve();
+  EXPECT_EQ(pose.status, PoseStatus::kSingular);
+  EXPECT_NE(pose.reason.find("six"), std::string::npos);
 }
 
 }  // namespace

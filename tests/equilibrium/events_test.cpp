@@ -33,8 +33,9 @@ Swept run(EquilibriumSolver& solver, double& swept, const std::vector<double>& v
   return result;
 }
 
-// The contact of problem 1 carries p(0) = 32.11453374 N [theory section 9]: a pull of x newtons off the wall leaves
-// p(0) - x, so the contact opens at exactly that pull, and closes there on the way back.
+// The contact of problem 1 carries p(0) = 32.11453374 N [theory section 9]: a pull of x newtons off
+// the wall leaves p(0) - x, so the contact opens at exactly that pull, and closes there on the way
+// back.
 TEST(Events, ContactOpensWhereThePullEqualsItsForceAndClosesThereAgain) {
   Model model = test::Problem1::model(0, 1);  // a pull of 1 N, scaled by the sweep
   model.start.R = exp_rotation({0, -1.3, 0});
@@ -43,8 +44,9 @@ TEST(Events, ContactOpensWhereThePullEqualsItsForceAndClosesThereAgain) {
   ASSERT_EQ(result.events.size(), 2u);
   EXPECT_EQ(result.events[0].kind, EventKind::kOpening);
   EXPECT_EQ(result.events[1].kind, EventKind::kClosing);
-  // Between the values at which the contact is told to be open and closed lies the tolerance of 1e-9; a gap counts as
-  // closed from an overlap of 5e-7/30 L on, and the joint is about 10 N/cm stiff.
+  // Between the values at which the contact is told to be open and closed lies the tolerance of
+  // 1e-9; a gap counts as closed from an overlap of 5e-7/30 L on, and the joint is about 10 N/cm
+  // stiff.
   EXPECT_NEAR(result.events[0].value, test::Problem1::p(0), 2e-9);
   EXPECT_NEAR(result.events[1].value, test::Problem1::p(0), 1e-6);
 }
@@ -56,14 +58,15 @@ TEST(Events, NothingHappensOnAQuietSweep) {
   EXPECT_TRUE(run(solver, solver.model().conditions[0].value, {0, 0.5, 1, 1.5}).events.empty());
 }
 
-// A ball that may only move up and down is carried along over two ridges: the contact jumps from one to the other where
-// both are as high.
+// A ball that may only move up and down is carried along over two ridges: the contact jumps from
+// one to the other where both are as high.
 TEST(Events, AContactThatJumpsBetweenTwoRidgesDoesSoHalfWay) {
   Model model;
   ContactPair pair;
   pair.name = "floor";
   // z = 2 x²/100 - x⁴/10000: ridges at x = -10 and 10.
-  pair.on_B = make_polynomial({0, 0, 0}, Eigen::Matrix3d::Identity(), {{2, 0, 0.02}, {4, 0, -0.0001}}, true);
+  pair.on_B = make_polynomial({0, 0, 0}, Eigen::Matrix3d::Identity(),
+                              {{2, 0, 0.02}, {4, 0, -0.0001}}, true);
   pair.on_A = make_sphere({0, 0, 0}, 60, true);
   model.pairs = {pair};
   Load weight;
@@ -81,7 +84,8 @@ TEST(Events, AContactThatJumpsBetweenTwoRidgesDoesSoHalfWay) {
   };
   hold(ConditionKind::kTranslation, Eigen::Vector3d::UnitX(), 0, -3);
   hold(ConditionKind::kTranslation, Eigen::Vector3d::UnitY(), 0, 0);
-  for (int axis = 0; axis < 3; ++axis) hold(ConditionKind::kRotation, Eigen::Vector3d::UnitX(), axis, 0);
+  for (int axis = 0; axis < 3; ++axis)
+    hold(ConditionKind::kRotation, Eigen::Vector3d::UnitX(), axis, 0);
   model.start.p = {-3, 0, 62};
   model.length = 30;
   EquilibriumSolver solver(std::move(model));
@@ -89,7 +93,8 @@ TEST(Events, AContactThatJumpsBetweenTwoRidgesDoesSoHalfWay) {
   for (const PoseResult& pose : result.poses) EXPECT_TRUE(pose.converged()) << pose.reason;
   ASSERT_EQ(result.events.size(), 1u);
   EXPECT_EQ(result.events[0].kind, EventKind::kJump);
-  // Half way by symmetry, as far as an overlap of 5e-7 mm tells the ridges apart (the gaps differ by 0.3 per mm).
+  // Half way by symmetry, as far as an overlap of 5e-7 mm tells the ridges apart (the gaps differ
+  // by 0.3 per mm).
   EXPECT_NEAR(result.events[0].value, 0, 2e-6);
 }
 

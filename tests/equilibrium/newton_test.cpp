@@ -12,7 +12,10 @@
 namespace condyle {
 namespace {
 
-KinematicCondition prescribed(ConditionKind kind, const Eigen::Vector3d& axis, int cardan_axis, double value) {
+KinematicCondition prescribed(ConditionKind kind,
+                              const Eigen::Vector3d& axis,
+                              int cardan_axis,
+                              double value) {
   KinematicCondition condition;
   condition.kind = kind;
   condition.axis = axis;
@@ -24,7 +27,8 @@ KinematicCondition prescribed(ConditionKind kind, const Eigen::Vector3d& axis, i
 /// The Cardan angle w of R = Ry(w).
 double angle_about_y(const RigidTransform& X) { return std::atan2(X.R(0, 2), X.R(2, 2)); }
 
-// Exact answers: theory section 9, e.g. w = -1.4056476493802696, p = 32.11453374, sigma = 119.90259274 at phi = 0.
+// Exact answers: theory section 9, e.g. w = -1.4056476493802696, p = 32.11453374, sigma =
+// 119.90259274 at phi = 0.
 TEST(Newton, ReportProblem1HasTheExactAnswerInFiveIterationsPerIncrement) {
   using P = test::Problem1;
   Model model = P::model(0);
@@ -103,11 +107,13 @@ TEST(Newton, ResidualFallsQuadratically) {
   }
   // e_{k+1} <= C e_k² with C of order one; 1e-12 is the tolerance at which Newton stops.
   ASSERT_LT(error.back(), 1e-12);
-  for (std::size_t k = 1; k + 1 < error.size(); ++k) EXPECT_LE(error[k + 1], 3 * error[k] * error[k] + 1e-12);
+  for (std::size_t k = 1; k + 1 < error.size(); ++k)
+    EXPECT_LE(error[k + 1], 3 * error[k] * error[k] + 1e-12);
 }
 
-// One Newton step from a displaced pose must land within the square of the displacement in every direction, which a wrong
-// entry of the matrix would not allow: half the displacement, a quarter of the error.
+// One Newton step from a displaced pose must land within the square of the displacement in every
+// direction, which a wrong entry of the matrix would not allow: half the displacement, a quarter of
+// the error.
 TEST(Newton, OneStepLeavesTheSquareOfTheDisplacement) {
   Model model = test::spring_knee();
   model.conditions[0].value = 0.5;
@@ -134,7 +140,8 @@ TEST(Newton, OneStepLeavesTheSquareOfTheDisplacement) {
 TEST(Newton, ContactThatDependsOnAConditionIsSingular) {
   Model model = test::Problem1::model(0);
   // The contact already prescribes the x-position of the centre.
-  model.conditions.push_back(prescribed(ConditionKind::kTranslation, Eigen::Vector3d::UnitX(), 0, 1));
+  model.conditions.push_back(
+      prescribed(ConditionKind::kTranslation, Eigen::Vector3d::UnitX(), 0, 1));
   model.condition_names.emplace_back("x");
   Newton newton(model);
   EquilibriumState state;

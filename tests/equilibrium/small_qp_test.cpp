@@ -73,7 +73,8 @@ TEST(SmallQp, ContradictoryConstraintsStayFinite) {
 TEST(SmallQp, NegativeCurvatureIsTurnedRound) {
   SmallQp qp = quadratic_about((Vector6() << 1, 0, 0, 0, 0, 0).finished());
   qp.H(0, 0) = -1;
-  EXPECT_NEAR(solve_qp(qp).x[0], 1, 1e-12);  // goes down the slope, by the magnitude of the curvature
+  EXPECT_NEAR(solve_qp(qp).x[0], 1,
+              1e-12);  // goes down the slope, by the magnitude of the curvature
   EXPECT_NEAR(solve_qp(qp).least_eigenvalue, -1, 1e-12);
 }
 

@@ -14,9 +14,12 @@ namespace {
 
 constexpr double kDegree = M_PI / 180;
 
-/// Lowest signed distance between the known parts of two surfaces, by projecting a dense grid of one onto the other:
-/// no code of the contact search.
-double lowest_gap(const Surface& on_B, const Surface& on_A, const RigidTransform& X, double spacing) {
+/// Lowest signed distance between the known parts of two surfaces, by projecting a dense grid of
+/// one onto the other: no code of the contact search.
+double lowest_gap(const Surface& on_B,
+                  const Surface& on_A,
+                  const RigidTransform& X,
+                  double spacing) {
   double lowest = INFINITY;
   for (const Place& place : on_A.samples(spacing)) {
     const Eigen::Vector3d p = X * on_A.evaluate(place).c;
@@ -24,7 +27,8 @@ double lowest_gap(const Surface& on_B, const Surface& on_A, const RigidTransform
     if (on_B.edge_distance(foot) < 0) continue;
     const SurfacePoint at = on_B.evaluate(foot);
     const double gap = (p - at.c).dot(at.n);
-    if (gap > -10) lowest = std::min(lowest, gap);  // farther behind an open patch is not inside the bone
+    if (gap > -10)
+      lowest = std::min(lowest, gap);  // farther behind an open patch is not inside the bone
   }
   return lowest;
 }
@@ -79,7 +83,8 @@ class SpecimenSweep : public testing::TestWithParam<const char*> {};
 TEST_P(SpecimenSweep, ConvergesAtEveryPoseOrSaysWhyNot) {
   const std::filesystem::path file =
       std::filesystem::path(CONDYLE_SOURCE_DIR) / "../shared/specimens" / GetParam() / "knee.toml";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no specimen " << GetParam() << " beside the project";
+  if (!std::filesystem::exists(file))
+    GTEST_SKIP() << "no specimen " << GetParam() << " beside the project";
   const Knee knee = load(file);
   const SweepResult result = sweep(knee.scene, knee.surfaces);
   ASSERT_EQ(result.poses.size(), 19u);

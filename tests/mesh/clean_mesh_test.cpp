@@ -112,8 +112,9 @@ TEST(CleanMesh, IsDoneAfterOnce) {
   const CleanMesh once = clean_mesh(apart(cube(10)));
   const CleanMesh twice = clean_mesh(once.mesh);
   EXPECT_EQ(twice.mesh.triangles, once.mesh.triangles);
-  EXPECT_EQ(
-      twice.report.merged_vertices + twice.report.flipped_triangles + twice.report.degenerate_triangles, 0);
+  EXPECT_EQ(twice.report.merged_vertices + twice.report.flipped_triangles +
+                twice.report.degenerate_triangles,
+            0);
 }
 
 }  // namespace

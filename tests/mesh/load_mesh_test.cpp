@@ -42,10 +42,13 @@ class LoadMesh : public ::testing::Test {
     }
     return "";
   }
-  void expect_complaint(const std::string& name, const std::string& bytes, const std::string& part) {
+  void expect_complaint(const std::string& name,
+                        const std::string& bytes,
+                        const std::string& part) {
     const std::string message = complaint(write(name, bytes));
     EXPECT_NE(message.find(part), std::string::npos) << name << ": " << message;
-    EXPECT_NE(message.find(name), std::string::npos) << "the message must name the file: " << message;
+    EXPECT_NE(message.find(name), std::string::npos)
+        << "the message must name the file: " << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << "one line: " << message;
   }
 
@@ -82,7 +85,8 @@ std::string binary_stl(const TriangleMesh& mesh, const std::string& title = "") 
 std::string obj(const TriangleMesh& mesh) {
   std::ostringstream s;
   for (const auto& v : mesh.vertices) s << "v " << v.transpose() << "\n";
-  for (const auto& [a, b, c] : mesh.triangles) s << "f " << a + 1 << " " << b + 1 << " " << c + 1 << "\n";
+  for (const auto& [a, b, c] : mesh.triangles)
+    s << "f " << a + 1 << " " << b + 1 << " " << c + 1 << "\n";
   return s.str();
 }
 
@@ -97,7 +101,8 @@ std::string off(const TriangleMesh& mesh) {
 std::string ply(const TriangleMesh& mesh, bool binary) {
   std::ostringstream s;
   s << "ply\nformat " << (binary ? "binary_little_endian" : "ascii") << " 1.0\nelement vertex "
-    << mesh.vertices.size() << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
+    << mesh.vertices.size()
+    << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
     << mesh.triangles.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
   const auto put = [&s](const auto& value) {
     s.write(reinterpret_cast<const char*>(&value), sizeof value);
@@ -122,13 +127,14 @@ std::string ply(const TriangleMesh& mesh, bool binary) {
 // The same cube of 50 mm in every format: volume 125000 mm³, after merging 8 vertices.
 TEST_F(LoadMesh, ReadsEveryFormat) {
   const TriangleMesh shape = cube(50);
-  const std::pair<const char*, std::string> files[] = {{"a.stl", ascii_stl(shape)},
-                                                       {"b.stl", binary_stl(shape)},
-                                                       {"c.obj", obj(shape)},
-                                                       {"d.off", off(shape)},
-                                                       {"e.ply", ply(shape, false)},
-                                                       {"f.ply", ply(shape, true)},
-                                                       {"G.STL", binary_stl(shape, "solid of a scanner")}};
+  const std::pair<const char*, std::string> files[] = {
+      {"a.stl", ascii_stl(shape)},
+      {"b.stl", binary_stl(shape)},
+      {"c.obj", obj(shape)},
+      {"d.off", off(shape)},
+      {"e.ply", ply(shape, false)},
+      {"f.ply", ply(shape, true)},
+      {"G.STL", binary_stl(shape, "solid of a scanner")}};
   for (const auto& [name, bytes] : files) {
     const CleanMesh clean = clean_mesh(load_mesh(write(name, bytes), 1));
     EXPECT_EQ(clean.mesh.vertices.size(), 8u) << name;
@@ -161,7 +167,8 @@ TEST_F(LoadMesh, SaysWhatIsWrongWithAFile) {
 TEST_F(LoadMesh, RefusesFilesThatWereCutShort) {
   const TriangleMesh shape = cube(50);
   const auto half = [](const std::string& s) { return s.substr(0, s.size() * 2 / 3); };
-  expect_complaint("half.stl", half(binary_stl(shape)), "binary STL states 12 triangles = 684 bytes");
+  expect_complaint("half.stl", half(binary_stl(shape)),
+                   "binary STL states 12 triangles = 684 bytes");
   expect_complaint("ascii.stl", half(ascii_stl(shape)), "ASCII STL");
   const std::string whole = ascii_stl(shape);
   const std::string at_a_facet = whole.substr(0, whole.find("facet normal", 400));
@@ -195,7 +202,8 @@ TEST_F(LoadMesh, RefusesCoordinatesThatAreNoNumbers) {
   expect_complaint("nan.stl", binary_stl(shape), "not a number");
   expect_complaint("nan.ply", ply(shape, true), "not a number");
   expect_complaint("nan.obj", obj(shape), "line 4: vertex coordinate \"nan\"");
-  expect_complaint("word.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 9 0 a\n",
+  expect_complaint("word.stl",
+                   "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 9 0 a\n",
                    "line 5");
   expect_complaint("huge.obj", "v 0 0 0\nv 30 0 1e999\nv 0 30 0\nf 1 2 3\n", "1e999");
 }

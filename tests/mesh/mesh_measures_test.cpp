@@ -37,7 +37,8 @@ TEST(MeshMeasures, FindsEveryEdgeOnceWithBothTriangles) {
   EXPECT_EQ(edges.size(), 18u);
   for (const MeshEdge& e : edges) {
     EXPECT_EQ(e.count, 2);
-    EXPECT_NE(e.forward[0], e.forward[1]);  // neighbours run through a common edge in opposite directions
+    EXPECT_NE(e.forward[0],
+              e.forward[1]);  // neighbours run through a common edge in opposite directions
   }
 }
 

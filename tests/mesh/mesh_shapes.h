@@ -11,8 +11,8 @@
 
 namespace condyle::testing {
 
-/// A sheet over the grid [0, nu] x [0, nv], each cell cut in two; `point` maps (i, j) to space. Faces
-/// towards ∂i x ∂j.
+/// A sheet over the grid [0, nu] x [0, nv], each cell cut in two; `point` maps (i, j) to space.
+/// Faces towards ∂i x ∂j.
 inline TriangleMesh grid_sheet(int nu,
                                int nv,
                                const std::function<Eigen::Vector3d(double, double)>& point) {
@@ -29,14 +29,17 @@ inline TriangleMesh grid_sheet(int nu,
 }
 
 /// Height z = height(x, y) over a square of the side, centred at the origin, n x n cells.
-inline TriangleMesh height_sheet(double side, int n, const std::function<double(double, double)>& height) {
+inline TriangleMesh height_sheet(double side,
+                                 int n,
+                                 const std::function<double(double, double)>& height) {
   return grid_sheet(n, n, [&](double i, double j) {
     const double x = side * (i / n - 0.5), y = side * (j / n - 0.5);
     return Eigen::Vector3d(x, y, height(x, y));
   });
 }
 
-/// A closed cube of the given side, one corner at `corner`, facing outward: 8 vertices, 12 triangles.
+/// A closed cube of the given side, one corner at `corner`, facing outward: 8 vertices, 12
+/// triangles.
 inline TriangleMesh cube(double side, const Eigen::Vector3d& corner = Eigen::Vector3d::Zero()) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i)

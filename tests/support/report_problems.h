@@ -1,7 +1,7 @@
 #pragma once
 
-/// The problems of chapter 4 of [Dortmans 1986] with their exact answers (theory: equilibrium.md section 9), for tests.
-/// Units of the report: cm and N; the solver does not mind.
+/// The problems of chapter 4 of [Dortmans 1986] with their exact answers (theory: equilibrium.md
+/// section 9), for tests. Units of the report: cm and N; the solver does not mind.
 
 #include <cmath>
 
@@ -10,9 +10,12 @@
 
 namespace condyle::test {
 
-inline ForceLaw polynomial(std::vector<double> coefficients) { return PolynomialLaw{std::move(coefficients), false}; }
+inline ForceLaw polynomial(std::vector<double> coefficients) {
+  return PolynomialLaw{std::move(coefficients), false};
+}
 
-/// Sphere of radius 1 inside a cylinder of radius 2 about z, four elements, z-translation phi prescribed.
+/// Sphere of radius 1 inside a cylinder of radius 2 about z, four elements, z-translation phi
+/// prescribed.
 struct Problem1 {
   static constexpr double a = 2, b = 1, s1 = 5, s3 = 6, A = 1, B = 2;
 
@@ -54,7 +57,8 @@ struct Problem1 {
     return 2 * (A + B * L1(phi)) * b + (A + B * L3(phi)) * (b - b * std::cos(w(phi)));
   }
   static double sigma(double phi) {
-    return -50 + 2 * (A + B * L1(phi)) * (s1 - phi) + (A + B * L3(phi)) * (s3 - phi + b * std::sin(w(phi)));
+    return -50 + 2 * (A + B * L1(phi)) * (s1 - phi) +
+           (A + B * L3(phi)) * (s3 - phi + b * std::sin(w(phi)));
   }
 };
 

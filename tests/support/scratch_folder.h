@@ -1,6 +1,7 @@
 #pragma once
 
-/// A folder for the files of one test program: tests run side by side, each in a process of its own.
+/// A folder for the files of one test program: tests run side by side, each in a process of its
+/// own.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,7 +11,8 @@
 
 namespace condyle::test {
 
-/// Not yet there; the name holds the process and, to try paths that need quoting, a blank and an apostrophe.
+/// Not yet there; the name holds the process and, to try paths that need quoting, a blank and an
+/// apostrophe.
 inline std::filesystem::path scratch_folder(const std::string& name) {
   return std::filesystem::path(::testing::TempDir()) / (name + "'s " + std::to_string(::getpid()));
 }

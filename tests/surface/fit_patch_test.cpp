@@ -48,14 +48,15 @@ BallErrors fit_ball(int control_points) {
       const SurfacePoint at = patch.evaluate({u, v, 0});
       errors.position = std::max(errors.position, std::abs(at.c.norm() - kRadius));
       const Eigen::Matrix3d exact =
-          (at.c.normalized() * at.c.normalized().transpose() - Eigen::Matrix3d::Identity()) / kRadius;
+          (at.c.normalized() * at.c.normalized().transpose() - Eigen::Matrix3d::Identity()) /
+          kRadius;
       errors.curvature = std::max(errors.curvature, (at.K - exact).norm());
     }
   return errors;
 }
 
-// Bicubic splines are of order 4 in position and 2 in curvature: halving the knot spacing divides the
-// errors by 16 and 4.
+// Bicubic splines are of order 4 in position and 2 in curvature: halving the knot spacing divides
+// the errors by 16 and 4.
 TEST(FitPatch, ConvergesOnASphereWithTheOrderOfSplines) {
   const BallErrors coarse = fit_ball(3 + 5), fine = fit_ball(3 + 10);
   EXPECT_GT(coarse.position / fine.position, 16 * 0.7);
@@ -93,12 +94,13 @@ TEST(FitPatch, SmoothsTheSameOnCoarseAndFineMeshes) {
   double greatest = 0;
   for (double u = -8; u <= 8; u += 0.5)
     for (double v = -8; v <= 8; v += 0.5)
-      greatest = std::max(greatest, (coarse.evaluate({u, v, 0}).c - fine.evaluate({u, v, 0}).c).norm());
+      greatest =
+          std::max(greatest, (coarse.evaluate({u, v, 0}).c - fine.evaluate({u, v, 0}).c).norm());
   EXPECT_LT(greatest, 0.01);  // a tenth of the texture
 }
 
-// Distances are measured at right angles: on a ball with vertices moved out by 0.1 mm they are 0.1 mm
-// everywhere, on the slopes too.
+// Distances are measured at right angles: on a ball with vertices moved out by 0.1 mm they are 0.1
+// mm everywhere, on the slopes too.
 TEST(FitPatch, MeasuresDistancesAtRightAngles) {
   ArticularRegion region = region_of(height_sheet(30, 60, ball));
   PatchFit fit = fit_patch(region, {.smoothing_length = 0.5});
@@ -109,7 +111,8 @@ TEST(FitPatch, MeasuresDistancesAtRightAngles) {
   EXPECT_LT(near.core_normal_rms, 1e-2);
 }
 
-/// The triangles of a disc of radius 12 mm out of a sheet, without those around `hole` (radius in mm).
+/// The triangles of a disc of radius 12 mm out of a sheet, without those around `hole` (radius in
+/// mm).
 ArticularRegion disc(int cells, double hole) {
   const TriangleMesh sheet = height_sheet(30, cells, ball);
   std::vector<bool> keep;
@@ -120,9 +123,9 @@ ArticularRegion disc(int cells, double hole) {
   return region_of(sub_mesh(sheet, keep).mesh);
 }
 
-// The mask is the distance to the rim of the disc, less the margin that is not known, whatever the mesh: 12 mm from the middle along the
-// plane, on the ball R asin(12/R) = 12.5 mm as the arc and 12.3 mm straight. A ragged rim of triangles
-// shifts it by less than an edge.
+// The mask is the distance to the rim of the disc, less the margin that is not known, whatever the
+// mesh: 12 mm from the middle along the plane, on the ball R asin(12/R) = 12.5 mm as the arc
+// and 12.3 mm straight. A ragged rim of triangles shifts it by less than an edge.
 TEST(FitPatch, KnowsHowFarTheEdgeOfTheDataIs) {
   for (const int cells : {15, 60}) {  // edges of 2 and 0.5 mm
     const PatchFit fit = fit_patch(disc(cells, 0));
@@ -130,10 +133,12 @@ TEST(FitPatch, KnowsHowFarTheEdgeOfTheDataIs) {
     const double edge = 30.0 / cells, rim = kUncertainRim * fit.smoothing_length;
     EXPECT_NEAR(patch.edge_distance({0, 0, 0}) + rim, 12.3, edge + 0.3);
     EXPECT_NEAR(patch.edge_distance({9, 0, 0}) + rim, 3.3, edge + 0.3);
-    EXPECT_LT(patch.edge_distance({9.6, 9.6, 0}) + rim, 0);  // 13.6 mm out: in the box, off the disc
+    EXPECT_LT(patch.edge_distance({9.6, 9.6, 0}) + rim,
+              0);  // 13.6 mm out: in the box, off the disc
     for (double r = 0; r < 12 - 1.5 * edge; r += 0.4)
       for (double a = 0; a < 6.28; a += 0.3)
-        EXPECT_GT(patch.edge_distance({r * std::cos(a), r * std::sin(a), 0}) + rim, 0) << r << " " << a;
+        EXPECT_GT(patch.edge_distance({r * std::cos(a), r * std::sin(a), 0}) + rim, 0)
+            << r << " " << a;
   }
 }
 
@@ -146,8 +151,8 @@ TEST(FitPatch, BridgesASmallHoleAndLeavesAWideOneOut) {
   EXPECT_NE(wide.notes.at(0).find("left out"), std::string::npos);
 }
 
-// Away from the disc the patch goes on without bending. At (12, 12), 5 mm beyond the rim at r = 12, the
-// tangent cone of the ball has z = 21.93 - 0.547 * 4.97 = 19.2.
+// Away from the disc the patch goes on without bending. At (12, 12), 5 mm beyond the rim at r = 12,
+// the tangent cone of the ball has z = 21.93 - 0.547 * 4.97 = 19.2.
 TEST(FitPatch, GoesOnSmoothlyBeyondTheData) {
   const Patch patch(fit_patch(disc(60, 0)).patch);
   const Vector3d corner = patch.evaluate({12, 12, 0}).c;

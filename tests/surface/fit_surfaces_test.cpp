@@ -60,7 +60,9 @@ Scene knee(const KneeFiles& files) {
     }
   return scene;
 }
-KneeFiles phantom_files() { return {.femur = kMeshes / "femur.stl", .tibia = kMeshes / "tibia.stl"}; }
+KneeFiles phantom_files() {
+  return {.femur = kMeshes / "femur.stl", .tibia = kMeshes / "tibia.stl"};
+}
 
 std::string complaint(const Scene& scene) {
   try {
@@ -71,14 +73,15 @@ std::string complaint(const Scene& scene) {
   return "";
 }
 
-// The mesh carries 0.2 mm of seeded roughness; away from the edge the patch must lie closer than that to
-// the exact shape, and its normals much closer than those of the mesh (7 degrees).
+// The mesh carries 0.2 mm of seeded roughness; away from the edge the patch must lie closer than
+// that to the exact shape, and its normals much closer than those of the mesh (7 degrees).
 TEST(FitSurfaces, FindsTheExactPhantomUnderItsRoughness) {
   const Scene scene = knee(phantom_files());
   const std::vector<FittedSurface> fitted = fit_surfaces(scene);
   ASSERT_EQ(fitted.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
-    const phantom::Bone bone = scene.surfaces[i].body == 0 ? phantom::Bone::kFemur : phantom::Bone::kTibia;
+    const phantom::Bone bone =
+        scene.surfaces[i].body == 0 ? phantom::Bone::kFemur : phantom::Bone::kTibia;
     double square = 0, angle_square = 0, count = 0;
     for (const Place& place : fitted[i].surface->samples(1.0)) {
       if (fitted[i].surface->edge_distance(place) < 4) continue;
@@ -127,11 +130,13 @@ TriangleMesh mirrored(TriangleMesh mesh) {
 
 // A left knee is charted through its own lateral direction: same regions, mirrored.
 TEST(FitSurfaces, TreatsALeftKneeAsTheMirrorOfARightOne) {
-  const TriangleMesh right = clean_mesh(load_mesh(kMeshes / "femur.stl", 1)).mesh, left = mirrored(right);
+  const TriangleMesh right = clean_mesh(load_mesh(kMeshes / "femur.stl", 1)).mesh,
+                     left = mirrored(right);
   const BoneFrame right_frame{.lateral = {0, 0, 1}, .anterior = {1, 0, 0}, .proximal = {0, 1, 0}};
   const BoneFrame left_frame{.lateral = {0, 0, -1}, .anterior = {1, 0, 0}, .proximal = {0, 1, 0}};
   const auto region = [](const TriangleMesh& mesh, const BoneFrame& frame) {
-    return femoral_region(mesh, fit_condylar_axis(mesh, vertex_normals(mesh), frame), Half::kMedial);
+    return femoral_region(mesh, fit_condylar_axis(mesh, vertex_normals(mesh), frame),
+                          Half::kMedial);
   };
   const ArticularRegion a = region(right, right_frame), b = region(left, left_frame);
   ASSERT_EQ(a.mesh.vertices.size(), b.mesh.vertices.size());
@@ -143,11 +148,13 @@ TEST(FitSurfaces, TreatsALeftKneeAsTheMirrorOfARightOne) {
   }
 }
 
-// The posterior arcs of the phantom have radii 21.5 and 20.0 about one axis, 20 mm in the coronal section.
+// The posterior arcs of the phantom have radii 21.5 and 20.0 about one axis, 20 mm in the coronal
+// section.
 TEST(FitSurfaces, FindsTheCondylarAxisOfThePhantom) {
   const TriangleMesh mesh = clean_mesh(load_mesh(kMeshes / "femur.stl", 1)).mesh;
-  const CondylarAxis axis = fit_condylar_axis(
-      mesh, vertex_normals(mesh), {.lateral = {0, 0, 1}, .anterior = {1, 0, 0}, .proximal = {0, 1, 0}});
+  const CondylarAxis axis =
+      fit_condylar_axis(mesh, vertex_normals(mesh),
+                        {.lateral = {0, 0, 1}, .anterior = {1, 0, 0}, .proximal = {0, 1, 0}});
   EXPECT_NEAR(axis.medial_radius, 21.5, 1.5);
   EXPECT_NEAR(axis.lateral_radius, 20.0, 1.5);
   EXPECT_GT(axis.direction.z(), std::cos(3 * M_PI / 180));
@@ -185,15 +192,17 @@ TEST(FitSurfaces, MakesExactKindsWithoutAMesh) {
 TEST(FitSurfaces, NamesTheSurfaceThatCannotBeFitted) {
   Scene scene = knee(phantom_files());
   scene.bodies[0].mesh.reset();
-  EXPECT_NE(complaint(scene).find("knee.toml: surface \"medial condyle\": kind = \"patch\" needs a mesh"),
-            std::string::npos)
+  EXPECT_NE(
+      complaint(scene).find("knee.toml: surface \"medial condyle\": kind = \"patch\" needs a mesh"),
+      std::string::npos)
       << complaint(scene);
   scene = knee(phantom_files());
   scene.joint.reset();
   EXPECT_NE(complaint(scene).find("[joint]"), std::string::npos);
   scene = knee(phantom_files());
   scene.surfaces[2].patch.control_points = {60, 60};
-  EXPECT_NE(complaint(scene).find("surface \"lateral condyle\""), std::string::npos) << complaint(scene);
+  EXPECT_NE(complaint(scene).find("surface \"lateral condyle\""), std::string::npos)
+      << complaint(scene);
   scene = knee(phantom_files());
   scene.bodies[0].mesh->to_mm = 1000;
   EXPECT_NE(complaint(scene).find("look like mm"), std::string::npos) << complaint(scene);

@@ -57,7 +57,8 @@ double energy(const BandedMatrix& matrix, const std::vector<Vector3d>& x) {
   return sum;
 }
 
-/// Control points of the spline that interpolates z = f(u, v), a cubic: a fit without smoothing finds them.
+/// Control points of the spline that interpolates z = f(u, v), a cubic: a fit without smoothing
+/// finds them.
 std::vector<Vector3d> control_points_of(const SplineGrid& grid, double (*f)(double, double)) {
   std::vector<DataPoint> points;
   for (double u = grid.u_min + 0.05; u < grid.u_max; u += 0.5)
@@ -66,21 +67,21 @@ std::vector<Vector3d> control_points_of(const SplineGrid& grid, double (*f)(doub
   return solve_fit(assemble_data(grid, points), assemble_penalty(grid, plain_cells(grid)), 1e-3);
 }
 
-// z = u³/6 has z_uuu = 1 and no other third derivative: ∫|∇³c|² = area. z = u²v/2 has z_uuv = 1, which
-// |∇³z|² counts three times. u and v themselves have no third derivatives.
+// z = u³/6 has z_uuu = 1 and no other third derivative: ∫|∇³c|² = area. z = u²v/2 has z_uuv = 1,
+// which |∇³z|² counts three times. u and v themselves have no third derivatives.
 TEST(FitPenalty, IntegratesThirdDerivativesExactly) {
   for (const int degree : {3, 4, 5}) {
     const SplineGrid grid = grid_of(degree, 5, 10);
     const PenaltyTerm penalty = assemble_penalty(grid, plain_cells(grid));
-    EXPECT_NEAR(
-        energy(penalty.third, control_points_of(grid, [](double u, double) { return u * u * u / 6; })), 100,
-        1e-6);
-    EXPECT_NEAR(
-        energy(penalty.third, control_points_of(grid, [](double u, double v) { return u * u * v / 2; })),
-        300, 1e-6);
-    EXPECT_NEAR(
-        energy(penalty.third, control_points_of(grid, [](double u, double v) { return u * v - v * v; })), 0,
-        1e-6);
+    EXPECT_NEAR(energy(penalty.third,
+                       control_points_of(grid, [](double u, double) { return u * u * u / 6; })),
+                100, 1e-6);
+    EXPECT_NEAR(energy(penalty.third,
+                       control_points_of(grid, [](double u, double v) { return u * u * v / 2; })),
+                300, 1e-6);
+    EXPECT_NEAR(energy(penalty.third,
+                       control_points_of(grid, [](double u, double v) { return u * v - v * v; })),
+                0, 1e-6);
   }
 }
 
@@ -95,25 +96,26 @@ TEST(FitPenalty, BendsNothingWhereThereAreNoData) {
               1e-6);  // one cell of 2 x 2 mm
 }
 
-// A chart stretched by s in u measures arc length s u: the third derivative per mm falls by s³ and the area
-// grows by s.
+// A chart stretched by s in u measures arc length s u: the third derivative per mm falls by s³ and
+// the area grows by s.
 TEST(FitPenalty, MeasuresDerivativesPerMillimetreOfSurface) {
   const SplineGrid grid = grid_of(3, 5, 10);
   std::vector<CellMetric> cells = plain_cells(grid);
   for (CellMetric& cell : cells) cell.stretch_u = 2;
-  const std::vector<Vector3d> x = control_points_of(grid, [](double u, double) { return u * u * u / 6; });
+  const std::vector<Vector3d> x =
+      control_points_of(grid, [](double u, double) { return u * u * u / 6; });
   EXPECT_NEAR(energy(assemble_penalty(grid, cells).third, x), 100.0 * 2 / 64, 1e-6);
 }
 
-/// Texture of unit rms with correlation exp(-d²/2l²), l = 1.5 mm: many plane waves, wave vectors normally
-/// distributed with deviation 1/l.
+/// Texture of unit rms with correlation exp(-d²/2l²), l = 1.5 mm: many plane waves, wave vectors
+/// normally distributed with deviation 1/l.
 double texture(double x, double y) {
   constexpr int kWaves = 300;
   constexpr double kCorrelation = 1.5;
   double sum = 0;
   for (int k = 0; k < kWaves; ++k) {
     const double radius = std::sqrt(-2 * std::log((k + 0.5) / kWaves)) / kCorrelation;  // Rayleigh
-    const double angle = 2.399963 * k;                                                  // golden angle
+    const double angle = 2.399963 * k;  // golden angle
     sum += std::cos(radius * (x * std::cos(angle) + y * std::sin(angle)) + 1.7 * k * k);
   }
   return sum / std::sqrt(kWaves / 2.0);
@@ -134,7 +136,8 @@ struct Study {
   }
   /// rms distance from the true dish, away from the edge.
   [[nodiscard]] double error(double smoothing_length) const {
-    const Patch patch(patch_data(grid, solve_fit(assemble_data(grid, points), penalty, smoothing_length)));
+    const Patch patch(
+        patch_data(grid, solve_fit(assemble_data(grid, points), penalty, smoothing_length)));
     double sum = 0, count = 0;
     for (double u = -15; u < 15; u += 0.7)
       for (double v = -15; v < 15; v += 0.7) {
@@ -155,7 +158,8 @@ TEST(FitSmoothing, IsCloseToTheBestChoiceOnTexture) {
   for (const double roughness : {0.1, 0.2, 0.3}) {
     const Study study(roughness);
     double best = 1e300;
-    for (double length = 0.75; length < 6; length *= 1.15) best = std::min(best, study.error(length));
+    for (double length = 0.75; length < 6; length *= 1.15)
+      best = std::min(best, study.error(length));
     const SmoothingChoice choice = study.choice();
     EXPECT_LT(study.error(choice.length), 1.3 * best)
         << "roughness " << roughness << ", length " << choice.length;

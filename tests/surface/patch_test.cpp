@@ -21,7 +21,8 @@ PatchData wavy_sheet(int degree_u, int degree_v) {
   data.knots_v = uniform_knots(data.nv, degree_v, -5, 15);
   for (int i = 0; i < data.nu; ++i)
     for (int j = 0; j < data.nv; ++j)
-      data.control_points.emplace_back(3.1 * i + 0.4 * std::sin(2.0 * j), 3.3 * j + 0.3 * std::cos(1.0 * i),
+      data.control_points.emplace_back(3.1 * i + 0.4 * std::sin(2.0 * j),
+                                       3.3 * j + 0.3 * std::cos(1.0 * i),
                                        2 * std::sin(0.6 * i) + 1.5 * std::cos(0.8 * j));
   return data;
 }
@@ -34,14 +35,19 @@ INSTANTIATE_TEST_SUITE_P(Degrees,
 // Within the box and beyond it, where the patch goes on to second order.
 TEST_P(PatchOfDegree, DerivativesMatchDifferences) {
   const Patch patch(wavy_sheet(GetParam()[0], GetParam()[1]));
-  for (const Eigen::Vector2d& uv : {Eigen::Vector2d(7.3, 2.1), Eigen::Vector2d(29.2, -4.4), Eigen::Vector2d(32, 3.3),
-                                    Eigen::Vector2d(-2, 17)}) {
-    const auto at = [&](const Eigen::Vector2d& d) { return patch.derivatives(uv.x() + d.x(), uv.y() + d.y()); };
+  for (const Eigen::Vector2d& uv : {Eigen::Vector2d(7.3, 2.1), Eigen::Vector2d(29.2, -4.4),
+                                    Eigen::Vector2d(32, 3.3), Eigen::Vector2d(-2, 17)}) {
+    const auto at = [&](const Eigen::Vector2d& d) {
+      return patch.derivatives(uv.x() + d.x(), uv.y() + d.y());
+    };
     const PatchDerivatives d = at({0, 0});
     using Columns = Eigen::Matrix<double, 3, 2>;
-    const Columns first = test::jacobian_at_zero<3, 2>([&](const Eigen::Vector2d& s) { return at(s).c; });
-    const Columns of_u = test::jacobian_at_zero<3, 2>([&](const Eigen::Vector2d& s) { return at(s).c_u; });
-    const Columns of_v = test::jacobian_at_zero<3, 2>([&](const Eigen::Vector2d& s) { return at(s).c_v; });
+    const Columns first =
+        test::jacobian_at_zero<3, 2>([&](const Eigen::Vector2d& s) { return at(s).c; });
+    const Columns of_u =
+        test::jacobian_at_zero<3, 2>([&](const Eigen::Vector2d& s) { return at(s).c_u; });
+    const Columns of_v =
+        test::jacobian_at_zero<3, 2>([&](const Eigen::Vector2d& s) { return at(s).c_v; });
     EXPECT_LT((first.col(0) - d.c_u).norm() + (first.col(1) - d.c_v).norm(), 1e-9);
     EXPECT_LT((of_u.col(0) - d.c_uu).norm() + (of_u.col(1) - d.c_uv).norm(), 1e-9);
     EXPECT_LT((of_v.col(0) - d.c_uv).norm() + (of_v.col(1) - d.c_vv).norm(), 1e-9);
@@ -63,14 +69,16 @@ TEST_P(PatchOfDegree, CurvatureTensorTurnsTheNormal) {
   EXPECT_NEAR(point.dual.col(1).dot(d.c_v), 1, 1e-13);
 }
 
-// The basis adds up to one and its derivatives to nothing; a uniform cubic has 1/6, 2/3, 1/6 at a knot.
+// The basis adds up to one and its derivatives to nothing; a uniform cubic has 1/6, 2/3, 1/6 at a
+// knot.
 TEST(BsplineBasis, IsAPartitionOfUnity) {
   const std::vector<double> knots = uniform_knots(8, 3, 0, 5);
   for (double t = 0; t <= 5; t += 0.37) {
     const BasisValues b = basis(knots, 3, t, 3);
     for (int k = 0; k <= 3; ++k) {
       double sum = 0;
-      for (int j = 0; j <= 3; ++j) sum += b.d[static_cast<std::size_t>(k)][static_cast<std::size_t>(j)];
+      for (int j = 0; j <= 3; ++j)
+        sum += b.d[static_cast<std::size_t>(k)][static_cast<std::size_t>(j)];
       EXPECT_NEAR(sum, k == 0 ? 1 : 0, 1e-12);
     }
   }
@@ -85,7 +93,8 @@ TEST(Patch, CurvatureIsContinuousAcrossKnots) {
   const Patch patch(data);
   for (std::size_t i = 4; i + 4 < data.knots_u.size(); ++i) {
     const double u = data.knots_u[i];
-    const Eigen::Matrix3d below = patch.evaluate({u - 1e-9, 4, 0}).K, above = patch.evaluate({u + 1e-9, 4, 0}).K;
+    const Eigen::Matrix3d below = patch.evaluate({u - 1e-9, 4, 0}).K,
+                          above = patch.evaluate({u + 1e-9, 4, 0}).K;
     EXPECT_LT((below - above).norm(), 1e-8);  // third derivatives of about 1 over 2e-9
   }
 }
@@ -93,7 +102,8 @@ TEST(Patch, CurvatureIsContinuousAcrossKnots) {
 // The residual of the closest point is normal to the surface.
 TEST(Patch, ClosestPointHasTheNormalThroughThePoint) {
   const Patch patch(wavy_sheet(3, 3));
-  for (const Eigen::Vector3d& p : {Eigen::Vector3d(12, 9, 5), Eigen::Vector3d(20, 15, -3), Eigen::Vector3d(8, 20, 1)}) {
+  for (const Eigen::Vector3d& p :
+       {Eigen::Vector3d(12, 9, 5), Eigen::Vector3d(20, 15, -3), Eigen::Vector3d(8, 20, 1)}) {
     const SurfacePoint foot = patch.evaluate(patch.closest(p, patch.seed(p)));
     EXPECT_LT(foot.n.cross(p - foot.c).norm(), 1e-10);
   }
