@@ -167,12 +167,11 @@ TEST(EquilibriumSolver, ABallPulledOffItsFloorRunsAway) {
 TEST(EquilibriumSolver, ABuriedBodyIsNeverConverged) {
   for (const double depth : {3.0, 30.0, 300.0}) {
     Model model = ball_over_floor(-10);
-    for (const Eigen::Vector3d& axis :
-         {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()}) {
+    for (int k = 0; k < 3; ++k) {
       KinematicCondition hold;
       hold.kind = ConditionKind::kTranslation;
-      hold.axis = axis;
-      hold.value = axis.z() > 0 ? -depth : 0;
+      hold.axis = Eigen::Vector3d::Unit(k);
+      hold.value = k == 2 ? -depth : 0;
       model.conditions.push_back(hold);
       model.condition_names.emplace_back("hold");
     }
