@@ -26,7 +26,8 @@ void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene
   const auto check = [&](const std::filesystem::path& input) {
     std::error_code unknown;
     if (std::filesystem::equivalent(output, input, unknown))
-      throw InputError(output.string() + ": is read by this command, expected another file to write");
+      throw InputError(output.string() +
+                       ": is read by this command, expected another file to write");
   };
   check(scene.file);
   for (const BodyDescription& body : scene.bodies)

@@ -253,8 +253,7 @@ GapMinimum ContactSearch::refine(int sample, const RigidTransform& X_BA) const {
   const SurfacePoint A = on_A_->evaluate(minimum.on_A);
   minimum.point_B = B.c;
   minimum.n = B.n;
-  minimum.s = X_BA.R * A.c;
-  minimum.gap = B.n.dot(X_BA.p + minimum.s - B.c);
+  minimum.gap = B.n.dot(X_BA * A.c - B.c);
   minimum.edge = edge_of(minimum.on_B, minimum.on_A);
   return minimum;
 }
@@ -268,7 +267,6 @@ void ContactSearch::find(const RigidTransform& X_BA,
                          std::vector<GapMinimum>& minima,
                          double merge) {
   minima.clear();
-  lowest_ = kInfinity;
   near_.clear();
   ++now_;
   if (places_.empty()) return;
@@ -279,7 +277,6 @@ void ContactSearch::find(const RigidTransform& X_BA,
   visit(0, X_from_to, cutoff + 0.06 * spacing_);
   for (const int sample : near_) {
     if (other.edge_distance(feet_[sample]) < 0) continue;
-    lowest_ = std::min(lowest_, gap_[sample]);
     if (!is_lowest_of_neighbours(sample)) continue;
     const GapMinimum minimum = refine(sample, X_BA);
     if (minimum.gap < cutoff) minima.push_back(minimum);

@@ -22,7 +22,6 @@ struct GapMinimum {
   Place on_B, on_A;
   double gap = 0;              ///< [mm], < 0 overlap
   Eigen::Vector3d point_B, n;  ///< point and normal on B, ground frame
-  Eigen::Vector3d s;           ///< R ĉ of the point on A [mm]
   bool refined = false;  ///< normals parallel, an isolated minimum (relative curvature positive)
   double edge = 0;       ///< smaller of the two edge distances [mm]
 };
@@ -41,10 +40,6 @@ class ContactSearch {
 
   /// False for a pair of surfaces without bounds: nothing can be searched there.
   [[nodiscard]] bool has_samples() const { return !places_.empty(); }
-
-  /// Lowest gap over the samples of the last find, no refinement [mm]; infinite where nothing came
-  /// near.
-  [[nodiscard]] double lowest_sample() const { return lowest_; }
 
  private:
   struct Cluster {
@@ -84,7 +79,6 @@ class ContactSearch {
   std::vector<Cluster> clusters_;
   std::vector<int> near_;  ///< samples below the cutoff
   int now_ = 0;
-  double lowest_ = 0;
 };
 
 /// Refines two places to a local minimum of the gap at a fixed pose: Newton on g tangential = 0, h

@@ -19,10 +19,6 @@ constexpr double kCompliance = 1e-8;     // of the constraints, relative
 constexpr double kNewtonReach = 0.05;  // a step shorter than this [L] is worth an attempt of Newton
 constexpr double kLeastReach = 1e-6;   // of a step [L]: below, nothing more is gained
 
-double weight(const Model& model, std::size_t condition) {
-  return is_angle(model.conditions[condition].kind) ? model.length : 1;
-}
-
 /// X moved by a step in scaled components (da, L dπ).
 RigidTransform moved(const RigidTransform& X, const Vector6& step, double L) {
   return {exp_rotation(step.tail<3>() / L) * X.R, X.p + step.head<3>()};
@@ -87,8 +83,7 @@ bool Descent::iterate(const Accept& accept, DescentReport& report) {
   set_forces(programme);
   set_rows(programme);
   SmallQpSolution solution = solve_qp(programme.qp);
-  add_contact_curvature(programme, solution);
-  solution = solve_qp(programme.qp);
+  if (add_contact_curvature(programme, solution)) solution = solve_qp(programme.qp);
   if (!solution.x.allFinite()) return false;
   const Multipliers forces = multipliers(programme, solution);
 
@@ -230,7 +225,7 @@ void Descent::set_rows(Programme& programme) const {
   for (Eigen::Index i = 0; i < m; ++i) {
     const auto condition = static_cast<std::size_t>(i);
     const ConditionDerivatives k = evaluate(model_.conditions[condition], X_);
-    const double w = weight(model_, condition);
+    const double w = condition_weight(model_, condition);
     qp.C.row(i) << w * k.alpha.transpose(), w * k.eta.transpose() / model_.length;
     qp.b[i] = -w * k.k;
   }
@@ -250,7 +245,8 @@ void Descent::set_rows(Programme& programme) const {
 
 /// -p times the second derivative of each gap that carries: how a curved contact yields when the
 /// pose tilts.
-void Descent::add_contact_curvature(Programme& programme, const SmallQpSolution& solution) const {
+bool Descent::add_contact_curvature(Programme& programme, const SmallQpSolution& solution) const {
+  bool added = false;
   for (std::size_t j = 0; j < programme.one_sided.size(); ++j) {
     const Constraint& constraint = constraints_[programme.one_sided[j]];
     const double p = solution.lambda[static_cast<Eigen::Index>(j)];
@@ -261,8 +257,11 @@ void Descent::add_contact_curvature(Programme& programme, const SmallQpSolution&
         linearize_contact(*pair.on_B, constraint.on_B, *pair.on_A, constraint.on_A, X_), p,
         of_contact);
     const Matrix6 K = stiffness(of_contact, model_.length);
-    if (K.allFinite()) programme.qp.H += K;
+    if (!K.allFinite()) continue;
+    programme.qp.H += K;
+    added = true;
   }
+  return added;
 }
 
 Descent::Multipliers Descent::multipliers(const Programme& programme,
@@ -276,7 +275,7 @@ Descent::Multipliers Descent::multipliers(const Programme& programme,
     forces.p[programme.two_sided[j]] = solution.nu[static_cast<Eigen::Index>(m + j)];
   for (std::size_t i = 0; i < m; ++i) {
     const double nu = solution.nu[static_cast<Eigen::Index>(i)];
-    forces.sigma.push_back(-nu * weight(model_, i));
+    forces.sigma.push_back(-nu * condition_weight(model_, i));
     forces.largest = std::max(forces.largest, std::abs(nu));
   }
   for (const double p : forces.p) forces.largest = std::max(forces.largest, std::abs(p));
@@ -289,7 +288,7 @@ double Descent::violation(const std::vector<Constraint>& constraints,
   for (const Constraint& constraint : constraints)
     sum += constraint.bilateral ? std::abs(constraint.gap) : std::max(0.0, -constraint.gap);
   for (std::size_t i = 0; i < model_.conditions.size(); ++i)
-    sum += weight(model_, i) * std::abs(evaluate(model_.conditions[i], X).k);
+    sum += condition_weight(model_, i) * std::abs(evaluate(model_.conditions[i], X).k);
   return sum;
 }
 
@@ -314,7 +313,8 @@ Vector6 Descent::corrected_step(const Programme& programme,
   SmallQp qp = programme.qp;
   for (std::size_t i = 0; i < model_.conditions.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    qp.b[row] = qp.C.row(row).dot(step) - weight(model_, i) * evaluate(model_.conditions[i], to).k;
+    qp.b[row] = qp.C.row(row).dot(step) -
+                condition_weight(model_, i) * evaluate(model_.conditions[i], to).k;
   }
   qp.A.resize(static_cast<Eigen::Index>(there.size()), 6);
   qp.d.resize(qp.A.rows());

@@ -89,7 +89,7 @@ class Descent {
                                      const RigidTransform& X) const;
   void set_forces(Programme& programme) const;
   void set_rows(Programme& programme) const;
-  void add_contact_curvature(Programme& programme, const SmallQpSolution& solution) const;
+  bool add_contact_curvature(Programme& programme, const SmallQpSolution& solution) const;
   [[nodiscard]] Multipliers multipliers(const Programme& programme,
                                         const SmallQpSolution& solution) const;
   [[nodiscard]] Vector6 corrected_step(const Programme& programme,

@@ -103,9 +103,7 @@ bool EquilibriumSolver::on_minima(const EquilibriumState& state) const {
     const ClosedContact& contact = state.contacts[k];
     const ContactPair& pair = model_->pairs[contact.pair];
     if (pair.mode == ContactMode::kAuto && contacts[k].relative_curvature[0] < -1e-7) return false;
-    const double edge =
-        std::min(pair.on_B->edge_distance(contact.on_B), pair.on_A->edge_distance(contact.on_A));
-    if (edge < -0.1 * model_->length) return false;
+    if (edge_distance(pair, contact.on_B, contact.on_A) < -0.1 * model_->length) return false;
   }
   return true;
 }
@@ -178,7 +176,7 @@ bool EquilibriumSolver::solve_first(EquilibriumState& state,
     const KinematicCondition& condition = model_->conditions[i];
     const double k = evaluate(condition, state.X).k;
     own.values[i] = target.values[i] + k;
-    far |= std::abs(k) * (is_angle(condition.kind) ? model_->length : 1) > kFar * model_->length;
+    far |= std::abs(k) * condition_weight(*model_, i) > kFar * model_->length;
   }
   if (!far) return descend(state, attempt);
   set_drive(own, own, 1);
@@ -240,9 +238,6 @@ void EquilibriumSolver::fill(PoseResult& result, const EquilibriumState& state) 
 
 void EquilibriumSolver::fill_contacts(PoseResult& result, const EquilibriumState& state) {
   result.contacts.resize(model_->pairs.size());
-  const auto edge = [&](const ContactPair& pair, const Place& on_B, const Place& on_A) {
-    return std::min(pair.on_B->edge_distance(on_B), pair.on_A->edge_distance(on_A));
-  };
   for (std::size_t k = 0; k < state.contacts.size(); ++k) {
     const ClosedContact& closed = state.contacts[k];
     const ContactLinearization& at = newton_.system().contacts()[k];
@@ -254,7 +249,7 @@ void EquilibriumSolver::fill_contacts(PoseResult& result, const EquilibriumState
     point.normal_ground = at.B.n;
     point.gap = at.gap();
     point.relative_curvature = at.relative_curvature;
-    point.edge_distance = edge(model_->pairs[closed.pair], closed.on_B, closed.on_A);
+    point.edge_distance = edge_distance(model_->pairs[closed.pair], closed.on_B, closed.on_A);
     point.on_edge = point.edge_distance < options_.edge_margin;
     contact.closed = true;
     contact.force += closed.p;

@@ -5,6 +5,14 @@
 
 namespace condyle {
 
+double condition_weight(const Model& model, std::size_t condition) {
+  return is_angle(model.conditions[condition].kind) ? model.length : 1;
+}
+
+double edge_distance(const ContactPair& pair, const Place& on_B, const Place& on_A) {
+  return std::min(pair.on_B->edge_distance(on_B), pair.on_A->edge_distance(on_A));
+}
+
 double characteristic_length(const Model& model) {
   double sum = 0;
   int count = 0;

@@ -44,6 +44,12 @@ struct Model {
 /// [Dortmans 1986 stops at five].
 inline constexpr int kMaxConstraints = 6;
 
+/// What makes a condition a length: L for an angle, 1 for a length.
+[[nodiscard]] double condition_weight(const Model& model, std::size_t condition);
+
+/// The smaller of a contact's distances from the edges of its two surfaces [mm].
+[[nodiscard]] double edge_distance(const ContactPair& pair, const Place& on_B, const Place& on_A);
+
 /// Root mean square lever arm about O_A of everything fixed to A, at least 1e-6 mm.
 [[nodiscard]] double characteristic_length(const Model& model);
 

@@ -9,14 +9,6 @@
 #include "math/rotation.h"
 
 namespace condyle {
-namespace {
-
-double weight(const Model& model, std::size_t condition) {
-  return is_angle(model.conditions[condition].kind) ? model.length : 1;
-}
-
-}  // namespace
-
 NewtonSystem::NewtonSystem(const Model& model) : model_(model) {
   contacts_.reserve(kMaxConstraints);
   conditions_.reserve(model.conditions.size());
@@ -56,7 +48,7 @@ bool NewtonSystem::assemble(const EquilibriumState& state) {
     wrench_.F2 -= sigma * k.D2;
     wrench_.M1 -= sigma * k.D3;
     wrench_.M2 -= sigma * k.D4;
-    force_scale_ += std::abs(sigma) / weight(model_, i);
+    force_scale_ += std::abs(sigma) / condition_weight(model_, i);
   }
   return zero_element_ < 0;
 }
@@ -87,7 +79,7 @@ int NewtonSystem::fill(const EquilibriumState& state, SmallLu& matrix, double* r
   }
   for (int k = 0; k < m; ++k) {
     const ConditionDerivatives& condition = conditions_[k];
-    const double w = weight(model_, k);
+    const double w = condition_weight(model_, k);
     for (int i = 0; i < 3; ++i) {
       matrix(i, 6 + n + k) = -w * condition.alpha[i];
       matrix(3 + i, 6 + n + k) = -w * condition.eta[i] / L;
@@ -109,7 +101,7 @@ double NewtonSystem::largest_distance() const {
     largest = std::max({largest, contact.g.norm(), model_.length * contact.h.norm()});
   }
   for (std::size_t k = 0; k < conditions_.size(); ++k)
-    largest = std::max(largest, weight(model_, k) * std::abs(conditions_[k].k));
+    largest = std::max(largest, condition_weight(model_, k) * std::abs(conditions_[k].k));
   return largest;
 }
 
@@ -191,7 +183,7 @@ void Newton::apply_step(EquilibriumState& state, const double* step) const {
     contact.p += step[6 + k];
   }
   for (std::size_t k = 0; k < state.sigma.size(); ++k)
-    state.sigma[k] += weight(model_, k) * step[6 + n + k];
+    state.sigma[k] += condition_weight(model_, k) * step[6 + n + k];
   state.X.p += da;
   state.X.R = exp_rotation(dpi) * state.X.R;
 }
