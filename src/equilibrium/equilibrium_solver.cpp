@@ -4,15 +4,14 @@
 #include <chrono>
 #include <cmath>
 
-#include "equilibrium/stability.h"
+#include "equilibrium/contact_scales.h"
+#include "equilibrium/diagnosis.h"
 #include "math/rotation.h"
 
 namespace condyle {
 namespace {
 
 constexpr double kSpacing = 0.04;  // of contact samples, in units of L (1.2 mm for a knee)
-constexpr double kAnywhere = 1e3;  // how far an open contact is looked for, in units of L
-constexpr double kMerge = 0.01;    // minima nearer than this are one contact, in units of L
 
 std::vector<ContactSearch> make_searches(const Model& model) {
   std::vector<ContactSearch> searches;
@@ -76,7 +75,7 @@ bool EquilibriumSolver::add_overlaps(EquilibriumState& state, bool& too_many) {
     if (model_->pairs[p].mode != ContactMode::kAuto) continue;
     searches_[p].find(state.X, 0.0, minima_, kMerge * L);
     for (const GapMinimum& minimum : minima_) {
-      if (minimum.gap > -options_.overlap * L / 30) continue;
+      if (minimum.gap > -options_.description.overlap * L / 30) continue;
       const bool known =
           std::any_of(state.contacts.begin(), state.contacts.end(), [&](const ClosedContact& c) {
             return c.pair == static_cast<int>(p) &&
@@ -183,7 +182,7 @@ bool EquilibriumSolver::solve_first(EquilibriumState& state,
   return descend(state, attempt) && advance(state, own, target, attempt);
 }
 
-PoseResult EquilibriumSolver::solve(bool patient) {
+void EquilibriumSolver::solve(PoseResult& result, bool patient) {
   const auto begin = std::chrono::steady_clock::now();
   const Drive target = drive();
   Attempt attempt;
@@ -200,132 +199,26 @@ PoseResult EquilibriumSolver::solve(bool patient) {
     set_drive(target, target, 1);
     if (!solved) solved = descend(state = state_, attempt);
   }
-  PoseResult result;
+  clear(result);
   result.iterations = attempt.iterations;
   result.residual = attempt.newton.residual;
   if (solved) {
     result.status = PoseStatus::kConverged;
     newton_.system().assemble(state);
-    fill(result, state);
-    judge(result);
+    describe_pose(*model_, newton_.system(), state, searches_, options_.description, minima_,
+                  result);
     // Beyond the edge of a patch as well: the next pose may come back.
     if (result.status != PoseStatus::kOverlap) set_state(state);
   } else {
-    explain_failure(result, attempt);
+    explain_failure(*model_, newton_.system(), state, attempt, result);
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+PoseResult EquilibriumSolver::solve(bool patient) {
+  PoseResult result;
+  solve(result, patient);
   return result;
-}
-
-void EquilibriumSolver::fill(PoseResult& result, const EquilibriumState& state) {
-  const NewtonSystem& system = newton_.system();
-  result.X_BA = state.X;
-  result.residual = system.out_of_balance();
-  if (model_->joint) result.joint = joint_coordinates(*model_->joint, state.X);
-  for (const LineElement& element : model_->elements) {
-    const LineElementState now = line_element_state(element, state.X);
-    const double slack = slack_length(element.law);
-    result.ligaments.push_back({now.length, slack > 0 ? now.length / slack - 1 : 0, now.force});
-  }
-  for (std::size_t i = 0; i < model_->conditions.size(); ++i)
-    result.conditions.push_back({system.conditions()[i].coordinate, state.sigma[i]});
-  fill_contacts(result, state);
-  if (options_.stability) {
-    result.lowest_stiffness = stability(*model_, system).lowest_stiffness;
-    result.stability = result.lowest_stiffness > 0 ? 1 : 0;
-  }
-}
-
-void EquilibriumSolver::fill_contacts(PoseResult& result, const EquilibriumState& state) {
-  result.contacts.resize(model_->pairs.size());
-  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
-    const ClosedContact& closed = state.contacts[k];
-    const ContactLinearization& at = newton_.system().contacts()[k];
-    ContactResult& contact = result.contacts[closed.pair];
-    ContactPointResult point;
-    point.force = closed.p;
-    point.point_ground = at.B.c;
-    point.point_moving = at.A.c;
-    point.normal_ground = at.B.n;
-    point.gap = at.gap();
-    point.relative_curvature = at.relative_curvature;
-    point.edge_distance = edge_distance(model_->pairs[closed.pair], closed.on_B, closed.on_A);
-    point.on_edge = point.edge_distance < options_.edge_margin;
-    contact.closed = true;
-    contact.force += closed.p;
-    contact.points.push_back(point);
-  }
-  for (std::size_t p = 0; p < model_->pairs.size(); ++p) {
-    ContactResult& contact = result.contacts[p];
-    if (contact.closed) continue;
-    searches_[p].find(state.X, kAnywhere * model_->length, minima_, kMerge * model_->length);
-    if (minima_.empty()) {
-      if (model_->pairs[p].mode == ContactMode::kAuto && searches_[p].has_samples()) {
-        result.status = PoseStatus::kLeftPatch;
-        result.reason = "contact \"" + model_->pairs[p].name +
-                        "\": no known parts of its surfaces face each other";
-      }
-      continue;
-    }
-    const GapMinimum& lowest = minima_.front();
-    if (lowest.gap < -options_.overlap * model_->length / 30 &&
-        model_->pairs[p].mode == ContactMode::kAuto) {
-      result.status = PoseStatus::kOverlap;
-      result.reason = "contact \"" + model_->pairs[p].name + "\": one body is buried in the other";
-    }
-    const ContactPair& pair = model_->pairs[p];
-    const ContactLinearization at =
-        linearize_contact(*pair.on_B, lowest.on_B, *pair.on_A, lowest.on_A, state.X);
-    ContactPointResult point;
-    point.point_ground = at.B.c;
-    point.point_moving = at.A.c;
-    point.normal_ground = at.B.n;
-    point.gap = at.gap();
-    point.relative_curvature = at.relative_curvature;
-    point.edge_distance = lowest.edge;
-    point.on_edge = lowest.edge < options_.edge_margin;
-    contact.points.push_back(point);
-  }
-}
-
-void EquilibriumSolver::judge(PoseResult& result) const {
-  for (std::size_t p = 0; p < result.contacts.size(); ++p) {
-    if (!result.contacts[p].closed) continue;
-    for (const ContactPointResult& point : result.contacts[p].points) {
-      if (point.edge_distance >= 0) continue;
-      result.status = PoseStatus::kLeftPatch;
-      result.reason =
-          "contact \"" + model_->pairs[p].name + "\" lies beyond the known part of its surface";
-    }
-  }
-}
-
-void EquilibriumSolver::explain_failure(PoseResult& result, const Attempt& attempt) const {
-  const NewtonReport& newton = attempt.newton;
-  if (model_->conditions.size() > kMaxConstraints) {
-    result.status = PoseStatus::kSingular;
-    result.reason = "more than six conditions: a body has six freedoms";
-  } else if (attempt.descent.ran_away) {
-    result.status = PoseStatus::kNoEquilibrium;
-    result.reason = "the body runs away: nothing carries the load";
-  } else if (newton.outcome == NewtonOutcome::kZeroLength) {
-    result.status = PoseStatus::kZeroLength;
-    result.reason =
-        "line element \"" + model_->element_names[newton.zero_element] + "\" has no length";
-  } else if (newton.outcome == NewtonOutcome::kSingular) {
-    result.status = PoseStatus::kSingular;
-    result.reason = "conditions and contacts depend on each other, or nothing resists a motion";
-  } else if (newton.outcome == NewtonOutcome::kConverged) {
-    result.status = PoseStatus::kOverlap;
-    result.reason = "no set of contacts was found that carries without overlap or pull";
-  } else if (newton.outcome == NewtonOutcome::kDiverged) {
-    result.status = PoseStatus::kDiverged;
-    result.reason = "Newton's method diverged";
-  } else {
-    result.status = PoseStatus::kIterationLimit;
-    result.reason = "no equilibrium within the iteration limit; last step " +
-                    std::to_string(attempt.descent.step) + " mm";
-  }
 }
 
 }  // namespace condyle

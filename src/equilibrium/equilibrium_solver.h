@@ -12,8 +12,10 @@
 #include <memory>
 #include <vector>
 
+#include "equilibrium/attempt.h"
 #include "equilibrium/contact_search.h"
 #include "equilibrium/descent.h"
+#include "equilibrium/describe_pose.h"
 #include "equilibrium/newton.h"
 #include "equilibrium/pose_result.h"
 
@@ -22,9 +24,7 @@ namespace condyle {
 struct EquilibriumOptions {
   NewtonOptions newton;
   DescentOptions descent;
-  double overlap = 5e-7;   ///< largest overlap of a converged pose [mm], and relative to L/30 mm
-  double edge_margin = 3;  ///< a contact nearer than this to the edge of its patch is flagged [mm]
-  bool stability = true;
+  PoseDescriptionOptions description;
 };
 
 class EquilibriumSolver {
@@ -39,6 +39,8 @@ class EquilibriumSolver {
   /// Solves from the last converged state, or from the model's start when there is none. The state
   /// is kept when the pose converges. Without patience a step that does not settle is not taken in
   /// parts.
+  /// Allocates nothing once `result` and the solver have held a pose of this model.
+  void solve(PoseResult& result, bool patient = true);
   PoseResult solve(bool patient = true);
 
   /// The last converged state; set_state restores one, solved with the model's present values.
@@ -50,12 +52,6 @@ class EquilibriumSolver {
   struct Drive {
     std::vector<double> values, scales;
   };
-  /// What an attempt to solve a pose leaves behind, whether it succeeds or not.
-  struct Attempt {
-    int iterations = 0;
-    NewtonReport newton;
-    DescentReport descent;
-  };
   [[nodiscard]] Drive drive() const;
   void set_drive(const Drive& from, const Drive& to, double t);
   bool solve_first(EquilibriumState& state, const Drive& target, Attempt& attempt);
@@ -66,10 +62,6 @@ class EquilibriumSolver {
   bool add_overlaps(EquilibriumState& state, bool& too_many);
   [[nodiscard]] bool carries_and_clear(EquilibriumState& state);
   [[nodiscard]] bool on_minima(const EquilibriumState& state) const;
-  void fill(PoseResult& result, const EquilibriumState& state);
-  void fill_contacts(PoseResult& result, const EquilibriumState& state);
-  void judge(PoseResult& result) const;
-  void explain_failure(PoseResult& result, const Attempt& attempt) const;
 
   std::unique_ptr<Model> model_;
   EquilibriumOptions options_;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "elements/hertz.h"
 #include "elements/joint_coordinates.h"
 #include "elements/kinematic_condition.h"
 #include "elements/line_element.h"
@@ -24,6 +25,7 @@ struct ContactPair {
   std::shared_ptr<const Surface> on_B, on_A;
   ContactMode mode = ContactMode::kAuto;
   std::vector<Eigen::Vector3d> start;  ///< first estimates of contact points, ground frame [mm]
+  std::optional<ElasticSurface> elastic_B, elastic_A;  ///< absent: rigid
 };
 
 struct Model {

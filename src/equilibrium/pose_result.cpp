@@ -38,6 +38,8 @@ const char* name(EventKind kind) {
       return "leaving patch";
     case EventKind::kReturningToPatch:
       return "returning to patch";
+    case EventKind::kLimitPoint:
+      return "limit point";
   }
   return "unknown";
 }

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,14 @@ inline constexpr int kPoseStatusCount = 9;
 /// A short name: "converged", "iteration limit", ...
 [[nodiscard]] const char* name(PoseStatus status);
 
+/// How a rigid contact would spread over an elastic surface, estimated afterwards (elements/hertz.h).
+struct HertzEstimate {
+  std::array<double, 2> semi_axes;  ///< of the ellipse of contact, major first [mm]
+  Eigen::Vector3d major_axis;       ///< unit vector, ground frame
+  double peak_pressure;             ///< [N/mm²]
+  double approach;                  ///< of the two bodies [mm]
+};
+
 /// One point of contact.
 struct ContactPointResult {
   double force = 0;               ///< p [N], > 0 pushes apart
@@ -46,12 +55,24 @@ struct ContactPointResult {
   double edge_distance =
       std::numeric_limits<double>::infinity();  ///< to the edge of the known surfaces [mm]
   bool on_edge = false;                         ///< within the margin of a patch's known region
+  std::optional<HertzEstimate> hertz;           ///< where the surfaces have a modulus
+};
+
+/// What kind of place two surfaces touch in; the values are those of /sweep/contacts/NAME/shape.
+enum class ContactShape {
+  kPoint = 0,      ///< isolated points
+  kLine = 1,       ///< along a straight line, carried by its two ends
+  kConforming = 2  ///< over an area: rigid surfaces do not say where
 };
 
 /// A pair of surfaces. Closed with one or more points; open, it tells where the gap is smallest.
 struct ContactResult {
   bool closed = false;
+  ContactShape shape = ContactShape::kPoint;
   double force = 0;  ///< sum over the points [N]
+  /// Where the resultant of the points acts, ground frame [mm]; of an open contact the nearest point.
+  Eigen::Vector3d resultant_ground =
+      Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<ContactPointResult>
       points;  ///< closed: those that carry; open: the nearest one, force 0
 };
@@ -66,10 +87,20 @@ struct ConditionResult {
   double multiplier = 0;  ///< σ: [N mm] for angles, [N] for lengths; its load on A is -σ dk
 };
 
+/// Of the joint at a pose, in joint coordinates (flexion, adduction, internal rotation, lateral shift,
+/// anterior drawer, distraction; mm, N, rad): what an added load Q, conjugate to the coordinates, does.
+struct JointStiffness {
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  Matrix6 stiffness;   ///< ∂Q/∂q of ligaments, loads and rolling contacts before the constraints
+  Matrix6 compliance;  ///< ∂q/∂Q with contacts kept closed and conditions prescribed
+};
+
 struct PoseResult {
   double value = 0;  ///< of what is swept [rad], [mm] or [-]
   PoseStatus status = PoseStatus::kNotComputed;
   std::string reason;  ///< one line where the status is not converged
+  std::string remark;  ///< one line on a converged pose that a reader should know: what motion is
+                       ///< free, a contact that is a line ...; mostly empty
   RigidTransform X_BA;
   JointCoordinates joint;
   std::vector<ContactResult> contacts;      ///< as in Scene::contacts
@@ -78,6 +109,9 @@ struct PoseResult {
   int stability = -1;                       ///< 1 stable, 0 neutral or unstable, -1 not computed
   double lowest_stiffness =
       std::numeric_limits<double>::quiet_NaN();  ///< of the reduced stiffness [N/mm]
+  Eigen::Matrix<double, 6, 1> softest_motion =
+      Eigen::Matrix<double, 6, 1>::Zero();  ///< (da, L dπ) that belongs to it, unit
+  std::optional<JointStiffness> joint_stiffness;  ///< on request; needs joint frames
   int iterations = 0;                            ///< Newton iterations
   double residual = 0;  ///< largest out-of-balance force [N], moments divided by the model's length
   double seconds = 0;
@@ -90,9 +124,10 @@ enum class EventKind {
   kOpening = 1,          ///< a point of contact ceases to carry
   kJump = 2,             ///< the contact goes from one place to another
   kLeavingPatch = 3,     ///< the contact passes the edge of the known surface outwards
-  kReturningToPatch = 4  ///< and inwards
+  kReturningToPatch = 4,  ///< and inwards
+  kLimitPoint = 5         ///< the path of equilibria turns back: the joint snaps through
 };
-inline constexpr int kEventKindCount = 5;
+inline constexpr int kEventKindCount = 6;
 
 /// "closing", "opening", "jump", ...
 [[nodiscard]] const char* name(EventKind kind);
@@ -100,7 +135,7 @@ inline constexpr int kEventKindCount = 5;
 struct Event {
   double value = 0;  ///< of what is swept [rad], [mm] or [-]
   EventKind kind = EventKind::kClosing;
-  int contact = 0;  ///< index into Scene::contacts
+  int contact = 0;  ///< index into Scene::contacts; -1 where no contact is meant
 };
 
 struct SweepResult {

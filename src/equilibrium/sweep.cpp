@@ -24,7 +24,7 @@ SweepResult sweep(const Scene& scene,
                   const SweepOptions& options) {
   assert(scene.sweep);
   EquilibriumOptions equilibrium;
-  equilibrium.stability = options.stability;
+  equilibrium.description.stability = options.stability;
   EquilibriumSolver solver(build_model(scene, surfaces), equilibrium);
   double& swept = swept_value(*scene.sweep, solver.model());
   SweepResult result;

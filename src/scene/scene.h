@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "elements/force_law.h"
+#include "elements/hertz.h"
 #include "elements/kinematic_condition.h"
 #include "math/rigid_transform.h"
 #include "surface/exact_surfaces.h"
@@ -88,10 +89,13 @@ struct SurfaceDescription {
       Eigen::Vector3d::UnitZ();  ///< plane: normal out of the solid; cylinder, torus: axis; unit
   double radius = 0;             ///< sphere, cylinder, torus: major radius [mm]
   double minor_radius = 0;       ///< torus [mm]
+  double length =
+      std::numeric_limits<double>::infinity();  ///< cylinder, half to either side of `point` [mm]
   Eigen::Vector3d semi_axes = Eigen::Vector3d::Ones();  ///< ellipsoid [mm]
   Eigen::Matrix3d axes =
       Eigen::Matrix3d::Identity();    ///< ellipsoid: columns are the axes; polynomial: x, y, height
   std::vector<PolynomialTerm> terms;  ///< polynomial: height over the plane through `point`
+  std::optional<ElasticSurface> elastic;  ///< for estimates of contact pressure; absent: rigid
 };
 
 enum class ContactState { kAuto, kClosed, kOpen };
@@ -144,6 +148,7 @@ struct SweepDescription {
   int index = -1;    ///< of the condition or the load
   std::string vary;  ///< as written
   std::vector<double> values;  ///< [rad], [mm] or [-], in the order to be visited
+  bool arc_length = false;  ///< follow the path of equilibria through its limit points
 };
 
 struct Scene {

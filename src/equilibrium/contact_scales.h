@@ -1,0 +1,10 @@
+#pragma once
+
+/// Lengths that tell contacts apart, in units of the model's length L.
+
+namespace condyle {
+
+inline constexpr double kAnywhere = 1e3;  ///< how far an open contact is looked for
+inline constexpr double kMerge = 0.01;    ///< minima of the gap nearer than this are one contact
+
+}  // namespace condyle

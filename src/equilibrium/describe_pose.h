@@ -1,0 +1,34 @@
+#pragma once
+
+/// From a solved state to what is told about the pose.
+
+#include <vector>
+
+#include "equilibrium/contact_search.h"
+#include "equilibrium/newton.h"
+#include "equilibrium/pose_result.h"
+
+namespace condyle {
+
+struct PoseDescriptionOptions {
+  double overlap = 5e-7;   ///< largest overlap of a converged pose [mm], and relative to L/30 mm
+  double edge_margin = 3;  ///< a contact nearer than this to the edge of its patch is flagged [mm]
+  bool stability = true;
+  bool joint_stiffness = false;  ///< 6x6 stiffness and compliance; needs the model's joint
+};
+
+/// An empty result that keeps the memory of the one before.
+void clear(PoseResult& result);
+
+/// Fills a cleared result whose status says converged from the state at which `system` was
+/// assembled. Lowers the status where a contact lies beyond its patch or a body is buried in the
+/// other. `minima` is room for the search.
+void describe_pose(const Model& model,
+                   const NewtonSystem& system,
+                   const EquilibriumState& state,
+                   std::vector<ContactSearch>& searches,
+                   const PoseDescriptionOptions& options,
+                   std::vector<GapMinimum>& minima,
+                   PoseResult& result);
+
+}  // namespace condyle
