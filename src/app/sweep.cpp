@@ -4,13 +4,17 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "app/commands.h"
 #include "app/make_run.h"
 #include "app/print_fit.h"
+#include "app/resume.h"
 #include "input_error.h"
+#include "results/journal.h"
 #include "results/output_file.h"
 #include "results/sweep_table.h"
 #include "scene/read_scene.h"
@@ -24,7 +28,13 @@ constexpr int kSomePoseFailed = 2;
 struct SweepCommand {
   std::string scene, output;
   std::optional<double> from, to, step;  // in the unit of the scene
+  bool resume = false;
 };
+
+// Without the last digits, which the way from degrees to radians and back has left.
+double rounded(double number) {
+  return std::strtod(fmt::format("{:.12g}", number).c_str(), nullptr);
+}
 
 // What the command line says about the range stands in for what the scene says.
 void override_range(const SweepCommand& command, Scene& scene) {
@@ -33,37 +43,76 @@ void override_range(const SweepCommand& command, Scene& scene) {
   if (!command.from && !command.to && !command.step) return;
   std::vector<double>& values = scene.sweep->values;
   const double unit = declared_sweep_unit(scene).factor;
-  const double step = values.size() > 1 ? (values[1] - values[0]) / unit : 1;
+  const double from = rounded(values.front() / unit), to = rounded(values.back() / unit);
+  const double step = values.size() > 1 ? rounded((values[1] - values[0]) / unit) : 1;
   try {
-    values = range_values(command.from.value_or(values.front() / unit),
-                          command.to.value_or(values.back() / unit), command.step.value_or(step));
+    values = range_values(command.from.value_or(from), command.to.value_or(to),
+                          command.step.value_or(step));
   } catch (const InputError& error) {
     throw InputError(fmt::format("--from, --to, --step: {}", error.what()));
   }
   for (double& value : values) value *= unit;
 }
 
-int run_sweep(const SweepCommand& command) {
-  check_output_file(command.output);
-  Scene scene = read_scene(command.scene);
-  refuse_to_overwrite_inputs(command.output, scene);
-  override_range(command, scene);
-  fmt::print("{}\n\n", scene.title);
-  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
-  print_fit(surfaces);
+// The sweep with its table; each pose goes into the journal as soon as it is known.
+SweepResult sweep_aloud(const Scene& scene,
+                        const std::vector<FittedSurface>& surfaces,
+                        std::vector<KnownPose> known,
+                        Journal& journal) {
   const SweepTable table(scene);
   fmt::print("{}", table.head());
+  const bool resumed = !known.empty();
+  std::size_t computed = 0;
   SweepOptions options;
+  options.known = std::move(known);
   options.on_pose = [&](const PoseResult& pose) {
     fmt::print("{}", table.row(pose));
     std::fflush(stdout);
   };
-  const SweepResult result = sweep(scene, surfaces, options);
+  options.on_computed = [&](const KnownPose& pose) {
+    journal.append(pose);
+    ++computed;
+  };
+  SweepResult result = sweep(scene, surfaces, options);
   fmt::print("\n{}\n", summary(result));
-  for (const std::string& line : event_lines(scene, result)) fmt::print("{}\n", line);
-  write_run(command.output, make_run(scene, surfaces, result));
+  if (resumed)
+    fmt::print("{} poses taken over, {} computed\n", result.poses.size() - computed, computed);
+  return result;
+}
+
+void write_result(const SweepCommand& command, const Run& run, Journal& journal) {
+  try {
+    write_run(command.output, run);
+  } catch (const InputError& error) {
+    if (!journal.failure().empty()) throw;
+    throw InputError(fmt::format("{} (its poses are in {}: --resume takes them over)", error.what(),
+                                 journal_path(command.output).string()));
+  }
+  journal.remove();
   fmt::print("wrote {}\n", command.output);
   std::fflush(stdout);
+}
+
+int run_sweep(const SweepCommand& command) {
+  check_output_file(command.output);
+  Scene scene = read_scene(command.scene);
+  if (command.resume && scene.sweep && scene.sweep->arc_length) {
+    throw InputError(command.scene +
+                     ": [sweep]: path = \"arc length\", expected \"steps\" for --resume");
+  }
+  refuse_to_overwrite_inputs(command.output, scene);
+  refuse_to_overwrite_inputs(journal_path(command.output), scene);
+  override_range(command, scene);
+  fmt::print("{}\n\n", scene.title);
+  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
+  print_fit(surfaces);
+  EarlierPoses earlier = earlier_poses(command.output, command.resume, scene, surfaces);
+  if (!earlier.message.empty()) fmt::print("{}\n\n", earlier.message);
+  Journal journal(journal_path(command.output), identity(scene, surfaces), earlier.journal_bytes);
+  const SweepResult result = sweep_aloud(scene, surfaces, std::move(earlier.poses), journal);
+  for (const std::string& line : event_lines(scene, result)) fmt::print("{}\n", line);
+  write_result(command, make_run(scene, surfaces, result), journal);
+  if (!journal.failure().empty()) fmt::print(stderr, "condyle: {}\n", journal.failure());
   for (const std::string& line : failures(scene, result)) fmt::print(stderr, "condyle: {}\n", line);
   return result.count_converged() == static_cast<int>(result.poses.size()) ? 0 : kSomePoseFailed;
 }
@@ -76,9 +125,15 @@ void setup_sweep(CLI::App& program, int& status) {
       "sweep", "Find the positions of equilibrium over a range of motion or load");
   command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
   command->add_option("-o,--output", options->output, "result file to write (HDF5)")->required();
-  command->add_option("--from", options->from, "first value, in the unit of the scene");
-  command->add_option("--to", options->to, "last value");
-  command->add_option("--step", options->step, "step between values");
+  const CLI::Validator number(
+      [](const std::string& text) { return std::string(text.empty() ? "expected a number" : ""); },
+      "");
+  command->add_option("--from", options->from, "first value, in the unit of the scene")
+      ->check(number);
+  command->add_option("--to", options->to, "last value")->check(number);
+  command->add_option("--step", options->step, "step between values")->check(number);
+  command->add_flag("--resume", options->resume,
+                    "take over what RUN.h5 and the journal of a stopped run hold");
   command->callback([options, &status] { status = run_sweep(*options); });
 }
 

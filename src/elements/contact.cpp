@@ -2,12 +2,16 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 
 #include "math/rotation.h"
+#include "math/simd.h"
 
 namespace condyle {
 namespace {
+
+constexpr double kEdgeReach = 1e-4;  // at an edge: nearer than this, in radii of curvature
 
 /// Two unit vectors that make a right-handed triad with n, without a singular direction [Duff et
 /// al. 2017].
@@ -20,12 +24,49 @@ Eigen::Matrix<double, 3, 2> tangents(const Eigen::Vector3d& n) {
   return T;
 }
 
-double away_from_zero(double x) {
-  return std::abs(x) < kFlatCurvature ? std::copysign(kFlatCurvature, x == 0 ? -1.0 : x) : x;
+/// Q = Tᵀ (K + Kr) T with its principal values and the tangent coordinates of the greatest.
+struct PlaneTensor {
+  double q00, q01, q11, low, high;
+  [[nodiscard]] Eigen::Vector2d direction_of_high() const {
+    Eigen::Vector2d e(q01, high - q00), f(high - q11, q01);
+    if (f.squaredNorm() > e.squaredNorm()) e = f;
+    if (e.squaredNorm() < 1e-30 * (1 + high * high)) return {1, 0};
+    return e.normalized();
+  }
+};
+
+PlaneTensor plane_tensor(double q00, double q01, double q11) {
+  const double mean = (q00 + q11) / 2,
+               spread = std::sqrt((q00 - q11) * (q00 - q11) / 4 + q01 * q01);
+  return {q00, q01, q11, mean - spread, mean + spread};
+}
+
+/// The tangent along which a surface with curvature C = Tᵀ K T is straight, or `otherwise`.
+Eigen::Vector2d straight_direction(const Eigen::Matrix2d& C, const Eigen::Vector2d& otherwise) {
+  const PlaneTensor tensor = plane_tensor(C(0, 0), C(0, 1), C(1, 1));
+  const double least = std::min(std::abs(tensor.low), std::abs(tensor.high));
+  const double most = std::max(std::abs(tensor.low), std::abs(tensor.high));
+  if (!(least < kFlatAtEdge * most)) return otherwise;
+  const Eigen::Vector2d high = tensor.direction_of_high();
+  const Eigen::Vector2d along =
+      least == std::abs(tensor.high) ? high : Eigen::Vector2d(-high.y(), high.x());
+  return std::abs(along.dot(otherwise)) > 0.5 ? along : otherwise;
+}
+
+/// Distances of a contact from the edges of both surfaces [mm].
+struct Edges {
+  double on_B, on_A;
+  [[nodiscard]] bool nearer_on_A() const { return std::abs(on_A) < std::abs(on_B); }
+  [[nodiscard]] double nearest() const { return std::min(std::abs(on_B), std::abs(on_A)); }
+};
+
+double inverse_unless_flat(double curvature, double flat) {
+  return std::abs(curvature) < flat ? 0 : 1 / curvature;
 }
 
 }  // namespace
 
+CONDYLE_FMA_CLONE
 ContactLinearization linearize_contact(const Surface& on_B,
                                        const Place& place_B,
                                        const Surface& on_A,
@@ -52,22 +93,33 @@ ContactLinearization linearize_contact(const Surface& on_B,
   const double q00 = T.col(0).dot(K_T.col(0)) + RT.col(0).dot(K_RT.col(0));
   const double q01 = T.col(0).dot(K_T.col(1)) + RT.col(0).dot(K_RT.col(1));
   const double q11 = T.col(1).dot(K_T.col(1)) + RT.col(1).dot(K_RT.col(1));
-  const double mean = (q00 + q11) / 2, spread = std::hypot((q00 - q11) / 2, q01);
-  contact.relative_curvature = {-(mean + spread), -(mean - spread)};
+  const PlaneTensor Q = plane_tensor(q00, q01, q11);
+  contact.relative_curvature = {-Q.high, -Q.low};
 
-  // P = T Q⁻¹ Tᵀ; a principal value that vanishes is held away from zero, so the step stays finite.
+  // P = T Q⁻¹ Tᵀ, without the directions in which the principal value vanishes.
   Eigen::Matrix2d Q_inverse;
-  const double low = mean - spread, high = mean + spread;
-  if (std::abs(low) > kFlatCurvature && std::abs(high) > kFlatCurvature) {
+  enum class Pinned { kNot, kToB, kToA } pinned = Pinned::kNot;
+  Eigen::Vector3d along = Eigen::Vector3d::Zero(), fixed = along;
+  const double small = std::min(std::abs(Q.high), std::abs(Q.low));
+  if (small > kFlatAtEdge * std::abs(Q.low) && small > kFlatCurvature) {
     const double d = 1 / (q00 * q11 - q01 * q01);
     Q_inverse << q11 * d, -q01 * d, -q01 * d, q00 * d;
   } else {
-    Eigen::Vector2d e(q01, high - q00);
-    if (e.squaredNorm() < 1e-30 * (1 + high * high))
-      e = q00 >= q11 ? Eigen::Vector2d(1, 0) : Eigen::Vector2d(0, 1);
-    e.normalize();
-    const Eigen::Vector2d f(-e.y(), e.x());
-    Q_inverse = e * e.transpose() / away_from_zero(high) + f * f.transpose() / away_from_zero(low);
+    const Edges edges{on_B.edge_distance(place_B), on_A.edge_distance(place_A)};
+    const double at_edge = kEdgeReach / std::max(std::abs(Q.low), kFlatCurvature);
+    const double flat = edges.nearest() < at_edge
+                            ? std::max(kFlatCurvature, kFlatAtEdge * std::abs(Q.low))
+                            : kFlatCurvature;
+    const Eigen::Vector2d e = Q.direction_of_high(), f(-e.y(), e.x());
+    Q_inverse = inverse_unless_flat(Q.high, flat) * e * e.transpose() +
+                inverse_unless_flat(Q.low, kFlatCurvature) * f * f.transpose();
+    if (std::abs(Q.high) < flat) {
+      const Eigen::Matrix2d C = edges.nearer_on_A() ? T.transpose() * Kr_T : T.transpose() * K_T;
+      const Eigen::Vector2d u = straight_direction(C, e);
+      pinned = edges.nearer_on_A() ? Pinned::kToA : Pinned::kToB;
+      along = T * e;
+      fixed = T * u / u.dot(e);
+    }
   }
   // Rows of Tᵀ Kr [s]x: (Kr t) x s transposed.
   Eigen::Matrix<double, 2, 3> to_da = Kr_T.transpose();
@@ -79,9 +131,27 @@ ContactLinearization linearize_contact(const Surface& on_B,
   contact.D1.noalias() = TQ * to_da;
   contact.D2.noalias() = TQ * to_dpi;
   contact.D0.noalias() = TQ * to_0;
+  if (pinned == Pinned::kNot) return contact;
+  // Along the line the point moves so that, on the surface it is pinned to, u.dc = 0.
+  contact.D0 -= along * fixed.dot(contact.D0);
+  contact.D1 -= (along * (fixed.transpose() * contact.D1)).eval();
+  contact.D2 -= (along * (fixed.transpose() * contact.D2)).eval();
+  if (pinned == Pinned::kToB) return contact;
+  contact.D0 += along * fixed.dot(contact.g);
+  contact.D1 += along * fixed.transpose();
+  contact.D2 += along * s.cross(fixed).transpose();
   return contact;
 }
 
+Eigen::Vector3d direction_of_least_curvature(const ContactLinearization& contact,
+                                             const Eigen::Matrix3d& R_BA) {
+  const Eigen::Matrix<double, 3, 2> T = tangents(contact.B.n);
+  const Eigen::Matrix2d Q =
+      T.transpose() * (contact.B.K + R_BA * contact.A.K * R_BA.transpose()) * T;
+  return T * plane_tensor(Q(0, 0), Q(0, 1), Q(1, 1)).direction_of_high();
+}
+
+CONDYLE_FMA_CLONE
 void add_contact_force(const ContactLinearization& contact, double p, Wrench& wrench) {
   // dF = dp n - p K dc;  dM = (dc - g - da) x F + s x dF
   const Eigen::Vector3d F = p * contact.B.n;
@@ -98,6 +168,7 @@ void add_contact_force(const ContactLinearization& contact, double p, Wrench& wr
   wrench.M2.noalias() += sx * F2 - Fx * contact.D2;
 }
 
+CONDYLE_FMA_CLONE
 void slide_contact(const Surface& on_B,
                    Place& place_B,
                    const Surface& on_A,

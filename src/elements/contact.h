@@ -35,8 +35,19 @@ struct ContactLinearization {
 };
 
 /// Below this magnitude [1/mm] a principal relative curvature counts as zero: the contact is a line
-/// or conforming.
+/// or conforming. In that direction nothing says where the point goes: it stays where it is on B,
+/// or on A where it lies nearer an edge of A, so that a point at the end of a line stays at the
+/// end.
 inline constexpr double kFlatCurvature = 1e-9;
+
+/// At an edge, smaller than this part of the other principal relative curvature counts as zero too:
+/// a line that is a little tilted or crossed still ends there.
+inline constexpr double kFlatAtEdge = 1e-3;
+
+/// Unit tangent [ground frame] in which the relative curvature is smallest: along the line of a
+/// line contact, the longer axis of an elastic one.
+[[nodiscard]] Eigen::Vector3d direction_of_least_curvature(const ContactLinearization& contact,
+                                                           const Eigen::Matrix3d& R_BA);
 
 [[nodiscard]] ContactLinearization linearize_contact(const Surface& on_B,
                                                      const Place& place_B,

@@ -4,7 +4,8 @@
 ///
 /// Two bulk materials (Hertz): half spaces with the relative curvatures of the contact touch in an
 /// ellipse [Johnson 1985, section 4.2]. With A = κ1/2 <= B = κ2/2 the halves of the principal
-/// relative curvatures, m = (b/a)², e² = 1 - m, K and E the complete elliptic integrals of modulus e:
+/// relative curvatures, m = (b/a)², e² = 1 - m, K and E the complete elliptic integrals of modulus
+/// e:
 ///     A/B = m (K - E)/(E - m K),     a³ = 3 P E/(2π E* (A + B) m),
 ///     p0 = 3 P/(2π a b),             δ = p0 b K/E*,     1/E* = Σ (1 - ν²)/E over both sides.
 ///
@@ -18,9 +19,9 @@
 namespace condyle {
 
 struct ElasticSurface {
-  double modulus = 0;   ///< Young's modulus [N/mm²], > 0
-  double poisson = 0;   ///< in [0, 0.5)
-  double layer = 0;     ///< thickness of a layer on a rigid body [mm]; 0: elastic throughout
+  double modulus = 0;  ///< Young's modulus [N/mm²], > 0
+  double poisson = 0;  ///< in [0, 0.5)
+  double layer = 0;    ///< thickness of a layer on a rigid body [mm]; 0: elastic throughout
 };
 
 struct ElasticContact {

@@ -11,6 +11,8 @@ struct Attempt {
   int iterations = 0;     ///< of Newton and of the descent, over the whole attempt
   NewtonReport newton;    ///< the last
   DescentReport descent;  ///< the last
+  bool faceless =
+      false;  ///< in equilibrium, but the surfaces of an open pair are not over each other
 };
 
 }  // namespace condyle

@@ -67,6 +67,8 @@ Model build_model(const Scene& scene, const std::vector<FittedSurface>& surfaces
     pair.on_A = surfaces[first_fixed ? second : first].surface;
     pair.mode = mode_of(description.state);
     pair.start = description.start;
+    pair.elastic_B = scene.surfaces[first_fixed ? first : second].elastic;
+    pair.elastic_A = scene.surfaces[first_fixed ? second : first].elastic;
     model.pairs.push_back(std::move(pair));
   }
   model.length = characteristic_length(model);

@@ -1,7 +1,6 @@
 #include "equilibrium/contact_search.h"
 
 #include <Eigen/Geometry>
-#include <nanoflann.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,69 +8,39 @@
 #include <numeric>
 
 #include "elements/contact.h"
+#include "equilibrium/line_contact.h"
 
 namespace condyle {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kLeafSize = 8;
-constexpr double kBeyondEdge =
-    2;  // how far beyond the known part a minimum may lie, in sample spacings
-constexpr double kSteep =
-    0.7;  // sine of the angle between two surfaces beyond which curvature bounds say nothing
-constexpr double kDeepest = 12;  // overlap that is still taken for one, in sample spacings
+// All in sample spacings:
+constexpr double kBeyondEdge = 2;  // how far beyond the known part a minimum may lie
+constexpr double kDeepest = 12;    // overlap that is still taken for one
+constexpr double kLargest = 10;    // radius of a cluster that is worth a look
+constexpr double kBendingSpacing = 2;
+constexpr double kSteep = 0.7;  // cosine between two normals below which quadrics say nothing
 
-struct PointCloud {
-  const std::vector<Eigen::Vector3d>& points;
-  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-  [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points[i][static_cast<Eigen::Index>(axis)];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
+/// The greatest principal value off the normal of a curvature tensor: where that of the sum of two
+/// is positive, the gap closes sideways.
+double largest_principal(double trace, double square) {
+  return 0.5 * (trace + std::sqrt(std::max(0.0, 2 * square - trace * trace)));
+}
 
-/// The greater of the two principal values off the normal of a curvature tensor: where the sum of
-/// two is positive, the gap closes sideways.
-double largest_principal(const Eigen::Matrix3d& K) {
-  const double trace = K.trace();
-  return 0.5 * (trace + std::sqrt(std::max(0.0, 2 * K.squaredNorm() - trace * trace)));
+Eigen::Vector3d off_normal(const Eigen::Vector3d& v, const Eigen::Vector3d& n) {
+  return v - v.dot(n) * n;
 }
 
 }  // namespace
 
-bool refine_minimum(const Surface& on_B,
-                    Place& place_B,
-                    const Surface& on_A,
-                    Place& place_A,
-                    const RigidTransform& X_BA,
-                    double reach) {
-  Eigen::Vector3d start = Eigen::Vector3d::Zero();
-  for (int iteration = 0; iteration < 20; ++iteration) {
-    const ContactLinearization contact = linearize_contact(on_B, place_B, on_A, place_A, X_BA);
-    if (iteration == 0) start = contact.B.c;
-    if (!contact.g.allFinite() || (contact.B.c - start).norm() > reach) return false;
-    // At a finite gap only the tangential part of g is an error.
-    const Eigen::Vector3d along = contact.gap() * contact.B.n;
-    const double slide = (contact.g - along).norm() + contact.h.norm() / 0.05;
-    if (slide < 1e-11) return contact.relative_curvature[0] > 0;
-    Eigen::Vector3d dc = contact.D0;
-    Eigen::Vector3d dc_A = dc - (contact.g - along);
-    const double longest = std::max(dc.norm(), dc_A.norm());
-    if (longest > reach) {
-      dc *= reach / longest;
-      dc_A *= reach / longest;
-    }
-    place_B = on_B.moved(place_B, contact.B, dc);
-    place_A = on_A.moved(place_A, contact.A, X_BA.R.transpose() * dc_A);
-  }
-  return false;
-}
-
 ContactSearch::ContactSearch(const ContactPair& pair, double spacing)
-    : on_B_(pair.on_B.get()), on_A_(pair.on_A.get()), spacing_(spacing) {
+    : on_B_(pair.on_B.get()),
+      on_A_(pair.on_A.get()),
+      spacing_(spacing),
+      lines_(have_straight_lines(*on_B_, *on_A_, spacing)),
+      bending_B_(*on_B_, kBendingSpacing * spacing),
+      bending_A_(*on_A_, kBendingSpacing * spacing) {
   const std::vector<Place> on_A = on_A_->samples(spacing), on_B = on_B_->samples(spacing);
   sampled_on_A_ = !on_A.empty() && (on_B.empty() || on_A.size() <= on_B.size());
   places_ = sampled_on_A_ ? on_A : on_B;
@@ -84,51 +53,31 @@ ContactSearch::ContactSearch(const ContactPair& pair, double spacing)
   }
   const std::size_t n = places_.size();
   feet_.resize(n);
-  at_feet_.resize(n);
-  has_foot_.assign(n, 0);
   gap_.assign(n, kInfinity);
-  slope_.assign(n, 1);
   stamp_.assign(n, -1);
   order_.resize(n);
   near_.reserve(n);
+  discs_.reserve(kMaxConstraints);
   std::iota(order_.begin(), order_.end(), 0);
-  link_neighbours(1.6 * spacing);
+  neighbours_ = nearest_neighbours(points_, 1.6 * spacing);
   if (n > 0) build(0, static_cast<int>(n));
-}
-
-void ContactSearch::link_neighbours(double radius) {
-  neighbours_.resize(points_.size());
-  for (auto& list : neighbours_) list.fill(-1);
-  if (points_.empty()) return;
-  const PointCloud cloud{points_};
-  const nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>,
-                                            PointCloud, 3>
-      tree(3, cloud);
-  std::array<unsigned int, 9> index;
-  std::array<double, 9> square;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const std::size_t found = tree.knnSearch(points_[i].data(), 9, index.data(), square.data());
-    int k = 0;
-    for (std::size_t j = 0; j < found && k < 8; ++j)
-      if (index[j] != static_cast<unsigned int>(i) && square[j] < radius * radius)
-        neighbours_[i][k++] = static_cast<int>(index[j]);
-  }
 }
 
 int ContactSearch::build(int first, int last) {
   Eigen::AlignedBox3d box;
   for (int k = first; k < last; ++k) box.extend(points_[order_[k]]);
   const Eigen::Vector3d middle = box.center();
-  Cluster cluster{order_[first], 0, 0, first, last, {-1, -1}};
+  Cluster cluster{order_[first], 0, 0, first, last, {-1, -1}, {}, false};
   for (int k = first; k < last; ++k)
     if ((points_[order_[k]] - middle).squaredNorm() <
         (points_[cluster.center] - middle).squaredNorm())
       cluster.center = order_[k];
+  const int c = cluster.center;
+  const BendingMeter meter(points_[c], normals_[c], curvatures_[c]);
   for (int k = first; k < last; ++k) {
-    cluster.radius =
-        std::max(cluster.radius, (points_[order_[k]] - points_[cluster.center]).norm());
-    cluster.spread =
-        std::max(cluster.spread, (curvatures_[order_[k]] - curvatures_[cluster.center]).norm());
+    const int i = order_[k];
+    cluster.radius = std::max(cluster.radius, (points_[i] - points_[c]).norm());
+    if (i != c) cluster.bend = std::max(cluster.bend, meter.at(points_[i], normals_[i], spacing_));
   }
   const int index = static_cast<int>(clusters_.size());
   clusters_.push_back(cluster);
@@ -145,88 +94,157 @@ int ContactSearch::build(int first, int last) {
   return index;
 }
 
+/// The gap is convex about a contact as far as its relative curvature outweighs what both surfaces
+/// may depart from their quadrics there.
+void ContactSearch::set_discs(const std::vector<KnownContact>& known) {
+  discs_.clear();
+  for (const KnownContact& contact : known) {
+    near_contact_B_ = bending_B_.nearest(contact.on_B, near_contact_B_);
+    near_contact_A_ = bending_A_.nearest(contact.on_A, near_contact_A_);
+    for (int level = 0; level < Bending::kLevels; ++level) {
+      const double radius = bending_A_.level_radius(level);
+      const double allowance = bending_B_.within(radius, near_contact_B_, contact.K_B) +
+                               bending_A_.within(radius, near_contact_A_, contact.K_A);
+      if (contact.least_curvature <= allowance) continue;
+      discs_.push_back({sampled_on_A_ ? contact.on_A : contact.on_B, radius});
+      break;
+    }
+  }
+}
+
+/// Tangent steps from the foot that is known, or else from a seed, until the foot of p is within
+/// `close` [mm].
+void ContactSearch::find_foot(const Eigen::Vector3d& p, double close, Quadric& quadric) const {
+  double slide = kInfinity;
+  for (int attempt = quadric.known ? 0 : 1; attempt < 2 && slide > close; ++attempt) {
+    if (attempt == 1) {
+      quadric.place = other().seed(p);
+      quadric.at = other().evaluate(quadric.place);
+    }
+    for (int step = 0; step < 5 && slide > close; ++step) {
+      const Eigen::Vector3d tangential = off_normal(p - quadric.at.c, quadric.at.n);
+      quadric.place = other().moved(quadric.place, quadric.at, tangential);
+      quadric.at = other().evaluate(quadric.place);
+      slide = off_normal(p - quadric.at.c, quadric.at.n).norm();
+    }
+  }
+  quadric.known = true;
+  quadric.close = slide <= close;
+  if (!quadric.close) {
+    quadric.place = other().closest(p, other().seed(p));
+    quadric.at = other().evaluate(quadric.place);
+  }
+  quadric.near = (sampled_on_A_ ? bending_B_ : bending_A_).nearest(quadric.at.c, quadric.near);
+}
+
+/// Signed distance of p from the surface by its quadric, or from its closest point.
+double ContactSearch::gap_over(const Quadric& quadric, const Eigen::Vector3d& p) {
+  const Eigen::Vector3d d = p - quadric.at.c;
+  const double along = d.dot(quadric.at.n);
+  if (!quadric.close) return std::copysign(d.norm(), along);
+  const Eigen::Vector3d tangential = off_normal(d, quadric.at.n);
+  return along - 0.5 * tangential.dot(quadric.at.K * tangential);
+}
+
 double ContactSearch::gap_of(int sample, const RigidTransform& X_from_to) {
   if (stamp_[sample] == now_) return gap_[sample];
   stamp_[sample] = now_;
-  const Surface& other = sampled_on_A_ ? *on_B_ : *on_A_;
   const Eigen::Vector3d p = X_from_to * points_[sample];
-  Place& foot = feet_[sample];
-  SurfacePoint& at = at_feet_[sample];
-  const double close = 0.2 * spacing_;
-  double gap = kInfinity, slide = kInfinity;
-  // From the foot of the pose before, or else from a seed: tangent steps towards the point.
-  for (int attempt = has_foot_[sample] ? 0 : 1; attempt < 2 && slide > close; ++attempt) {
-    if (attempt == 1) {
-      foot = other.seed(p);
-      at = other.evaluate_frame(foot);
-    }
-    for (int step = 0; step < 5 && slide > close; ++step) {
-      const Eigen::Vector3d to_foot = p - at.c;
-      const Eigen::Vector3d tangential = to_foot - to_foot.dot(at.n) * at.n;
-      if (tangential.squaredNorm() > 1e-4 * close * close) {
-        foot = other.moved(foot, at, tangential);
-        at = other.evaluate_frame(foot);
-      }
-      const Eigen::Vector3d to_p = p - at.c;
-      gap = to_p.dot(at.n);
-      slide = (to_p - gap * at.n).norm();
-    }
-  }
-  if (slide > close) {
-    foot = other.closest(p, other.seed(p));
-    at = other.evaluate_frame(foot);
-    gap = std::copysign((p - at.c).norm(), (p - at.c).dot(at.n));
-  }
-  has_foot_[sample] = 1;
-  slope_[sample] = at.n.cross(X_from_to.R * normals_[sample]).norm();
-  gap_[sample] = gap;
-  return gap;
+  Quadric& foot = feet_[sample];
+  find_foot(p, 0.2 * spacing_, foot);
+  gap_[sample] = gap_over(foot, p);
+  return gap_[sample];
 }
 
-/// Below the gap at the centre by the slope over the radius, and by the relative curvature there
-/// with an allowance for how it varies within the cluster; never by more than the radius, since a
-/// distance is 1-Lipschitz.
-double ContactSearch::lowest_possible(const Cluster& cluster,
-                                      const Eigen::Matrix3d& K_other,
-                                      const Eigen::Matrix3d& R) const {
-  const double r = cluster.radius, gap = gap_[cluster.center], slope = slope_[cluster.center];
-  if (slope > kSteep) return gap - r;
-  const Eigen::Matrix3d K = K_other + R * curvatures_[cluster.center] * R.transpose();
-  const double closing = largest_principal(K) + cluster.spread + 0.5 * K_other.norm();
-  return gap - std::min(r, slope * r + 0.5 * std::max(0.0, closing) * r * r);
+/// By how much the gap may be lower somewhere in the cluster than at its centre, which lies
+/// `tangential` beside the origin of the other surface's quadric; infinite where the surfaces are
+/// too steep for that.
+double ContactSearch::drop_within(const Cluster& cluster,
+                                  const Eigen::Vector3d& tangential,
+                                  const RigidTransform& X_from_to) {
+  const double r = cluster.radius;
+  const SurfacePoint& at = cluster.other.at;
+  const Eigen::Vector3d n = X_from_to.R * normals_[cluster.center];
+  const Eigen::Vector3d up = at.n - at.K * tangential;
+  if (-up.dot(n) < kSteep) return kInfinity;
+  const Eigen::Matrix3d& K = curvatures_[cluster.center];
+  const Eigen::Matrix3d RK = X_from_to.R * K;
+  const double trace = K.trace() + at.K.trace();
+  const double square = K.squaredNorm() + at.K.squaredNorm() +
+                        2 * (RK * X_from_to.R.transpose()).cwiseProduct(at.K).sum();
+  Bending& bending = sampled_on_A_ ? bending_B_ : bending_A_;
+  const double opening = -largest_principal(trace, square) - cluster.bend -
+                         bending.within(tangential.norm() + r, cluster.other.near, at.K);
+  const double slope = off_normal(up, n).norm();
+  if (opening > 0 && slope < opening * r) return slope * slope / (2 * opening);
+  return slope * r - 0.5 * opening * r * r;
 }
 
-void ContactSearch::visit(int index, const RigidTransform& X_from_to, double cutoff) {
-  const Cluster& cluster = clusters_[index];
-  const double gap = gap_of(cluster.center, X_from_to);
-  // Far behind an open patch is not inside the solid.
-  const double deepest = -kDeepest * spacing_;
-  if (gap - cluster.radius > cutoff || gap + cluster.radius < deepest) return;
-  const Surface& other = sampled_on_A_ ? *on_B_ : *on_A_;
-  const SurfacePoint at = other.evaluate(feet_[cluster.center]);
-  if (lowest_possible(cluster, at.K, X_from_to.R) > cutoff) return;
-  if (cluster.child[0] >= 0) {
-    visit(cluster.child[0], X_from_to, cutoff);
-    visit(cluster.child[1], X_from_to, cutoff);
-    return;
+/// Is the whole cluster shown to stay above the cutoff, by its quadric or by the way to its centre?
+/// First with the quadric of an earlier pose as it is, then with one at the foot of this pose.
+bool ContactSearch::is_clear(Cluster& cluster, const RigidTransform& X_from_to, double cutoff) {
+  Quadric& quadric = cluster.other;
+  const Eigen::Vector3d p = X_from_to * points_[cluster.center];
+  const double reach = 0.5 * std::max(cluster.radius, spacing_);
+  for (bool fresh = false;; fresh = true) {
+    if (fresh || !quadric.close) find_foot(p, 0.5 * reach, quadric);
+    const Eigen::Vector3d tangential = off_normal(p - quadric.at.c, quadric.at.n);
+    const double gap = gap_over(quadric, p);
+    const bool near_foot = !quadric.close || tangential.squaredNorm() < reach * reach;
+    if (near_foot) {
+      // A distance changes by no more than the way; far behind an open patch is not inside.
+      const double way = 1.05 * cluster.radius;
+      if (gap - way > cutoff || gap + way < -kDeepest * spacing_) return true;
+    }
+    if (quadric.close && gap - drop_within(cluster, tangential, X_from_to) > cutoff) return true;
+    if (near_foot) return false;
   }
-  // A sample is at least as far as from the tangent plane at the centre's foot, less what the other
-  // surface can bulge.
-  const Eigen::Vector3d n = X_from_to.R.transpose() * at.n;
-  const double bulge = 0.5 * std::max(0.0, largest_principal(at.K) + 0.5 * at.K.norm());
+}
+
+/// True where the cluster's own bound shows it to be clear. One that was not goes straight to its
+/// children until both of them are.
+bool ContactSearch::visit(int index, const RigidTransform& X_from_to, double cutoff) {
+  Cluster& cluster = clusters_[index];
+  const Eigen::Vector3d& center = points_[cluster.center];
+  for (const Disc& disc : discs_) {
+    const double room = disc.radius - cluster.radius;
+    if (room > 0 && (center - disc.center).squaredNorm() < room * room) return true;
+  }
+  if (!cluster.split && cluster.radius < kLargest * spacing_ &&
+      is_clear(cluster, X_from_to, cutoff))
+    return true;
+  if (cluster.child[0] < 0) {
+    scan(cluster, X_from_to, cutoff);
+    return false;
+  }
+  const bool first = visit(cluster.child[0], X_from_to, cutoff);
+  const bool second = visit(cluster.child[1], X_from_to, cutoff);
+  cluster.split = !(first && second);
+  return false;
+}
+
+/// The samples of a leaf, but for those that the quadric at its centre shows to be high enough.
+void ContactSearch::scan(const Cluster& cluster, const RigidTransform& X_from_to, double cutoff) {
+  const SurfacePoint& at = cluster.other.at;
+  Bending& bending = sampled_on_A_ ? bending_B_ : bending_A_;
   for (int k = cluster.first; k < cluster.last; ++k) {
     const int sample = order_[k];
-    const Eigen::Vector3d d = points_[sample] - points_[cluster.center];
-    if (slope_[cluster.center] < kSteep && gap + n.dot(d) - bulge * d.squaredNorm() > cutoff)
-      continue;
-    const double sample_gap = gap_of(sample, X_from_to);
-    if (sample_gap < cutoff && sample_gap > deepest) near_.push_back(sample);
+    if (cluster.other.close) {
+      const Eigen::Vector3d d = X_from_to * points_[sample] - at.c;
+      const Eigen::Vector3d t = off_normal(d, at.n);
+      const double allowance = bending.within(t.norm(), cluster.other.near, at.K);
+      if (d.dot(at.n) - 0.5 * (t.dot(at.K * t) + allowance * t.squaredNorm()) > cutoff) continue;
+    }
+    const double gap = gap_of(sample, X_from_to);
+    if (gap < cutoff && gap > -kDeepest * spacing_) near_.push_back(sample);
   }
 }
 
 bool ContactSearch::is_lowest_of_neighbours(int sample) const {
   for (const int other : neighbours_[sample]) {
     if (other < 0 || stamp_[other] != now_) continue;
+    // Along a line the gap is the same for all, also for those that face nothing known.
+    if (lines_ && this->other().edge_distance(feet_[other].place) < 0) continue;
     if (gap_[other] < gap_[sample] || (gap_[other] == gap_[sample] && other < sample)) return false;
   }
   return true;
@@ -236,8 +254,8 @@ bool ContactSearch::is_lowest_of_neighbours(int sample) const {
 /// while the sample itself is within, the sample stands for it.
 GapMinimum ContactSearch::refine(int sample, const RigidTransform& X_BA) const {
   GapMinimum minimum;
-  minimum.on_A = sampled_on_A_ ? places_[sample] : feet_[sample];
-  minimum.on_B = sampled_on_A_ ? feet_[sample] : places_[sample];
+  minimum.on_A = sampled_on_A_ ? places_[sample] : feet_[sample].place;
+  minimum.on_B = sampled_on_A_ ? feet_[sample].place : places_[sample];
   Place refined_B = minimum.on_B, refined_A = minimum.on_A;
   minimum.refined = refine_minimum(*on_B_, refined_B, *on_A_, refined_A, X_BA, 4 * spacing_) &&
                     edge_of(refined_B, refined_A) > -kBeyondEdge * spacing_;
@@ -265,20 +283,21 @@ double ContactSearch::edge_of(const Place& on_B, const Place& on_A) const {
 void ContactSearch::find(const RigidTransform& X_BA,
                          double cutoff,
                          std::vector<GapMinimum>& minima,
-                         double merge) {
+                         double merge,
+                         const std::vector<KnownContact>& known) {
   minima.clear();
   near_.clear();
   ++now_;
   if (places_.empty()) return;
-  const RigidTransform X_from_to = sampled_on_A_ ? X_BA : X_BA.inverse();
-  const Surface& other = sampled_on_A_ ? *on_B_ : *on_A_;
+  set_discs(known);
   // A minimum between samples lies lower than both: look a little higher, keep what the refinement
   // says.
-  visit(0, X_from_to, cutoff + 0.06 * spacing_);
+  visit(0, sampled_on_A_ ? X_BA : X_BA.inverse(), cutoff + 0.06 * spacing_);
   for (const int sample : near_) {
-    if (other.edge_distance(feet_[sample]) < 0) continue;
+    if (other().edge_distance(feet_[sample].place) < 0) continue;
     if (!is_lowest_of_neighbours(sample)) continue;
     const GapMinimum minimum = refine(sample, X_BA);
+    if (lines_ && add_line_ends(*on_B_, *on_A_, X_BA, minimum, spacing_, cutoff, minima)) continue;
     if (minimum.gap < cutoff) minima.push_back(minimum);
   }
   std::sort(minima.begin(), minima.end(),
@@ -291,6 +310,16 @@ void ContactSearch::find(const RigidTransform& X_BA,
     if (isolated) minima[kept++] = minimum;
   }
   minima.resize(kept);
+}
+
+void ContactSearch::find_nearest(const RigidTransform& X_BA,
+                                 double reach,
+                                 std::vector<GapMinimum>& minima,
+                                 double merge) {
+  for (double cutoff = spacing_;; cutoff *= 4) {
+    find(X_BA, std::min(cutoff, reach), minima, merge);
+    if (!minima.empty() || cutoff >= reach) return;
+  }
 }
 
 }  // namespace condyle

@@ -3,16 +3,19 @@
 /// Where two surfaces come near each other: all local minima of the gap between them at a given
 /// pose.
 ///
-/// One surface of the pair is covered with samples; each keeps its foot (closest place) on the
-/// other one from the pose before. Clusters of samples are passed over where the gap at their
-/// centre, less what slope and curvature can take away within their radius, stays above the cutoff.
-/// Samples that are nearer than all their neighbours are refined by Newton on the contact
+/// One surface of the pair is covered with samples in a tree of clusters. Each cluster keeps the
+/// osculating quadric of the other surface at the foot of its centre from the pose before; with it
+/// the gap over the whole cluster is bounded from below by a quadratic model less what both
+/// surfaces depart from their quadrics (bending.h). Clusters whose bound stays above the cutoff are
+/// passed over, and so are those within the disc about a known contact in which the gap is convex.
+/// Samples that are left and nearer than all their neighbours are refined by Newton on the contact
 /// conditions at a fixed pose. No pose is trusted that this search has not seen.
 
 #include <array>
 #include <memory>
 #include <vector>
 
+#include "equilibrium/bending.h"
 #include "equilibrium/model.h"
 
 namespace condyle {
@@ -26,58 +29,95 @@ struct GapMinimum {
   double edge = 0;       ///< smaller of the two edge distances [mm]
 };
 
+/// A contact that has been solved already: gap zero, normals opposite.
+struct KnownContact {
+  Eigen::Vector3d on_B, on_A;  ///< the point in either body's frame [mm]
+  Eigen::Matrix3d K_B, K_A;    ///< curvature tensors there, each in its body's frame [1/mm]
+  double least_curvature = 0;  ///< smaller principal relative curvature [1/mm]
+};
+
 class ContactSearch {
  public:
   /// `spacing` of the samples [mm].
   explicit ContactSearch(const ContactPair& pair, double spacing = 1.2);
 
   /// All minima with gap < cutoff [mm], lowest first; nearer than `merge` [mm] to a lower one are
-  /// left out.
+  /// left out, and so may be the known contacts.
   void find(const RigidTransform& X_BA,
             double cutoff,
             std::vector<GapMinimum>& minima,
-            double merge = 0.3);
+            double merge = 0.3,
+            const std::vector<KnownContact>& known = {});
+
+  /// The same for the lowest minimum within `reach` [mm] and whatever else lies as low.
+  void find_nearest(const RigidTransform& X_BA,
+                    double reach,
+                    std::vector<GapMinimum>& minima,
+                    double merge = 0.3);
 
   /// False for a pair of surfaces without bounds: nothing can be searched there.
   [[nodiscard]] bool has_samples() const { return !places_.empty(); }
 
  private:
+  /// The other surface near a point, as its osculating quadric at a place that was the point's
+  /// foot.
+  struct Quadric {
+    Place place = Place::Zero();
+    SurfacePoint at = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(),
+                       Eigen::Matrix<double, 3, 2>::Zero()};
+    int near = -1;       ///< sample of the other surface's bending
+    bool known = false;  ///< false: no foot yet
+    bool close = false;  ///< the foot was found by tangent steps, so the quadric means something
+  };
   struct Cluster {
     int center;       ///< a sample
     double radius;    ///< of all samples below it, about that sample [mm]
-    double spread;    ///< of the curvature tensors of those samples about the centre's [1/mm]
+    double bend;      ///< allowance of the sampled surface within it [1/mm]
     int first, last;  ///< range in order_
     int child[2];     ///< -1: leaf
+    Quadric other;
+    bool split;  ///< its own bound was of no use the last time
+  };
+  /// A disc about a known contact in which the gap has no other minimum.
+  struct Disc {
+    Eigen::Vector3d center;  ///< on the sampled surface, in its body's frame
+    double radius;           ///< [mm]
   };
   int build(int first, int last);
-  void link_neighbours(double radius);
-  void visit(int cluster, const RigidTransform& X_from_to, double cutoff);
+  void set_discs(const std::vector<KnownContact>& known);
+  [[nodiscard]] bool is_clear(Cluster& cluster, const RigidTransform& X_from_to, double cutoff);
+  bool visit(int cluster, const RigidTransform& X_from_to, double cutoff);
+  void scan(const Cluster& cluster, const RigidTransform& X_from_to, double cutoff);
+  void find_foot(const Eigen::Vector3d& p, double close, Quadric& quadric) const;
+  [[nodiscard]] static double gap_over(const Quadric& quadric, const Eigen::Vector3d& p);
   double gap_of(int sample, const RigidTransform& X_from_to);
-  [[nodiscard]] double lowest_possible(const Cluster& cluster,
-                                       const Eigen::Matrix3d& K_other,
-                                       const Eigen::Matrix3d& R) const;
+  [[nodiscard]] double drop_within(const Cluster& cluster,
+                                   const Eigen::Vector3d& tangential,
+                                   const RigidTransform& X_from_to);
   [[nodiscard]] bool is_lowest_of_neighbours(int sample) const;
   [[nodiscard]] GapMinimum refine(int sample, const RigidTransform& X_BA) const;
   [[nodiscard]] double edge_of(const Place& on_B, const Place& on_A) const;
+  [[nodiscard]] const Surface& other() const { return sampled_on_A_ ? *on_B_ : *on_A_; }
 
   const Surface* on_B_;
   const Surface* on_A_;
   bool sampled_on_A_ = true;
   double spacing_;
-  std::vector<Place> places_;            ///< samples on the sampled surface
-  std::vector<Eigen::Vector3d> points_;  ///< their points, in the frame of their body
-  std::vector<Place> feet_;              ///< on the other surface, kept from pose to pose
-  std::vector<SurfacePoint> at_feet_;    ///< the other surface there, without curvature
-  std::vector<char> has_foot_;
-  std::vector<Eigen::Vector3d> normals_;     ///< at the samples, in the frame of their body
+  bool lines_;  ///< the surfaces may touch along a line (line_contact.h)
+  Bending bending_B_, bending_A_;
+  std::vector<Place> places_;                ///< samples on the sampled surface
+  std::vector<Eigen::Vector3d> points_;      ///< their points, in the frame of their body
+  std::vector<Eigen::Vector3d> normals_;     ///< at the samples
   std::vector<Eigen::Matrix3d> curvatures_;  ///< curvature tensors at the samples
+  std::vector<Quadric> feet_;                ///< of single samples, kept from pose to pose
   std::vector<double> gap_;                  ///< of the present pose
-  std::vector<double> slope_;                ///< sine of the angle between the two surfaces there
   std::vector<int> stamp_;                   ///< pose at which gap_ was computed
   std::vector<std::array<int, 8>> neighbours_;
   std::vector<int> order_;
   std::vector<Cluster> clusters_;
-  std::vector<int> near_;  ///< samples below the cutoff
+  std::vector<Disc> discs_;
+  int near_contact_B_ = -1, near_contact_A_ = -1;  ///< samples of the bendings
+  std::vector<int> near_;                          ///< samples below the cutoff
   int now_ = 0;
 };
 

@@ -1,36 +1,193 @@
 #include "equilibrium/diagnosis.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "equilibrium/contact_scales.h"
+#include "equilibrium/contact_search.h"
+#include "equilibrium/contact_shape.h"
+#include "equilibrium/dependence.h"
+#include "equilibrium/motion_name.h"
+#include "equilibrium/stability.h"
+#include "math/rotation.h"
+
 namespace condyle {
+namespace {
+
+/// Where Newton stopped for a singular matrix: what depends on what, or which motion is free.
+std::string why_singular(const Model& model, const NewtonSystem& system, const RigidTransform& X) {
+  const std::string dependent = dependent_constraints(model, system);
+  if (!dependent.empty()) return dependent;
+  const Stability now = stability(model, system);
+  if (now.neutral) return "nothing resists " + name_motions(model, X, now.free);
+  return "the matrix is singular on the way; softest is " + name_motions(model, X, now.motion);
+}
+
+/// The state with every contact that touches or overlaps there, and those that are held closed.
+EquilibriumState with_all_contacts(const Model& model, const EquilibriumState& state) {
+  constexpr double kSpacing = 0.04, kTouching = 1e-6;  // of L
+  EquilibriumState all{state.X, {}, std::vector<double>(model.conditions.size(), 0.0)};
+  std::vector<GapMinimum> minima;
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    const ContactPair& pair = model.pairs[p];
+    if (pair.mode == ContactMode::kOpen) continue;
+    const bool held = pair.mode == ContactMode::kClosed;
+    const double L = model.length;
+    ContactSearch search(pair, kSpacing * L);
+    search.find(state.X, held ? kAnywhere * L : kTouching * L, minima, kMerge * L);
+    for (const GapMinimum& minimum : minima) {
+      ClosedContact contact{static_cast<int>(p), minimum.on_B, minimum.on_A, 0};
+      // Deep inside a body the search keeps to its samples.
+      for (int k = 0; k < 20; ++k)  // each step leaves less than half
+        slide_contact(
+            *pair.on_B, contact.on_B, *pair.on_A, contact.on_A,
+            linearize_contact(*pair.on_B, contact.on_B, *pair.on_A, contact.on_A, state.X), state.X,
+            Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), L);
+      all.contacts.push_back(contact);
+      if (held) break;
+    }
+  }
+  return all;
+}
+
+/// The load that drives the body the way it went.
+std::string driving_load(const Model& model, const EquilibriumState& state) {
+  const double L = model.length;
+  Eigen::Matrix<double, 6, 1> way;
+  way << state.X.p - model.start.p, L * log_rotation(state.X.R * model.start.R.transpose());
+  double most = 0;
+  std::string name;
+  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+    Wrench wrench;
+    add_load(model.loads[i], state.X, wrench);
+    const double work = wrench.f.dot(way.head<3>()) + wrench.m.dot(way.tail<3>()) / L;
+    if (!(work > most)) continue;
+    most = work;
+    name = model.load_names[i];
+  }
+  return name.empty() ? "what pushes it" : "load " + quoted(name);
+}
+
+/// What has a number that is none; empty where all are finite.
+std::string overflowed(const Model& model, const EquilibriumState& state) {
+  for (std::size_t i = 0; i < model.elements.size(); ++i) {
+    Wrench wrench;
+    add_line_element(model.elements[i], state.X, wrench);
+    if (!wrench.f.allFinite() || !wrench.m.allFinite() || !wrench.F1.allFinite())
+      return "line element " + quoted(model.element_names[i]);
+  }
+  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+    Wrench wrench;
+    add_load(model.loads[i], state.X, wrench);
+    if (!wrench.f.allFinite() || !wrench.m.allFinite())
+      return "load " + quoted(model.load_names[i]);
+  }
+  return {};
+}
+
+/// What is farthest from what it should be.
+std::string worst_condition(const Model& model, const NewtonSystem& system, double last_step) {
+  constexpr double kUnmet = 1e-6;
+  double largest = kUnmet * model.length;
+  std::string words;
+  for (std::size_t i = 0; i < system.conditions().size(); ++i) {
+    const double off = condition_weight(model, i) * std::abs(system.conditions()[i].k);
+    if (!(off > largest)) continue;
+    largest = off;
+    const bool angle = is_angle(model.conditions[i].kind);
+    words =
+        fmt::format("condition {} is {:.3g} {} off", quoted(model.condition_names[i]),
+                    system.conditions()[i].k * (angle ? 180 / M_PI : 1), angle ? "degrees" : "mm");
+  }
+  return words.empty() ? fmt::format("last step {:.3g} mm", last_step) : words;
+}
+
+std::string names_of_pairs(const Model& model) {
+  std::vector<std::string> names;
+  for (const ContactPair& pair : model.pairs)
+    if (pair.mode != ContactMode::kOpen) names.push_back(quoted(pair.name));
+  return (names.size() == 1 ? "contact " : "contacts ") + joined(names);
+}
+
+void set(PoseResult& result, PoseStatus status, std::string reason) {
+  result.status = status;
+  result.reason = std::move(reason);
+}
+
+bool too_many_conditions(const Model& model, PoseResult& result) {
+  if (model.conditions.size() <= kMaxConstraints) return false;
+  std::vector<std::string> names;
+  for (const std::string& name : model.condition_names) names.push_back(quoted(name));
+  set(result, PoseStatus::kSingular,
+      "more than six conditions for the six freedoms of a body: " + joined(names));
+  return true;
+}
+
+/// Contacts and conditions that cannot all hold where the descent ended: a body that does not fit.
+bool explain_contradiction(const Model& model,
+                           NewtonSystem& system,
+                           const EquilibriumState& state,
+                           PoseResult& result) {
+  const EquilibriumState all = with_all_contacts(model, state);
+  system.assemble(all);
+  const Dependence dependence = find_dependence(model, system);
+  if (!dependence.contradiction) return false;
+  bool overlap = false;
+  for (const std::size_t k : dependence.culprits)
+    overlap |=
+        k < all.contacts.size() &&
+        model.pairs[static_cast<std::size_t>(all.contacts[k].pair)].mode == ContactMode::kAuto;
+  set(result, overlap ? PoseStatus::kOverlap : PoseStatus::kSingular,
+      in_words(model, system, dependence));
+  return true;
+}
+
+}  // namespace
 
 void explain_failure(const Model& model,
-                     NewtonSystem& /*system*/,
-                     const EquilibriumState& /*state*/,
+                     NewtonSystem& system,
+                     const EquilibriumState& state,
                      const Attempt& attempt,
                      PoseResult& result) {
+  if (too_many_conditions(model, result)) return;
   const NewtonReport& newton = attempt.newton;
-  if (model.conditions.size() > kMaxConstraints) {
-    result.status = PoseStatus::kSingular;
-    result.reason = "more than six conditions: a body has six freedoms";
+  const std::string overflow = overflowed(model, state);
+  if (!overflow.empty()) {
+    set(result, PoseStatus::kDiverged, overflow + " has no finite force at the last pose");
+    return;
+  }
+  if (const std::optional<Objection> why = objection_at(model, state.X)) {
+    set(result, why->status, why->reason);
+    return;
+  }
+  // Newton left the system where it failed.
+  const std::string singular =
+      newton.outcome == NewtonOutcome::kSingular ? why_singular(model, system, state.X) : "";
+  const bool has_lengths = system.assemble(state);
+  if (!has_lengths || newton.outcome == NewtonOutcome::kZeroLength) {
+    const int element = has_lengths ? newton.zero_element : system.zero_element();
+    set(result, PoseStatus::kZeroLength,
+        "line element " + quoted(model.element_names[static_cast<std::size_t>(element)]) +
+            " has no length");
   } else if (attempt.descent.ran_away) {
-    result.status = PoseStatus::kNoEquilibrium;
-    result.reason = "the body runs away: nothing carries the load";
-  } else if (newton.outcome == NewtonOutcome::kZeroLength) {
-    result.status = PoseStatus::kZeroLength;
-    result.reason =
-        "line element \"" + model.element_names[newton.zero_element] + "\" has no length";
-  } else if (newton.outcome == NewtonOutcome::kSingular) {
-    result.status = PoseStatus::kSingular;
-    result.reason = "conditions and contacts depend on each other, or nothing resists a motion";
+    set(result, PoseStatus::kNoEquilibrium,
+        "the body runs away: nothing carries " + driving_load(model, state));
+  } else if (explain_contradiction(model, system, state, result)) {
+    return;
+  } else if (!singular.empty()) {
+    set(result, PoseStatus::kSingular, singular);
   } else if (newton.outcome == NewtonOutcome::kConverged) {
-    result.status = PoseStatus::kOverlap;
-    result.reason = "no set of contacts was found that carries without overlap or pull";
+    set(result, PoseStatus::kOverlap,
+        "no points of " + names_of_pairs(model) + " were found that carry without overlap or pull");
   } else if (newton.outcome == NewtonOutcome::kDiverged) {
-    result.status = PoseStatus::kDiverged;
-    result.reason = "Newton's method diverged";
+    set(result, PoseStatus::kDiverged,
+        "Newton's method left all bounds: " + worst_condition(model, system, attempt.descent.step));
   } else {
-    result.status = PoseStatus::kIterationLimit;
-    result.reason = "no equilibrium within the iteration limit; last step " +
-                    std::to_string(attempt.descent.step) + " mm";
+    set(result, PoseStatus::kIterationLimit,
+        "nothing settled within the iteration limit: " +
+            worst_condition(model, system, attempt.descent.step));
   }
 }
 

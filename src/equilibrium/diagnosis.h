@@ -7,8 +7,8 @@
 
 namespace condyle {
 
-/// Sets result.status and result.reason. `state` is the last that was tried; `system` belongs to the
-/// model and may be assembled anew.
+/// Sets result.status and result.reason. `state` is the last that was tried; `system` belongs to
+/// the model and may be assembled anew.
 void explain_failure(const Model& model,
                      NewtonSystem& system,
                      const EquilibriumState& state,

@@ -27,24 +27,30 @@ EquilibriumSolver::EquilibriumSolver(Model model, EquilibriumOptions options)
       options_(options),
       searches_(make_searches(*model_)),
       newton_(*model_, options_.newton),
-      descent_(*model_, searches_, newton_, options_.descent) {
+      descent_(*model_, searches_, newton_, options_.descent),
+      predictor_(*model_) {
   state_.contacts.reserve(kMaxConstraints);
   state_.sigma.assign(model_->conditions.size(), 0);
   state_.X = model_->start;
 }
 
 void EquilibriumSolver::set_state(const EquilibriumState& state) {
+  read_drive(target_);
+  const bool same = has_state_ && state.X.p == state_.X.p && state.X.R == state_.X.R &&
+                    target_.values == solved_.values && target_.scales == solved_.scales;
+  if (same) return;
+  predictor_.clear();
   state_ = state;
-  solved_ = drive();
+  solved_ = target_;
   has_state_ = true;
 }
 
-EquilibriumSolver::Drive EquilibriumSolver::drive() const {
-  Drive drive;
-  for (const KinematicCondition& condition : model_->conditions)
-    drive.values.push_back(condition.value);
-  for (const Load& load : model_->loads) drive.scales.push_back(load.scale);
-  return drive;
+void EquilibriumSolver::read_drive(Drive& drive) const {
+  drive.values.resize(model_->conditions.size());
+  drive.scales.resize(model_->loads.size());
+  for (std::size_t i = 0; i < drive.values.size(); ++i)
+    drive.values[i] = model_->conditions[i].value;
+  for (std::size_t i = 0; i < drive.scales.size(); ++i) drive.scales[i] = model_->loads[i].scale;
 }
 
 void EquilibriumSolver::set_drive(const Drive& from, const Drive& to, double t) {
@@ -68,12 +74,24 @@ bool EquilibriumSolver::release_pulling(EquilibriumState& state) const {
   return worst >= 0;
 }
 
+/// What Newton has solved of a pair is a help to the search.
+void EquilibriumSolver::set_known(int pair, const EquilibriumState& state) {
+  known_.clear();
+  const std::vector<ContactLinearization>& contacts = newton_.system().contacts();
+  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+    if (state.contacts[k].pair != pair) continue;
+    const ContactLinearization& at = contacts[k];
+    known_.push_back({at.B.c, at.A.c, at.B.K, at.A.K, at.relative_curvature[0]});
+  }
+}
+
 bool EquilibriumSolver::add_overlaps(EquilibriumState& state, bool& too_many) {
   bool added = false;
   const double L = model_->length;
   for (std::size_t p = 0; p < searches_.size(); ++p) {
     if (model_->pairs[p].mode != ContactMode::kAuto) continue;
-    searches_[p].find(state.X, 0.0, minima_, kMerge * L);
+    set_known(static_cast<int>(p), state);
+    searches_[p].find(state.X, 0.0, minima_, kMerge * L, known_);
     for (const GapMinimum& minimum : minima_) {
       if (minimum.gap > -options_.description.overlap * L / 30) continue;
       const bool known =
@@ -110,7 +128,25 @@ bool EquilibriumSolver::on_minima(const EquilibriumState& state) const {
 bool EquilibriumSolver::carries_and_clear(EquilibriumState& state) {
   bool too_many = false;
   EquilibriumState copy = state;
-  return on_minima(state) && !release_pulling(copy) && !add_overlaps(copy, too_many) && !too_many;
+  return on_minima(state) && !release_pulling(copy) && !add_overlaps(copy, too_many) && !too_many &&
+         faces(state);
+}
+
+/// False where an open pair has passed through itself: no part of one surface faces the other, or
+/// one is buried.
+bool EquilibriumSolver::faces(const EquilibriumState& state) {
+  const double L = model_->length;
+  for (std::size_t p = 0; p < searches_.size(); ++p) {
+    if (model_->pairs[p].mode != ContactMode::kAuto || !searches_[p].has_samples()) continue;
+    const bool closed =
+        std::any_of(state.contacts.begin(), state.contacts.end(),
+                    [p](const ClosedContact& c) { return c.pair == static_cast<int>(p); });
+    if (closed) continue;
+    searches_[p].find_nearest(state.X, kAnywhere * L, minima_, kMerge * L);
+    if (minima_.empty() || minima_.front().gap < -options_.description.overlap * L / 30)
+      return false;
+  }
+  return true;
 }
 
 bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
@@ -122,7 +158,9 @@ bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
     if (release_pulling(state)) continue;
     bool too_many = false;
     if (add_overlaps(state, too_many)) continue;
-    return !too_many && on_minima(state);
+    if (too_many || !on_minima(state)) return false;
+    attempt.faceless = !faces(state);
+    return !attempt.faceless;
   }
   return false;
 }
@@ -182,37 +220,59 @@ bool EquilibriumSolver::solve_first(EquilibriumState& state,
   return descend(state, attempt) && advance(state, own, target, attempt);
 }
 
+/// Newton from where the poses before point to, or from the last one; else the descent; else the
+/// way from the last pose in parts.
+bool EquilibriumSolver::solve_from_last(EquilibriumState& state, Attempt& attempt, bool patient) {
+  if (predictor_.predict(target_, state) && settle(state, attempt)) return true;
+  state = state_;
+  if (settle(state, attempt)) return true;
+  const bool faceless = attempt.faceless;
+  if (faceless) trial_ = state;
+  if (descend(state = state_, attempt)) return true;
+  if (faceless) {
+    // Both ways end where the surfaces are no longer over each other: the pose says so itself.
+    state = trial_;
+    return newton_.solve(state).outcome == NewtonOutcome::kConverged;
+  }
+  return patient && advance(state = state_, solved_, target_, attempt);
+}
+
 void EquilibriumSolver::solve(PoseResult& result, bool patient) {
   const auto begin = std::chrono::steady_clock::now();
-  const Drive target = drive();
+  read_drive(target_);
   Attempt attempt;
-  state_.X.R = orthonormalized(state_.X.R);
-  EquilibriumState state = state_;
   bool solved = false;
   if (has_state_) {
-    solved = settle(state, attempt);
-    if (!solved) solved = descend(state = state_, attempt);
-    if (!solved && patient) solved = advance(state = state_, solved_, target, attempt);
-    set_drive(target, target, 1);
+    solved = solve_from_last(next_, attempt, patient);
+    set_drive(target_, target_, 1);
   } else {
-    solved = solve_first(state, target, attempt);
-    set_drive(target, target, 1);
-    if (!solved) solved = descend(state = state_, attempt);
+    state_.X.R = orthonormalized(state_.X.R);
+    next_ = state_;
+    solved = solve_first(next_, target_, attempt);
+    set_drive(target_, target_, 1);
+    if (!solved) solved = descend(next_ = state_, attempt);
   }
   clear(result);
   result.iterations = attempt.iterations;
   result.residual = attempt.newton.residual;
   if (solved) {
     result.status = PoseStatus::kConverged;
-    newton_.system().assemble(state);
-    describe_pose(*model_, newton_.system(), state, searches_, options_.description, minima_,
+    describe_pose(*model_, newton_.system(), next_, searches_, options_.description, minima_,
                   result);
     // Beyond the edge of a patch as well: the next pose may come back.
-    if (result.status != PoseStatus::kOverlap) set_state(state);
+    if (result.status != PoseStatus::kOverlap) keep(next_);
   } else {
-    explain_failure(*model_, newton_.system(), state, attempt, result);
+    explain_failure(*model_, newton_.system(), next_, attempt, result);
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void EquilibriumSolver::keep(const EquilibriumState& state) {
+  state_ = state;
+  state_.X.R = orthonormalized(state.X.R);
+  solved_ = target_;
+  has_state_ = true;
+  predictor_.add(target_, state_);
 }
 
 PoseResult EquilibriumSolver::solve(bool patient) {

@@ -18,6 +18,7 @@
 #include "equilibrium/describe_pose.h"
 #include "equilibrium/newton.h"
 #include "equilibrium/pose_result.h"
+#include "equilibrium/predictor.h"
 
 namespace condyle {
 
@@ -48,30 +49,33 @@ class EquilibriumSolver {
   void set_state(const EquilibriumState& state);
 
  private:
-  /// What the user may change between poses: values of conditions and scales of loads.
-  struct Drive {
-    std::vector<double> values, scales;
-  };
-  [[nodiscard]] Drive drive() const;
+  void read_drive(Drive& drive) const;
+  void keep(const EquilibriumState& state);
   void set_drive(const Drive& from, const Drive& to, double t);
   bool solve_first(EquilibriumState& state, const Drive& target, Attempt& attempt);
   bool advance(EquilibriumState& state, const Drive& from, const Drive& to, Attempt& attempt);
   bool descend(EquilibriumState& state, Attempt& attempt);
   bool settle(EquilibriumState& state, Attempt& attempt);
+  bool solve_from_last(EquilibriumState& state, Attempt& attempt, bool patient);
   bool release_pulling(EquilibriumState& state) const;
+  void set_known(int pair, const EquilibriumState& state);
   bool add_overlaps(EquilibriumState& state, bool& too_many);
   [[nodiscard]] bool carries_and_clear(EquilibriumState& state);
   [[nodiscard]] bool on_minima(const EquilibriumState& state) const;
+  [[nodiscard]] bool faces(const EquilibriumState& state);
 
   std::unique_ptr<Model> model_;
   EquilibriumOptions options_;
   std::vector<ContactSearch> searches_;
   Newton newton_;
   Descent descent_;
-  EquilibriumState state_;
+  Predictor predictor_;
+  EquilibriumState state_, next_, trial_;
   Drive solved_;  ///< at which state_ was solved
+  Drive target_;  ///< of the pose under way
   bool has_state_ = false;
   std::vector<GapMinimum> minima_;
+  std::vector<KnownContact> known_;
 };
 
 }  // namespace condyle

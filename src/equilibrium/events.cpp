@@ -4,6 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "equilibrium/path_system.h"
+#include "math/rotation.h"
+
 namespace condyle {
 namespace {
 
@@ -41,6 +44,21 @@ double motion(const PoseResult& a, const PoseResult& b, std::size_t contact) {
   return largest;
 }
 
+/// How far the body moved, rotations counted as L dπ [mm].
+double body_motion(const PoseResult& a, const PoseResult& b, double L) {
+  const double turn = L * log_rotation(b.X_BA.R * a.X_BA.R.transpose()).norm();
+  return std::hypot((b.X_BA.p - a.X_BA.p).norm(), turn);
+}
+
+/// Which number of the model is swept.
+SweptValue swept_value(const Model& model, const double& swept) {
+  for (std::size_t i = 0; i < model.loads.size(); ++i)
+    if (&model.loads[i].scale == &swept) return {true, i};
+  for (std::size_t i = 0; i < model.conditions.size(); ++i)
+    if (&model.conditions[i].value == &swept) return {false, i};
+  return {false, model.conditions.size()};
+}
+
 void append_changes(const SolvedPose& before, const SolvedPose& after, std::vector<Event>& events) {
   for (std::size_t c = 0; c < before.result.contacts.size(); ++c) {
     const int was = points_of(before.result, c), is = points_of(after.result, c);
@@ -52,6 +70,10 @@ void append_changes(const SolvedPose& before, const SolvedPose& after, std::vect
     const bool was_out = beyond_edge(before.result, c), is_out = beyond_edge(after.result, c);
     if (was_out != is_out) add(is_out ? EventKind::kLeavingPatch : EventKind::kReturningToPatch);
   }
+}
+
+void append_limit(const SolvedPose& before, const SolvedPose& after, std::vector<Event>& events) {
+  events.push_back({0.5 * (before.value + after.value), EventKind::kLimitPoint, -1});
 }
 
 class EventSearch {
@@ -92,6 +114,30 @@ class EventSearch {
     return true;
   }
 
+  /// Did the body go much farther than the tangents of its path say at either end?
+  bool moved_unexpectedly(const SolvedPose& left, const SolvedPose& right) {
+    constexpr double kMuch = 2;
+    const double L = solver_.model().length;
+    const double moved = body_motion(left.result, right.result, L);
+    if (moved < options_.snap * L) return false;
+    const double foretold = std::min(foretold_motion(left, right), foretold_motion(right, left));
+    return moved > kMuch * foretold;
+  }
+
+  /// Follows the greater part of the motion of the body; true when it stays a jump.
+  bool bisect_snap(SolvedPose& left, SolvedPose& right) {
+    const double L = solver_.model().length, jump = options_.jump * L;
+    while (std::abs(right.value - left.value) > options_.tolerance) {
+      if (body_motion(left.result, right.result, L) < jump) return false;
+      std::optional<SolvedPose> middle = between(left, right);
+      if (!middle) return false;
+      const bool in_left = body_motion(left.result, middle->result, L) >
+                           body_motion(middle->result, right.result, L);
+      (in_left ? right : left) = *middle;
+    }
+    return body_motion(left.result, right.result, L) >= jump;
+  }
+
   /// Follows the greater part of the motion of one contact; true when it stays a jump.
   bool bisect_jump(SolvedPose& left, SolvedPose& right, std::size_t contact, double jump) {
     while (std::abs(right.value - left.value) > options_.tolerance) {
@@ -106,6 +152,19 @@ class EventSearch {
   }
 
  private:
+  /// What the tangent at one pose says about the way to the value of another [mm].
+  double foretold_motion(const SolvedPose& at, const SolvedPose& to) {
+    Model& model = solver_.model();
+    const SweptValue swept = swept_value(model, swept_);
+    if (!swept.varies_load && swept.index == model.conditions.size()) return INFINITY;
+    PathSystem path(model, swept, 1);
+    PathSystem::Direction tangent;
+    if (!path.tangent({at.state, at.value}, tangent) || tangent.value() == 0) return INFINITY;
+    double square = 0;
+    for (std::size_t i = 0; i < 6; ++i) square += tangent.d[i] * tangent.d[i];
+    return std::sqrt(square) * std::abs((to.value - at.value) / tangent.value());
+  }
+
   EquilibriumSolver& solver_;
   double& swept_;
   const EventOptions& options_;
@@ -124,14 +183,21 @@ void locate_events(EquilibriumSolver& solver,
                    std::vector<Event>& events,
                    const EventOptions& options) {
   EventSearch search(solver, swept, options);
+  const double L = solver.model().length;
   SolvedPose from = left;
   for (int k = 0; k < options.most_events && !same_contacts(from.result, right.result); ++k) {
     SolvedPose before = from, after = right;
     if (!search.bisect_change(before, after)) return;
+    if (body_motion(before.result, after.result, L) >= options.jump * L)
+      append_limit(before, after, events);
     append_changes(before, after, events);
     from = after;
   }
-  const double L = solver.model().length;
+  if (same_contacts(left.result, right.result) && search.moved_unexpectedly(left, right)) {
+    SolvedPose before = left, after = right;
+    // Contacts that jump with the body are not told of again.
+    if (search.bisect_snap(before, after)) return append_limit(before, after, events);
+  }
   for (std::size_t c = 0; c < left.result.contacts.size(); ++c) {
     if (!same_contacts(left.result, right.result) ||
         motion(left.result, right.result, c) < options.far * L)

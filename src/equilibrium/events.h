@@ -7,7 +7,8 @@
 /// the pose on the left, closes in until the bracket is shorter than the tolerance; several events
 /// between two poses are found one after the other. Where a contact merely moved far, the half with
 /// the greater part of the motion is followed: a motion that does not shrink with the bracket is a
-/// jump.
+/// jump. The body itself is followed likewise where it moved much farther than its path's tangent
+/// foretold: where it jumps, its branch of equilibria ends in a limit point (snap-through).
 
 #include <vector>
 
@@ -28,6 +29,8 @@ struct EventOptions {
                      ///< in units of L
   double jump =
       0.01;  ///< and has, when it still moves farther than this within the tolerance, in units of L
+  double snap = 0.05;    ///< a body that moved farther than this, in units of L, may have snapped
+                         ///< through
   int most_events = 16;  ///< between two poses
 };
 

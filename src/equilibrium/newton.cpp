@@ -9,20 +9,23 @@
 #include "math/rotation.h"
 
 namespace condyle {
-NewtonSystem::NewtonSystem(const Model& model) : model_(model) {
+namespace {
+
+constexpr double kFreeStep =
+    1e-3;  // longest step along a motion that nothing resists, in units of L
+
+}  // namespace
+
+NewtonSystem::NewtonSystem(const Model& model) : model_(model), elements_(model.elements) {
   contacts_.reserve(kMaxConstraints);
   conditions_.reserve(model.conditions.size());
 }
 
 bool NewtonSystem::assemble(const EquilibriumState& state) {
   wrench_ = Wrench();
-  force_scale_ = 0;
-  zero_element_ = -1;
-  for (std::size_t i = 0; i < model_.elements.size(); ++i) {
-    const LineElementState element = add_line_element(model_.elements[i], state.X, wrench_);
-    force_scale_ += std::abs(element.force);
-    if (element.length < kLeastLength) zero_element_ = static_cast<int>(i);
-  }
+  const LineElementBlock::Summary summary = elements_.add_to(state.X, wrench_);
+  force_scale_ = summary.force_magnitudes;
+  zero_element_ = summary.zero_element;
   const Eigen::Vector3d f_elements = wrench_.f, m_elements = wrench_.m;
   for (const Load& load : model_.loads) add_load(load, state.X, wrench_);
   force_scale_ += (wrench_.f - f_elements).norm() + (wrench_.m - m_elements).norm() / model_.length;
@@ -150,7 +153,8 @@ NewtonReport Newton::solve(EquilibriumState& state) {
     if (report.iterations == options_.max_iterations) return report;
 
     const int size = system_.fill(state, matrix_, step);
-    if (!matrix_.factor(size)) {
+    const bool free = !matrix_.factor(size);
+    if (free && !factor_softened(state, step)) {
       report.outcome = NewtonOutcome::kSingular;
       return report;
     }
@@ -162,12 +166,24 @@ NewtonReport Newton::solve(EquilibriumState& state) {
       report.outcome = NewtonOutcome::kDiverged;
       return report;
     }
+    if (free && last_step > kFreeStep * L) {
+      report.outcome = NewtonOutcome::kSingular;
+      return report;
+    }
     if (last_step > options_.longest_step * L) {
       const double scale = options_.longest_step * L / last_step;
       for (int i = 0; i < 6; ++i) step[i] *= scale;
     }
     apply_step(state, step);
   }
+}
+
+/// A motion that nothing resists is held by next to nothing, in case nothing asks for it.
+bool Newton::factor_softened(const EquilibriumState& state, double* step) {
+  constexpr double kHold = 1e-9;
+  const int size = system_.fill(state, matrix_, step);
+  for (int i = 0; i < 6; ++i) matrix_(i, i) -= kHold * system_.force_scale() / model_.length;
+  return matrix_.factor(size);
 }
 
 void Newton::apply_step(EquilibriumState& state, const double* step) const {

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "elements/contact.h"
+#include "elements/line_element_block.h"
 #include "equilibrium/model.h"
 #include "math/small_lu.h"
 
@@ -79,6 +80,7 @@ class NewtonSystem {
 
  private:
   const Model& model_;
+  LineElementBlock elements_;
   Wrench wrench_;
   std::vector<ContactLinearization> contacts_;
   std::vector<ConditionDerivatives> conditions_;
@@ -98,6 +100,7 @@ class Newton {
   [[nodiscard]] NewtonSystem& system() { return system_; }
 
  private:
+  bool factor_softened(const EquilibriumState& state, double* step);
   void apply_step(EquilibriumState& state, const double* step) const;
 
   const Model& model_;

@@ -35,7 +35,8 @@ inline constexpr int kPoseStatusCount = 9;
 /// A short name: "converged", "iteration limit", ...
 [[nodiscard]] const char* name(PoseStatus status);
 
-/// How a rigid contact would spread over an elastic surface, estimated afterwards (elements/hertz.h).
+/// How a rigid contact would spread over an elastic surface, estimated afterwards
+/// (elements/hertz.h).
 struct HertzEstimate {
   std::array<double, 2> semi_axes;  ///< of the ellipse of contact, major first [mm]
   Eigen::Vector3d major_axis;       ///< unit vector, ground frame
@@ -70,7 +71,8 @@ struct ContactResult {
   bool closed = false;
   ContactShape shape = ContactShape::kPoint;
   double force = 0;  ///< sum over the points [N]
-  /// Where the resultant of the points acts, ground frame [mm]; of an open contact the nearest point.
+  /// Where the resultant of the points acts, ground frame [mm]; of an open contact the nearest
+  /// point.
   Eigen::Vector3d resultant_ground =
       Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<ContactPointResult>
@@ -87,11 +89,12 @@ struct ConditionResult {
   double multiplier = 0;  ///< σ: [N mm] for angles, [N] for lengths; its load on A is -σ dk
 };
 
-/// Of the joint at a pose, in joint coordinates (flexion, adduction, internal rotation, lateral shift,
-/// anterior drawer, distraction; mm, N, rad): what an added load Q, conjugate to the coordinates, does.
+/// Of the joint at a pose, in joint coordinates (flexion, adduction, internal rotation, lateral
+/// shift, anterior drawer, distraction; mm, N, rad): what an added load Q, conjugate to the
+/// coordinates, does.
 struct JointStiffness {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  Matrix6 stiffness;   ///< ∂Q/∂q of ligaments, loads and rolling contacts before the constraints
+  Matrix6 stiffness;  ///< ∂Q/∂q of ligaments, loads and rolling contacts before the constraints
   Matrix6 compliance;  ///< ∂q/∂Q with contacts kept closed and conditions prescribed
 };
 
@@ -110,9 +113,9 @@ struct PoseResult {
   double lowest_stiffness =
       std::numeric_limits<double>::quiet_NaN();  ///< of the reduced stiffness [N/mm]
   Eigen::Matrix<double, 6, 1> softest_motion =
-      Eigen::Matrix<double, 6, 1>::Zero();  ///< (da, L dπ) that belongs to it, unit
+      Eigen::Matrix<double, 6, 1>::Zero();        ///< (da, L dπ) that belongs to it, unit
   std::optional<JointStiffness> joint_stiffness;  ///< on request; needs joint frames
-  int iterations = 0;                            ///< Newton iterations
+  int iterations = 0;                             ///< Newton iterations
   double residual = 0;  ///< largest out-of-balance force [N], moments divided by the model's length
   double seconds = 0;
   [[nodiscard]] bool converged() const { return status == PoseStatus::kConverged; }
@@ -120,10 +123,10 @@ struct PoseResult {
 
 /// What happens to a contact at one value of a sweep; the values are those of /events/kind.
 enum class EventKind {
-  kClosing = 0,          ///< a point of contact begins to carry
-  kOpening = 1,          ///< a point of contact ceases to carry
-  kJump = 2,             ///< the contact goes from one place to another
-  kLeavingPatch = 3,     ///< the contact passes the edge of the known surface outwards
+  kClosing = 0,           ///< a point of contact begins to carry
+  kOpening = 1,           ///< a point of contact ceases to carry
+  kJump = 2,              ///< the contact goes from one place to another
+  kLeavingPatch = 3,      ///< the contact passes the edge of the known surface outwards
   kReturningToPatch = 4,  ///< and inwards
   kLimitPoint = 5         ///< the path of equilibria turns back: the joint snaps through
 };

@@ -1,10 +1,13 @@
 #pragma once
 
-/// The sweep: positions of equilibrium of a scene over a range of a prescribed motion or a load.
+/// The sweep: positions of equilibrium over a range of a prescribed motion or a load, each from the
+/// one before it. It takes over what an earlier sweep left.
 
 #include <functional>
 #include <vector>
 
+#include "equilibrium/equilibrium_solver.h"
+#include "equilibrium/known_poses.h"
 #include "equilibrium/pose_result.h"
 #include "scene/fit_surfaces.h"
 #include "scene/scene.h"
@@ -14,12 +17,26 @@ namespace condyle {
 struct SweepOptions {
   bool stability = true;  ///< reduced stiffness of each pose
   bool events = true;     ///< locate what happens to contacts between poses
+  /// Taken over where their values are met, failures too: a solved one is polished and described
+  /// anew, not searched for. The first value that is not known starts from the pose before it in
+  /// the sweep, or, where there is none, from the known one with the nearest value.
+  std::vector<KnownPose> known;
   std::function<void(const PoseResult&)> on_pose;  ///< called after each pose, in order
+  /// Called for each pose that was not taken over, when the events before it are located: all that
+  /// another sweep has to know.
+  std::function<void(const KnownPose&)> on_computed;
 };
 
-/// One door: solves every value of scene.sweep in order, each from the pose before it. Never throws
-/// for mathematics that does not succeed: a pose carries its status. `surfaces` as from
-/// fit_surfaces.
+/// Solves the values in order. `swept` is the one of the solver's model that varies. Never throws
+/// for mathematics that does not succeed: a pose carries its status. Whether poses are examined for
+/// stability is the solver's option here.
+[[nodiscard]] SweepResult sweep(EquilibriumSolver& solver,
+                                double& swept,
+                                const std::vector<double>& values,
+                                const SweepOptions& options = {});
+
+/// One door: the sweep that the scene asks for. `surfaces` as from fit_surfaces. One along the path
+/// of equilibria (arc_length.h) takes nothing over.
 [[nodiscard]] SweepResult sweep(const Scene& scene,
                                 const std::vector<FittedSurface>& surfaces,
                                 const SweepOptions& options = {});

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "math/simd.h"
+
 namespace condyle {
 
 void SmallLu::clear(int n) {
@@ -11,6 +13,7 @@ void SmallLu::clear(int n) {
   for (int i = 0; i < n; ++i) std::fill(a_[i], a_[i] + n, 0.0);
 }
 
+CONDYLE_FMA_CLONE
 bool SmallLu::factor(int n) {
   n_ = n;
   double largest = 0;
@@ -22,7 +25,14 @@ bool SmallLu::factor(int n) {
     for (int i = k + 1; i < n; ++i)
       if (std::abs(a_[i][k]) > std::abs(a_[pivot][k])) pivot = i;
     row_[k] = pivot;
-    if (pivot != k) std::swap_ranges(a_[k], a_[k] + n, a_[pivot]);
+    if (pivot != k) {
+      for (int j = 0; j < kStride; j += 4) {
+        const Four upper = load_four(a_[k] + j), lower = load_four(a_[pivot] + j);
+        store_four(a_[k] + j, lower);
+        store_four(a_[pivot] + j, upper);
+      }
+      for (int j = 0; j < k; ++j) std::swap(multipliers_[j][k], multipliers_[j][pivot]);
+    }
     const double p = std::abs(a_[k][k]);
     greatest = std::max(greatest, p);
     least = std::min(least, p);
@@ -31,25 +41,32 @@ bool SmallLu::factor(int n) {
       return false;
     }
     const double inverse = 1 / a_[k][k];
+    inverse_pivot_[k] = inverse;
+    const int first = (k + 1) / 4 * 4;
     for (int i = k + 1; i < n; ++i) {
       const double factor = a_[i][k] * inverse;
-      a_[i][k] = factor;
-      if (factor == 0) continue;
-      for (int j = k + 1; j < n; ++j) a_[i][j] -= factor * a_[k][j];
+      multipliers_[k][i] = factor;
+      for (int j = first; j < n; j += 4)
+        store_four(a_[i] + j, load_four(a_[i] + j) - factor * load_four(a_[k] + j));
     }
   }
   pivot_ratio_ = n == 0 ? 1 : least / greatest;
   return true;
 }
 
+CONDYLE_FMA_CLONE
 void SmallLu::solve(double* b) const {
-  for (int k = 0; k < n_; ++k) std::swap(b[k], b[row_[k]]);
-  for (int i = 1; i < n_; ++i)
-    for (int k = 0; k < i; ++k) b[i] -= a_[i][k] * b[k];
+  alignas(32) double x[kStride] = {};
+  std::copy(b, b + n_, x);
+  for (int k = 0; k < n_; ++k) std::swap(x[k], x[row_[k]]);
+  for (int k = 0; k < n_; ++k)
+    for (int i = k + 1; i < n_; ++i) x[i] -= multipliers_[k][i] * x[k];
   for (int i = n_ - 1; i >= 0; --i) {
-    for (int k = i + 1; k < n_; ++k) b[i] -= a_[i][k] * b[k];
-    b[i] /= a_[i][i];
+    double sum = x[i];
+    for (int k = i + 1; k < n_; ++k) sum -= a_[i][k] * x[k];
+    x[i] = sum * inverse_pivot_[i];
   }
+  std::copy(x, x + n_, b);
 }
 
 }  // namespace condyle

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "results/estimates.h"
 #include "results/hdf5_file.h"
 #include "results/run_file.h"
 #include "results/run_layout.h"
@@ -54,6 +55,10 @@ void read_status(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
   const std::vector<std::string> reasons = sweep.read_texts("reason");
   if (reasons.size() != poses.size()) sweep.fail("dataset reason has not one text for each value");
   for (std::size_t i = 0; i < poses.size(); ++i) poses[i].reason = reasons[i];
+  if (!sweep.has("remark")) return;
+  const std::vector<std::string> remarks = sweep.read_texts("remark");
+  if (remarks.size() != poses.size()) sweep.fail("dataset remark has not one text for each value");
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].remark = remarks[i];
 }
 
 void read_pose(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
@@ -70,6 +75,7 @@ void read_pose(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
     take(joint, column.name, {n}, poses,
          [&](PoseResult& p, const double* row) { p.joint.*column.member = *row * column.unit; });
   }
+  read_joint_stiffness(joint, poses);
 }
 
 void read_contact(const Hdf5Group& group, std::size_t index, Poses& poses) {
@@ -99,6 +105,7 @@ void read_contact(const Hdf5Group& group, std::size_t index, Poses& poses) {
       }
     });
   }
+  read_contact_estimates(group, points, poses, index);
 }
 
 void read_elements(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
@@ -162,7 +169,7 @@ void read_events(const Hdf5Group& group, Run& run) {
   const std::vector<int> kinds = group.read_integers("kind", n);
   const std::vector<int> contacts = group.read_integers("contact", n);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (kinds[i] < 0 || kinds[i] >= kEventKindCount || contacts[i] < 0 ||
+    if (kinds[i] < 0 || kinds[i] >= kEventKindCount || contacts[i] < -1 ||
         contacts[i] >= static_cast<int>(run.scene.contacts.size()))
       group.fail("holds an event of no known kind or contact");
     run.sweep.events.push_back({values[i] * unit, static_cast<EventKind>(kinds[i]), contacts[i]});

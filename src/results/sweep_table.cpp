@@ -119,7 +119,7 @@ std::string SweepTable::row(const PoseResult& pose) const {
       return line + "  " + name(pose.status) + (pose.reason.empty() ? "" : ": " + pose.reason) +
              "\n";
   }
-  return line + "\n";
+  return line + (pose.remark.empty() ? "" : "  " + pose.remark) + "\n";
 }
 
 std::string summary(const SweepResult& sweep) {
@@ -140,9 +140,11 @@ std::vector<std::string> event_lines(const Scene& scene, const SweepResult& swee
   const Unit unit = scene.sweep ? border_sweep_unit(scene) : Unit{"1", 1};
   std::vector<std::string> lines;
   for (const Event& event : sweep.events) {
-    lines.push_back(fmt::format("{}: {} at {:.6f} {}",
-                                scene.contacts.at(static_cast<std::size_t>(event.contact)).name,
-                                name(event.kind), event.value / unit.factor, unit.name));
+    const std::string contact =
+        event.contact < 0 ? ""
+                          : scene.contacts.at(static_cast<std::size_t>(event.contact)).name + ": ";
+    lines.push_back(fmt::format("{}{} at {:.6f} {}", contact, name(event.kind),
+                                event.value / unit.factor, unit.name));
   }
   return lines;
 }

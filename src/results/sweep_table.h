@@ -38,7 +38,7 @@ class SweepTable {
 /// pose)"
 [[nodiscard]] std::string summary(const SweepResult& sweep);
 
-/// One line for each event: "lateral: opening at 93.271845 deg".
+/// One line for each event: "lateral: opening at 93.271845 deg", "limit point at 12.5 deg".
 [[nodiscard]] std::vector<std::string> event_lines(const Scene& scene, const SweepResult& sweep);
 
 /// One line for each pose that did not converge, saying which and why.

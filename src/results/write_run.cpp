@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "results/estimates.h"
 #include "results/hdf5_file.h"
 #include "results/output_file.h"
 #include "results/run_file.h"
@@ -70,9 +71,13 @@ void write_status(const Hdf5Group& sweep, const Scene& scene, const Poses& poses
   for (int i = 0; i < kPoseStatusCount; ++i)
     meanings.emplace_back(name(static_cast<PoseStatus>(i)));
   sweep.write_attribute("status", "meaning", meanings);
-  std::vector<std::string> reasons;
-  for (const PoseResult& pose : poses) reasons.push_back(pose.reason);
+  std::vector<std::string> reasons, remarks;
+  for (const PoseResult& pose : poses) {
+    reasons.push_back(pose.reason);
+    remarks.push_back(pose.remark);
+  }
   sweep.write("reason", reasons);
+  sweep.write("remark", remarks);
 }
 
 void write_pose(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) {
@@ -94,6 +99,7 @@ void write_pose(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) 
     };
     joint.write(column.name, rows(poses, 1, fill), {n}, column.units);
   }
+  write_joint_stiffness(joint, poses);
 }
 
 ContactPointResult no_point() {
@@ -152,7 +158,10 @@ void write_points(const Hdf5Group& group, const Poses& poses, std::size_t index)
   group.write("on_edge", rows(poses, slots, edge), {n, slots}, "1");
 }
 
-void write_contact(const Hdf5Group& group, const Poses& poses, std::size_t index) {
+void write_contact(const Hdf5Group& group,
+                   const Scene& scene,
+                   const Poses& poses,
+                   std::size_t index) {
   const std::size_t n = poses.size();
   group.write("state",
               integers(poses,
@@ -169,7 +178,9 @@ void write_contact(const Hdf5Group& group, const Poses& poses, std::size_t index
     group.write(column.name, rows(poses, column.width, fill), with_width({n}, column.width),
                 column.units);
   }
-  write_points(group.create("points"), poses, index);
+  const Hdf5Group points = group.create("points");
+  write_points(points, poses, index);
+  write_contact_estimates(group, points, scene, poses, index);
 }
 
 void write_ligament(const Hdf5Group& group, const Poses& poses, std::size_t index) {
@@ -196,7 +207,7 @@ void write_condition(const Hdf5Group& group, const Poses& poses, std::size_t ind
 void write_elements(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) {
   const Hdf5Group contacts = sweep.create("contacts");
   for (std::size_t i = 0; i < scene.contacts.size(); ++i)
-    write_contact(contacts.create(scene.contacts[i].name), poses, i);
+    write_contact(contacts.create(scene.contacts[i].name), scene, poses, i);
   const Hdf5Group ligaments = sweep.create("ligaments");
   for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
     write_ligament(ligaments.create(scene.ligaments[i].name), poses, i);

@@ -40,17 +40,17 @@ std::string place_of(const Scene& scene, const SurfaceDescription& surface) {
 std::unique_ptr<Surface> make_exact(const SurfaceDescription& s) {
   switch (s.kind) {
     case SurfaceKind::kPlane:
-      return make_plane(s.point, s.direction);
+      return make_plane(s.point, s.direction, s.known_radius);
     case SurfaceKind::kSphere:
       return make_sphere(s.point, s.radius, s.solid_inside);
     case SurfaceKind::kCylinder:
-      return make_cylinder(s.point, s.direction, s.radius, s.solid_inside);
+      return make_cylinder(s.point, s.direction, s.radius, s.solid_inside, s.length);
     case SurfaceKind::kEllipsoid:
       return make_ellipsoid(s.point, s.axes, s.semi_axes, s.solid_inside);
     case SurfaceKind::kTorus:
       return make_torus(s.point, s.direction, s.radius, s.minor_radius, s.solid_inside);
     case SurfaceKind::kPolynomial:
-      return make_polynomial(s.point, s.axes, s.terms, s.solid_inside);
+      return make_polynomial(s.point, s.axes, s.terms, s.solid_inside, s.known_radius);
     case SurfaceKind::kPatch:
       break;
   }

@@ -122,8 +122,13 @@ void read_sweep(const Section& root, Scene& scene) {
   const Section section =
       root.table("sweep", "a table [sweep] with vary and from, to, step or values");
   SweepDescription sweep;
+  static const Choices<bool> paths = {{"steps", false}, {"arc length", true}};
   read_varied(section, scene, sweep);
+  if (section.has("path")) sweep.arc_length = section.choice("path", paths);
   sweep.values = read_values(section);
+  if (sweep.arc_length && sweep.values.size() < 2)
+    section.fail("path",
+                 "\"steps\": a path that is followed by its arc length needs two values or more");
   section.finish();
   scene.sweep = sweep;
   const double factor = declared_sweep_unit(scene).factor;

@@ -102,6 +102,13 @@ void read_terms(const Section& section, const Scene& scene, SurfaceDescription& 
   }
 }
 
+void read_known_radius(const Section& section, const Scene& scene, SurfaceDescription& surface) {
+  if (!section.has("radius")) return;
+  surface.known_radius =
+      scene.length_to_mm *
+      section.number("radius", "a radius of the part that is known", Range::kPositive);
+}
+
 void read_polynomial(const Section& section, const Scene& scene, SurfaceDescription& surface) {
   if (section.has("frame")) {
     const Section frame =
@@ -111,6 +118,7 @@ void read_polynomial(const Section& section, const Scene& scene, SurfaceDescript
     frame.finish();
   }
   read_terms(section, scene, surface);
+  read_known_radius(section, scene, surface);
 }
 
 void read_torus(const Section& section, const Scene& scene, SurfaceDescription& surface) {
@@ -139,7 +147,7 @@ void read_shape(const Section& section, const Scene& scene, SurfaceDescription& 
     case SurfaceKind::kPlane:
       surface.point = point("point");
       surface.direction = read_direction(section, "normal");
-      return;
+      return read_known_radius(section, scene, surface);
     case SurfaceKind::kSphere:
       surface.point = point("center");
       surface.radius = radius();
@@ -148,6 +156,9 @@ void read_shape(const Section& section, const Scene& scene, SurfaceDescription& 
       surface.point = point("point");
       surface.direction = read_direction(section, "axis");
       surface.radius = radius();
+      if (section.has("length"))
+        surface.length =
+            scene.length_to_mm * section.number("length", "a length", Range::kPositive);
       return;
     case SurfaceKind::kEllipsoid:
       surface.point = point("center");
@@ -158,6 +169,25 @@ void read_shape(const Section& section, const Scene& scene, SurfaceDescription& 
     case SurfaceKind::kPolynomial:
       return read_polynomial(section, scene, surface);
   }
+}
+
+void read_elastic(const Section& section, const Scene& scene, SurfaceDescription& surface) {
+  if (!section.has("modulus")) {
+    for (const char* key : {"poisson", "layer"})
+      if (section.has(key)) section.fail(key, "a modulus beside it");
+    return;
+  }
+  constexpr double kCartilage = 0.45;
+  ElasticSurface& elastic = surface.elastic.emplace();
+  elastic.modulus = section.number("modulus", "a modulus (force/length^2)", Range::kPositive) *
+                    scene.force_to_n / (scene.length_to_mm * scene.length_to_mm);
+  const std::string ratio = "Poisson's ratio, at least 0 and less than 0.5";
+  elastic.poisson = section.number_or("poisson", kCartilage, ratio);
+  if (elastic.poisson < 0 || elastic.poisson >= 0.5) section.fail("poisson", ratio);
+  if (section.has("layer"))
+    elastic.layer =
+        scene.length_to_mm *
+        section.number("layer", "a thickness (none: elastic throughout)", Range::kPositive);
 }
 
 SurfaceDescription read_surface(const Section& section, const Scene& scene) {
@@ -176,8 +206,46 @@ SurfaceDescription read_surface(const Section& section, const Scene& scene) {
   if (!surface.solid_inside && !has_sides)
     section.fail("solid", "\"inside\": a patch or a plane has no outside");
   read_shape(section, scene, surface);
+  read_elastic(section, scene, surface);
   section.finish();
   return surface;
+}
+
+bool same_surfaces(const ContactDescription& a, const ContactDescription& b) {
+  return a.surfaces == b.surfaces ||
+         (a.surfaces[0] == b.surfaces[1] && a.surfaces[1] == b.surfaces[0]);
+}
+
+bool has_bounds(const SurfaceDescription& surface) {
+  switch (surface.kind) {
+    case SurfaceKind::kPlane:
+    case SurfaceKind::kPolynomial:
+      return std::isfinite(surface.known_radius);
+    case SurfaceKind::kCylinder:
+      return std::isfinite(surface.length);
+    default:
+      return true;
+  }
+}
+
+/// A pair of surfaces that go on for ever cannot be searched for contacts, nor can a layer on one
+/// side and a bulk on the other be pressed together by either of the two formulas.
+void check_pair(const Section& section,
+                const SurfaceDescription& a,
+                const SurfaceDescription& b,
+                ContactState state) {
+  if (state != ContactState::kOpen && !has_bounds(a) && !has_bounds(b)) {
+    section.fail("surfaces",
+                 fmt::format("bounds of \"{}\" or of \"{}\": radius of a plane or a polynomial, "
+                             "length of a cylinder",
+                             a.name, b.name));
+  }
+  if (!a.elastic || !b.elastic || (a.elastic->layer > 0) == (b.elastic->layer > 0)) return;
+  const bool layer_on_a = a.elastic->layer > 0;
+  section.fail("surfaces",
+               fmt::format("layers on both or on neither (\"{}\" has a layer, \"{}\" is elastic "
+                           "throughout)",
+                           layer_on_a ? a.name : b.name, layer_on_a ? b.name : a.name));
 }
 
 ContactDescription read_contact(const Section& section, const Scene& scene) {
@@ -201,7 +269,17 @@ ContactDescription read_contact(const Section& section, const Scene& scene) {
     section.fail("surfaces", fmt::format("surfaces of two bodies (both belong to \"{}\")",
                                          scene.bodies[static_cast<std::size_t>(body(0))].name));
   }
+  for (const ContactDescription& other : scene.contacts) {
+    if (same_surfaces(other, contact))
+      section.fail("surfaces", fmt::format("two surfaces that are not yet in contact \"{}\": a "
+                                           "contact finds all its points by itself",
+                                           other.name));
+  }
   if (section.has("state")) contact.state = section.choice("state", states);
+  const auto surface = [&](std::size_t i) -> const SurfaceDescription& {
+    return scene.surfaces[static_cast<std::size_t>(contact.surfaces[i])];
+  };
+  check_pair(section, surface(0), surface(1), contact.state);
   if (section.has("start"))
     contact.start = section.vectors("start", "points [[x, y, z], ...] in the ground frame");
   for (Eigen::Vector3d& point : contact.start) point *= scene.length_to_mm;

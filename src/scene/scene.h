@@ -91,6 +91,9 @@ struct SurfaceDescription {
   double minor_radius = 0;       ///< torus [mm]
   double length =
       std::numeric_limits<double>::infinity();  ///< cylinder, half to either side of `point` [mm]
+  double known_radius =
+      std::numeric_limits<double>::infinity();  ///< plane, polynomial: of the part that is known,
+                                                ///< about `point` [mm]
   Eigen::Vector3d semi_axes = Eigen::Vector3d::Ones();  ///< ellipsoid [mm]
   Eigen::Matrix3d axes =
       Eigen::Matrix3d::Identity();    ///< ellipsoid: columns are the axes; polynomial: x, y, height
@@ -148,7 +151,7 @@ struct SweepDescription {
   int index = -1;    ///< of the condition or the load
   std::string vary;  ///< as written
   std::vector<double> values;  ///< [rad], [mm] or [-], in the order to be visited
-  bool arc_length = false;  ///< follow the path of equilibria through its limit points
+  bool arc_length = false;     ///< follow the path of equilibria through its limit points
 };
 
 struct Scene {

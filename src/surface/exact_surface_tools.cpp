@@ -29,6 +29,11 @@ double checked_length(double length, const char* what) {
   throw InputError(fmt::format("{} = {}, expected a length > 0", what, length));
 }
 
+double checked_bound(double bound, const char* what) {
+  if (bound > 0) return bound;
+  throw InputError(fmt::format("{} = {}, expected a length > 0", what, bound));
+}
+
 Matrix3d checked_axes(const Matrix3d& axes, const char* what) {
   if ((axes.transpose() * axes - Matrix3d::Identity()).norm() < 1e-9) return axes;
   throw InputError(fmt::format(
@@ -171,6 +176,37 @@ std::vector<Place> torus_samples(
       const double angle = 2 * pi * j / along;
       places.push_back(center + radius * (std::cos(angle) * x + std::sin(angle) * y) +
                        minor * std::sin(tube) * axis);
+    }
+  }
+  return places;
+}
+
+std::vector<Vector2d> disc_samples(double radius, double spacing) {
+  const int rings = std::max(2, static_cast<int>(std::ceil(radius / spacing)));
+  std::vector<Vector2d> samples = {Vector2d::Zero()};
+  for (int ring = 1; ring <= rings; ++ring) {
+    const double r = radius * ring / rings;
+    const int count = std::max(6, static_cast<int>(std::ceil(2 * std::numbers::pi * r / spacing)));
+    for (int k = 0; k < count; ++k) {
+      const double angle = 2 * std::numbers::pi * k / count;
+      samples.emplace_back(r * std::cos(angle), r * std::sin(angle));
+    }
+  }
+  return samples;
+}
+
+std::vector<Place> cylinder_samples(
+    const Vector3d& center, const Vector3d& axis, double radius, double length, double spacing) {
+  const Vector3d x = axis.unitOrthogonal(), y = axis.cross(x);
+  const int parts = std::max(1, static_cast<int>(std::ceil(length / spacing)));
+  const int round =
+      std::max(6, static_cast<int>(std::ceil(2 * std::numbers::pi * radius / spacing)));
+  std::vector<Place> places;
+  for (int i = 0; i <= parts; ++i) {
+    const Vector3d middle = center + length * (static_cast<double>(i) / parts - 0.5) * axis;
+    for (int k = 0; k < round; ++k) {
+      const double angle = 2 * std::numbers::pi * k / round;
+      places.push_back(middle + radius * (std::cos(angle) * x + std::sin(angle) * y));
     }
   }
   return places;

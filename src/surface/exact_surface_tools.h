@@ -24,6 +24,7 @@ namespace condyle {
 /// it `what`.
 [[nodiscard]] Eigen::Vector3d checked_direction(const Eigen::Vector3d& direction, const char* what);
 [[nodiscard]] double checked_length(double length, const char* what);
+[[nodiscard]] double checked_bound(double bound, const char* what);  ///< may be infinite
 [[nodiscard]] Eigen::Matrix3d checked_axes(const Eigen::Matrix3d& axes, const char* what);
 
 /// The place near `start` where the distance to p has a local minimum: Newton in the tangent plane
@@ -43,5 +44,14 @@ namespace condyle {
                                                double major,
                                                double minor,
                                                double spacing);
+
+/// Points (x, y) of a disc on rings about its centre, the outermost on its edge.
+[[nodiscard]] std::vector<Eigen::Vector2d> disc_samples(double radius, double spacing);
+/// The first ring stands at one end of the axis, the last at the other.
+[[nodiscard]] std::vector<Place> cylinder_samples(const Eigen::Vector3d& center,
+                                                  const Eigen::Vector3d& axis,
+                                                  double radius,
+                                                  double length,
+                                                  double spacing);
 
 }  // namespace condyle

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include <cmath>
+
 #include "input_error.h"
 #include "surface/exact_surface_tools.h"
 
@@ -22,8 +24,11 @@ Matrix3d umbilic(const Vector3d& n, double kappa) {
 
 class Plane final : public Surface {
  public:
-  Plane(const Vector3d& point, const Vector3d& normal)
-      : n_(checked_direction(normal, "plane: normal")), height_(n_.dot(point)) {}
+  Plane(const Vector3d& point, const Vector3d& normal, double radius)
+      : n_(checked_direction(normal, "plane: normal")),
+        point_(point),
+        height_(n_.dot(point)),
+        radius_(checked_bound(radius, "plane: radius")) {}
 
   [[nodiscard]] SurfacePoint evaluate(const Place& place) const override {
     return {place, n_, Matrix3d::Zero(), Eigen::Matrix<double, 3, 2>::Zero()};
@@ -37,11 +42,22 @@ class Plane final : public Surface {
   [[nodiscard]] Place seed(const Vector3d& p) const override {
     return p + (height_ - n_.dot(p)) * n_;
   }
-  [[nodiscard]] std::vector<Place> samples(double) const override { return {}; }
+  [[nodiscard]] double edge_distance(const Place& place) const override {
+    return std::isinf(radius_) ? radius_ : radius_ - (place - point_).norm();
+  }
+  [[nodiscard]] bool bends_evenly() const override { return true; }
+  [[nodiscard]] std::vector<Place> samples(double spacing) const override {
+    std::vector<Place> places;
+    if (std::isinf(radius_)) return places;
+    const Vector3d x = n_.unitOrthogonal(), y = n_.cross(x);
+    for (const Eigen::Vector2d& at : disc_samples(radius_, spacing))
+      places.push_back(point_ + at.x() * x + at.y() * y);
+    return places;
+  }
 
  private:
-  Vector3d n_;
-  double height_;
+  Vector3d n_, point_;
+  double height_, radius_;
 };
 
 /// `sign_` is +1 where the solid is inside, so that sign_ times the direction away from the centre
@@ -69,6 +85,7 @@ class Sphere final : public Surface {
   [[nodiscard]] Place seed(const Vector3d& p) const override {
     return on_sphere(p, Vector3d::UnitZ());
   }
+  [[nodiscard]] bool bends_evenly() const override { return true; }
   [[nodiscard]] std::vector<Place> samples(double spacing) const override {
     return ellipsoid_samples(center_, Matrix3d::Identity(), Vector3d::Constant(radius_), spacing);
   }
@@ -84,12 +101,14 @@ class Sphere final : public Surface {
 
 class Cylinder final : public Surface {
  public:
-  Cylinder(const Vector3d& point, const Vector3d& axis, double radius, bool solid_inside)
+  Cylinder(
+      const Vector3d& point, const Vector3d& axis, double radius, bool solid_inside, double length)
       : point_(point),
         axis_(checked_direction(axis, "cylinder: axis")),
         sideways_(axis_.unitOrthogonal()),
         radius_(checked_length(radius, "cylinder: radius")),
-        sign_(solid_inside ? 1 : -1) {}
+        sign_(solid_inside ? 1 : -1),
+        length_(checked_bound(length, "cylinder: length")) {}
 
   [[nodiscard]] SurfacePoint evaluate(const Place& place) const override {
     const Vector3d away = unit_or(from_axis(place), sideways_), round = axis_.cross(away);
@@ -105,7 +124,14 @@ class Cylinder final : public Surface {
     return on_cylinder(p, unit_or(from_axis(start), sideways_));
   }
   [[nodiscard]] Place seed(const Vector3d& p) const override { return on_cylinder(p, sideways_); }
-  [[nodiscard]] std::vector<Place> samples(double) const override { return {}; }
+  [[nodiscard]] double edge_distance(const Place& place) const override {
+    return 0.5 * length_ - std::abs(axis_.dot(place - point_));
+  }
+  [[nodiscard]] bool bends_evenly() const override { return true; }
+  [[nodiscard]] std::vector<Place> samples(double spacing) const override {
+    if (std::isinf(length_)) return {};
+    return cylinder_samples(point_, axis_, radius_, length_, spacing);
+  }
 
  private:
   [[nodiscard]] Vector3d from_axis(const Vector3d& p) const {
@@ -118,7 +144,7 @@ class Cylinder final : public Surface {
   }
 
   Vector3d point_, axis_, sideways_;
-  double radius_, sign_;
+  double radius_, sign_, length_;
 };
 
 class Torus final : public Surface {
@@ -180,19 +206,17 @@ class Torus final : public Surface {
 
 }  // namespace
 
-std::unique_ptr<Surface> make_plane(const Vector3d& point, const Vector3d& normal) {
-  return std::make_unique<Plane>(point, normal);
+std::unique_ptr<Surface> make_plane(const Vector3d& point, const Vector3d& normal, double radius) {
+  return std::make_unique<Plane>(point, normal, radius);
 }
 
 std::unique_ptr<Surface> make_sphere(const Vector3d& center, double radius, bool solid_inside) {
   return std::make_unique<Sphere>(center, radius, solid_inside);
 }
 
-std::unique_ptr<Surface> make_cylinder(const Vector3d& point,
-                                       const Vector3d& axis,
-                                       double radius,
-                                       bool solid_inside) {
-  return std::make_unique<Cylinder>(point, axis, radius, solid_inside);
+std::unique_ptr<Surface> make_cylinder(
+    const Vector3d& point, const Vector3d& axis, double radius, bool solid_inside, double length) {
+  return std::make_unique<Cylinder>(point, axis, radius, solid_inside, length);
 }
 
 std::unique_ptr<Surface> make_torus(

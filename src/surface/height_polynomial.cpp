@@ -36,10 +36,12 @@ class HeightPolynomial final : public Surface {
   HeightPolynomial(const Vector3d& origin,
                    const Matrix3d& axes,
                    const std::vector<PolynomialTerm>& terms,
-                   bool solid_inside)
+                   bool solid_inside,
+                   double radius)
       : origin_(origin),
         axes_(checked_axes(axes, "polynomial: axes")),
-        sign_(solid_inside ? 1 : -1) {
+        sign_(solid_inside ? 1 : -1),
+        radius_(checked_bound(radius, "polynomial: radius")) {
     for (const PolynomialTerm& term : terms) {
       check(term);
       rows_ = std::max(rows_, term.i + 1);
@@ -81,9 +83,30 @@ class HeightPolynomial final : public Surface {
     x[2] = height(x[0], x[1]).h;
     return origin_ + axes_ * x;
   }
-  [[nodiscard]] std::vector<Place> samples(double) const override { return {}; }
+  [[nodiscard]] double edge_distance(const Place& place) const override {
+    if (std::isinf(radius_)) return radius_;
+    return radius_ - (axes_.leftCols<2>().transpose() * (place - origin_)).norm();
+  }
+  [[nodiscard]] std::vector<Place> samples(double spacing) const override {
+    std::vector<Place> places;
+    if (std::isinf(radius_)) return places;
+    for (const Eigen::Vector2d& at : disc_samples(radius_, spacing / steepness(spacing)))
+      places.push_back(origin_ + axes_ * Vector3d(at.x(), at.y(), height(at.x(), at.y()).h));
+    return places;
+  }
 
  private:
+  /// How much longer than its shadow a way on the surface may be.
+  [[nodiscard]] double steepness(double spacing) const {
+    constexpr double kMost = 4;
+    double steepest = 1;
+    for (const Eigen::Vector2d& at : disc_samples(radius_, 2 * spacing)) {
+      const Height z = height(at.x(), at.y());
+      steepest = std::max(steepest, std::hypot(1.0, z.h_x, z.h_y));
+    }
+    return std::min(steepest, kMost);
+  }
+
   static void check(const PolynomialTerm& term) {
     const auto fits = [](int exponent) { return exponent >= 0 && exponent <= kHighestExponent; };
     if (fits(term.i) && fits(term.j) && std::isfinite(term.a)) return;
@@ -108,7 +131,7 @@ class HeightPolynomial final : public Surface {
 
   Vector3d origin_;
   Matrix3d axes_;
-  double sign_;
+  double sign_, radius_;
   int rows_ = 1, columns_ = 1;
   std::vector<double> coefficients_;  ///< of x^i y^j at [i columns_ + j]
 };
@@ -118,8 +141,9 @@ class HeightPolynomial final : public Surface {
 std::unique_ptr<Surface> make_polynomial(const Vector3d& origin,
                                          const Matrix3d& axes,
                                          std::vector<PolynomialTerm> terms,
-                                         bool solid_inside) {
-  return std::make_unique<HeightPolynomial>(origin, axes, std::move(terms), solid_inside);
+                                         bool solid_inside,
+                                         double radius) {
+  return std::make_unique<HeightPolynomial>(origin, axes, std::move(terms), solid_inside, radius);
 }
 
 }  // namespace condyle

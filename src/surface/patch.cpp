@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "math/simd.h"
 #include "surface/bspline_basis.h"
 
 namespace condyle {
@@ -107,22 +108,6 @@ Patch::Direction Patch::make_direction(const std::vector<double>& knots, int deg
 }
 
 namespace {
-
-// The helpers below never cross a library's border, so how vectors are passed does not matter.
-#pragma GCC diagnostic ignored "-Wpsabi"
-
-/// Four numbers at once (GCC and Clang): two SSE2 registers, or one of AVX where the build allows
-/// it.
-using Four = double __attribute__((vector_size(32)));
-
-// A second body of the hot loop for processors with fused multiply-add, chosen when the program
-// starts.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define CONDYLE_FMA_CLONE __attribute__((target_clones("default", "fma")))
-#else
-#define CONDYLE_FMA_CLONE
-#endif
 
 /// The bicubic case in one go: basis functions of both directions from their polynomials (16
 /// coefficients each, at x and y within the span, continued by `beyond`), then the 16 control
@@ -272,6 +257,7 @@ SurfacePoint Patch::evaluate_frame(const Place& place) const {
 }
 
 /// Normal, reciprocal base g_u, g_v and K = Σ (n.c_ab) g_a g_b (theory section 2).
+CONDYLE_FMA_CLONE
 SurfacePoint Patch::point_from(const PatchDerivatives& d) const {
   const Eigen::Vector3d N = d.c_u.cross(d.c_v);
   const double area = std::max(N.norm(), 1e-300);

@@ -59,6 +59,9 @@ class Surface {
     return std::numeric_limits<double>::infinity();
   }
 
+  /// Are the principal curvatures the same everywhere (plane, sphere, cylinder)?
+  [[nodiscard]] virtual bool bends_evenly() const { return false; }
+
   /// Places that cover the surface, neighbours about `spacing` [mm] apart, for the search for
   /// contacts. Empty for a surface without bounds (plane, cylinder): then the other surface of a
   /// pair is sampled.

@@ -1,80 +1,21 @@
 /// The program itself, as a user runs it: exit codes, one line for a mistake, no half-written file.
 
-#include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include "app/run_program.h"
 
 #include <algorithm>
-#include <csignal>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <cmath>
 
 #include "results/run_file.h"
-#include "scene/small_scene.h"
 
 namespace condyle {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Outcome {
-  int code = -1;
-  std::string out, err;
-};
-
-std::string contents(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-// A ball on a plateau that turns about the ball's centre: the position of equilibrium is known.
-const std::string kScene = with(kSmallScene, "to = 120", "to = 20");
-
-class CommandLine : public testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / ("condyle_app_" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-    write("knee.toml", kScene);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-  }
-  [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
-
-  /// Runs the program in the folder; `prefix` are shell commands before it.
-  [[nodiscard]] Outcome run(const std::string& arguments, const std::string& prefix = "") const {
-    const std::string command = "cd '" + folder_.string() + "' && " + prefix +
-                                "'" CONDYLE_PROGRAM "' " + arguments +
-                                " > stdout.txt 2> stderr.txt";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder_ / "stdout.txt"),
-            contents(folder_ / "stderr.txt")};
-  }
-
-  /// Names in the folder apart from the scene and the captured output.
-  [[nodiscard]] std::vector<std::string> results() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_)) {
-      const std::string name = entry.path().filename().string();
-      if (name != "knee.toml" && name != "stdout.txt" && name != "stderr.txt")
-        names.push_back(name);
-    }
-    return names;
-  }
-
-  fs::path folder_;
-};
-
-void expect_bad_input(const Outcome& outcome, const std::string& message) {
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_EQ(outcome.err, "condyle: " + message + "\n");
-}
+using test::CommandLine;
+using test::expect_bad_input;
+using test::kScene;
+using test::Outcome;
 
 TEST_F(CommandLine, ChecksAScene) {
   const Outcome outcome = run("check knee.toml");
@@ -146,11 +87,13 @@ TEST_F(CommandLine, NamesAFolderThatIsNotThereBeforeItComputes) {
   EXPECT_EQ(outcome.out, "");
 }
 
-TEST_F(CommandLine, LeavesNothingBehindOnAFullDisk) {
+TEST_F(CommandLine, LeavesNothingButItsJournalOnAFullDisk) {
   // A limit of 2 blocks on the size of files stands for a full disk.
   const Outcome outcome = run("sweep knee.toml -o run.h5", "trap '' XFSZ; ulimit -f 8; ");
-  expect_bad_input(outcome, "run.h5: cannot be written: File too large");
-  EXPECT_TRUE(results().empty());
+  expect_bad_input(outcome,
+                   "run.h5: cannot be written: File too large (its poses are in run.h5.journal: "
+                   "--resume takes them over)");
+  EXPECT_EQ(results(), std::vector<std::string>{"run.h5.journal"});
 }
 
 TEST_F(CommandLine, FitsOnlyWhatIsAPatch) {
@@ -161,6 +104,19 @@ TEST_F(CommandLine, FitsOnlyWhatIsAPatch) {
 TEST_F(CommandLine, SaysWhichRangeLeadsNowhere) {
   expect_bad_input(run("sweep knee.toml -o run.h5 --step -1"),
                    "--from, --to, --step: step = -1, expected a step > 0 to get from 0 to 20");
+}
+
+TEST_F(CommandLine, NamesTheRangeInTheNumbersOfTheScene) {
+  write("knee.toml", kSmallScene);  // to 120 degrees, which is 119.99999999999999 by way of radians
+  expect_bad_input(run("sweep knee.toml -o run.h5 --step 0"),
+                   "--from, --to, --step: step = 0, expected a step > 0 to get from 0 to 120");
+}
+
+TEST_F(CommandLine, TakesNoEmptyTextForANumber) {
+  for (const char* option : {"--from", "--to", "--step"}) {
+    expect_bad_input(run("sweep knee.toml -o run.h5 " + std::string(option) + " ''"),
+                     std::string(option) + ": expected a number (condyle --help says more)");
+  }
 }
 
 TEST_F(CommandLine, NeedsASweep) {

@@ -99,5 +99,37 @@ TEST(Contact, StaysFiniteWhereTheCurvatureVanishes) {
   EXPECT_NEAR(line.relative_curvature[1], 0.1, 1e-15);
 }
 
+// A point at the end of a roller stays there while the roller moves, also along its axis and turned
+// a little about the normal: the point of the floor follows.
+TEST(Contact, APointAtTheEndOfALineStaysThere) {
+  const auto plane = make_plane({0, 0, 0}, {0, 0, 1});
+  const auto roll = make_cylinder({0, 0, 0}, {1, 0, 0}, 10, true, 30);
+  const RigidTransform X{exp_rotation({0, 0, 0.3}), {2, 3, 10}};
+  Place on_A(15, 0, -10), on_B = X * on_A;
+  const ContactLinearization contact = linearize_contact(*plane, on_B, *roll, on_A, X);
+  const Eigen::Vector3d da(0.2, -0.1, 0);
+  const Eigen::Vector3d dpi = 0.01 * X.R.col(0) + 0.02 * Eigen::Vector3d::UnitZ();  // stays level
+  slide_contact(*plane, on_B, *roll, on_A, contact, X, da, dpi, 100);
+  EXPECT_NEAR(on_A.x(), 15, 1e-12);
+  const RigidTransform moved = test::displaced(X, da, dpi);
+  EXPECT_LT((moved * on_A - on_B).norm(), 5e-3);  // of second order in the turn of 0.02
+  // Where the floor ends first, the point of the floor stays and that of the roller follows.
+  const auto short_floor = make_plane(X * Place(10, 0, -10) - 8 * X.R.col(0), {0, 0, 1}, 8);
+  Place at_A(10, 0, -10), at_B = X * at_A;
+  const Place before = at_B;
+  const ContactLinearization at = linearize_contact(*short_floor, at_B, *roll, at_A, X);
+  slide_contact(*short_floor, at_B, *roll, at_A, at, X, 0.2 * X.R.col(0), {0, 0, 0}, 100);
+  EXPECT_LT((at_B - before).norm(), 1e-12);
+  EXPECT_NEAR(at_A.x(), 9.8, 1e-12);
+}
+
+TEST(Contact, LeastCurvatureLiesAlongTheLine) {
+  const auto plane = make_plane({0, 0, 0}, {0, 0, 1});
+  const auto roll = make_cylinder({0, 0, 0}, {1, 0, 0}, 10, true);
+  const RigidTransform X{exp_rotation({0, 0, 0.3}), {0, 0, 10}};
+  const ContactLinearization line = linearize_contact(*plane, {0, 0, 0}, *roll, {0, 0, -10}, X);
+  EXPECT_NEAR(std::abs(direction_of_least_curvature(line, X.R).dot(X.R.col(0))), 1, 1e-14);
+}
+
 }  // namespace
 }  // namespace condyle

@@ -4,32 +4,19 @@
 
 #include <cmath>
 
+#include "equilibrium/sweep.h"
 #include "math/rotation.h"
 #include "support/report_problems.h"
+#include "support/truss.h"
 
 namespace condyle {
 namespace {
 
-struct Swept {
-  std::vector<Event> events;
-  std::vector<PoseResult> poses;
-};
-
-/// Sweeps one value of the model and locates the events, as the sweep of a scene does.
-Swept run(EquilibriumSolver& solver, double& swept, const std::vector<double>& values) {
-  Swept result;
-  std::optional<SolvedPose> last;
-  for (const double value : values) {
-    swept = value;
-    PoseResult pose = solver.solve();
-    EXPECT_TRUE(is_solved(pose)) << value << ": " << pose.reason;
-    const SolvedPose now{value, pose, solver.state()};
-    if (last) locate_events(solver, swept, *last, now, result.events);
-    swept = value;
-    solver.set_state(now.state);
-    last = now;
-    result.poses.push_back(std::move(pose));
-  }
+/// The sweep of one value of a model that is solved everywhere.
+SweepResult run(EquilibriumSolver& solver, double& swept, const std::vector<double>& values) {
+  const SweepResult result = sweep(solver, swept, values);
+  for (const PoseResult& pose : result.poses)
+    EXPECT_TRUE(is_solved(pose)) << pose.value << ": " << pose.reason;
   return result;
 }
 
@@ -40,7 +27,7 @@ TEST(Events, ContactOpensWhereThePullEqualsItsForceAndClosesThereAgain) {
   Model model = test::Problem1::model(0, 1);  // a pull of 1 N, scaled by the sweep
   model.start.R = exp_rotation({0, -1.3, 0});
   EquilibriumSolver solver(std::move(model));
-  const Swept result = run(solver, solver.model().loads[1].scale, {0, 20, 40, 20, 0});
+  const SweepResult result = run(solver, solver.model().loads[1].scale, {0, 20, 40, 20, 0});
   ASSERT_EQ(result.events.size(), 2u);
   EXPECT_EQ(result.events[0].kind, EventKind::kOpening);
   EXPECT_EQ(result.events[1].kind, EventKind::kClosing);
@@ -89,13 +76,44 @@ TEST(Events, AContactThatJumpsBetweenTwoRidgesDoesSoHalfWay) {
   model.start.p = {-3, 0, 62};
   model.length = 30;
   EquilibriumSolver solver(std::move(model));
-  const Swept result = run(solver, solver.model().conditions[0].value, {-3, -1.1, 0.9, 3});
+  const SweepResult result = run(solver, solver.model().conditions[0].value, {-3, -1.1, 0.9, 3});
   for (const PoseResult& pose : result.poses) EXPECT_TRUE(pose.converged()) << pose.reason;
   ASSERT_EQ(result.events.size(), 1u);
   EXPECT_EQ(result.events[0].kind, EventKind::kJump);
   // Half way by symmetry, as far as an overlap of 5e-7 mm tells the ridges apart (the gaps differ
   // by 0.3 per mm).
   EXPECT_NEAR(result.events[0].value, 0, 2e-6);
+}
+
+// A flat truss snaps through under its limit load, known in closed form, in either direction.
+TEST(Events, ASnapThroughIsALimitPoint) {
+  using test::Truss;
+  EquilibriumSolver solver(Truss::model());
+  const SweepResult result =
+      run(solver, solver.model().loads[0].scale, {0, 4, 8, 12, 4, -4, -8, -12});
+  EXPECT_LT(result.poses[3].X_BA.p.z(), -Truss::h);
+  EXPECT_GT(result.poses.back().X_BA.p.z(), Truss::h);
+  ASSERT_EQ(result.events.size(), 2u);
+  for (const Event& event : result.events) {
+    EXPECT_EQ(event.kind, EventKind::kLimitPoint);
+    EXPECT_EQ(event.contact, -1);
+  }
+  EXPECT_NEAR(result.events[0].value, Truss::limit_load(), 2e-9);
+  EXPECT_NEAR(result.events[1].value, -Truss::limit_load(), 2e-9);
+}
+
+// Where the apex lands on a floor, the snap and the closing happen at the same load.
+TEST(Events, ASnapThroughThatClosesAContactIsBoth) {
+  using test::Truss;
+  Model model = Truss::with_floor();
+  model.pairs[0].on_B = make_plane({0, 0, -3}, {0, 0, 1});  // the ball meets it at z = -2
+  EquilibriumSolver solver(std::move(model));
+  const SweepResult result = run(solver, solver.model().loads[0].scale, {0, 5, 10});
+  ASSERT_EQ(result.events.size(), 2u);
+  EXPECT_EQ(result.events[0].kind, EventKind::kLimitPoint);
+  EXPECT_EQ(result.events[1].kind, EventKind::kClosing);
+  for (const Event& event : result.events) EXPECT_NEAR(event.value, Truss::limit_load(), 2e-9);
+  EXPECT_NEAR(result.poses.back().X_BA.p.z(), -2, 1e-9);
 }
 
 }  // namespace

@@ -45,14 +45,17 @@ void expect_same_point(const ContactPointResult& a, const ContactPointResult& b)
 
 TEST_F(RunFile, GivesBackTheEvents) {
   condyle::Run run = made_up_run();
-  run.sweep.events = {{0.25, EventKind::kOpening, 0}, {0.5, EventKind::kJump, 0}};
+  run.sweep.events = {{0.25, EventKind::kOpening, 0},
+                      {0.5, EventKind::kJump, 0},
+                      {0.75, EventKind::kLimitPoint, -1}};
   write_run(path_, run);
   const condyle::Run back = read_run(path_);
-  ASSERT_EQ(back.sweep.events.size(), 2U);
+  ASSERT_EQ(back.sweep.events.size(), 3U);
   EXPECT_NEAR(back.sweep.events[0].value, 0.25, 1e-16);  // to degrees and back
   EXPECT_EQ(back.sweep.events[0].kind, EventKind::kOpening);
   EXPECT_EQ(back.sweep.events[1].kind, EventKind::kJump);
   EXPECT_EQ(back.sweep.events[1].contact, 0);
+  EXPECT_EQ(back.sweep.events[2].contact, -1);  // of the path, of no contact
 }
 
 TEST_F(RunFile, GivesBackThePoses) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "results/made_up_run.h"
 
 namespace condyle {
@@ -27,6 +29,14 @@ TEST(SweepTable, SaysWhyAPoseFailed) {
   EXPECT_EQ(failures(run.scene, run.sweep)[0], std::string("bend = 5.72958 deg: ") +
                                                    name(PoseStatus::kSingular) +
                                                    ": nothing resists turning about x");
+}
+
+TEST(EventLines, NameTheContactWhereOneIsMeant) {
+  condyle::Run run = made_up_run();
+  run.sweep.events = {{0.5 * M_PI, EventKind::kOpening, 0}, {M_PI, EventKind::kLimitPoint, -1}};
+  EXPECT_EQ(event_lines(run.scene, run.sweep),
+            (std::vector<std::string>{"medial: opening at 90.000000 deg",
+                                      "limit point at 180.000000 deg"}));
 }
 
 TEST(Summary, CountsAndNamesTheLargest) {

@@ -103,6 +103,16 @@ INSTANTIATE_TEST_SUITE_P(
             "(is fixed = true missing?)"}));
 
 INSTANTIATE_TEST_SUITE_P(
+    ContactTwice,
+    BadScene,
+    testing::Values(Mistake{
+        "surfaces = [\"ball\", \"plateau\"]\n",
+        "surfaces = [\"ball\", \"plateau\"]\n\n[[contact]]\nname = \"again\"\n"
+        "surfaces = [\"plateau\", \"ball\"]\n",
+        "41: [[contact]] \"again\": surfaces = [\"plateau\", \"ball\"], expected two surfaces "
+        "that are not yet in contact \"medial\": a contact finds all its points by itself"}));
+
+INSTANTIATE_TEST_SUITE_P(
     Joint,
     BadScene,
     testing::Values(
@@ -173,6 +183,39 @@ INSTANTIATE_TEST_SUITE_P(
 
 // A patch needs a mesh; its file is looked for by read_scene only.
 const std::string kSphere = "kind = \"sphere\"\ncenter = [0, 20, 0]\nradius = 20";
+INSTANTIATE_TEST_SUITE_P(
+    BoundsAndElasticity,
+    BadScene,
+    testing::Values(
+        Mistake{"normal = [0, 1, 0]", "normal = [0, 1, 0]\nradius = -1",
+                "34: [[surface]] \"plateau\": radius = -1, expected a radius of the part that is "
+                "known > 0"},
+        Mistake{"kind = \"sphere\"\ncenter = [0, 20, 0]",
+                "kind = \"cylinder\"\npoint = [0, 20, 0]\naxis = [0, 0, 1]\nlength = 0",
+                "27: [[surface]] \"ball\": length = 0, expected a length > 0"},
+        Mistake{
+            "kind = \"sphere\"\ncenter = [0, 20, 0]",
+            "kind = \"cylinder\"\npoint = [0, 20, 0]\naxis = [0, 0, 1]",
+            "38: [[contact]] \"medial\": surfaces = [\"ball\", \"plateau\"], expected bounds of "
+            "\"ball\" or of \"plateau\": radius of a plane or a polynomial, length of a "
+            "cylinder"},
+        Mistake{"radius = 20", "radius = 20\nmodulus = 0",
+                "27: [[surface]] \"ball\": modulus = 0, expected a modulus (force/length^2) > 0"},
+        Mistake{"radius = 20", "radius = 20\nmodulus = 5\npoisson = 0.5",
+                "28: [[surface]] \"ball\": poisson = 0.5, expected Poisson's ratio, at least 0 and "
+                "less than 0.5"},
+        Mistake{"radius = 20", "radius = 20\nlayer = 3",
+                "27: [[surface]] \"ball\": layer = 3, expected a modulus beside it"},
+        Mistake{"radius = 20", "radius = 20\nmodulus = 5\nlayer = 0",
+                "28: [[surface]] \"ball\": layer = 0, expected a thickness (none: elastic "
+                "throughout) > 0"},
+        Mistake{
+            "radius = 20\n\n[[surface]]\nname = \"plateau\"",
+            "radius = 20\nmodulus = 5\nlayer = 2\n\n[[surface]]\nmodulus = 9\nname = "
+            "\"plateau\"",
+            "40: [[contact]] \"medial\": surfaces = [\"ball\", \"plateau\"], expected layers on "
+            "both or on neither (\"ball\" has a layer, \"plateau\" is elastic throughout)"}));
+
 const std::string kPatch = "kind = \"patch\"\nmesh = \"a.stl\"\ncompartment = \"medial\"";
 INSTANTIATE_TEST_SUITE_P(
     Patches,
@@ -334,6 +377,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "59: [sweep]: from = 0, expected either values or from, to and step, not both"},
         Mistake{"from = 0\nto = 120\nstep = 5", "values = []",
                 "59: [sweep]: values = [], expected values [v1, v2, ...]"},
+        Mistake{"step = 5", "step = 5\npath = \"arc lenght\"",
+                "62: [sweep]: path = \"arc lenght\", expected \"steps\" or \"arc length\"; did you "
+                "mean \"arc length\"?"},
         Mistake{"step = 5", "setp = 5",
                 "61: [sweep]: unknown key setp = 5, did you mean \"step\"?"}));
 

@@ -50,6 +50,32 @@ TEST(ReadScene, TakesTheSlackLengthFromTheStrainAtTheStartPose) {
   EXPECT_DOUBLE_EQ(*scene.ligaments[0].reference_strain, 0.1);
 }
 
+// Scenes in cm: a modulus of 500 N/cm² is 5 N/mm².
+TEST(ReadScene, ReadsBoundsAndElasticity) {
+  std::string text = small_scene_with("length = \"mm\"", "length = \"cm\"");
+  text = with(text, "normal = [0, 1, 0]",
+              "normal = [0, 1, 0]\nradius = 3\nmodulus = 500\nlayer = 0.2");
+  text = with(text, "kind = \"sphere\"\ncenter = [0, 20, 0]",
+              "kind = \"cylinder\"\npoint = [0, 20, 0]\naxis = [0, 0, 1]\nlength = 4");
+  const Scene scene = parse_scene(text, "knee.toml");
+  EXPECT_DOUBLE_EQ(scene.surfaces[0].length, 40);
+  EXPECT_FALSE(scene.surfaces[0].elastic);
+  EXPECT_DOUBLE_EQ(scene.surfaces[1].known_radius, 30);
+  ASSERT_TRUE(scene.surfaces[1].elastic);
+  EXPECT_DOUBLE_EQ(scene.surfaces[1].elastic->modulus, 5);
+  EXPECT_DOUBLE_EQ(scene.surfaces[1].elastic->poisson, 0.45);
+  EXPECT_DOUBLE_EQ(scene.surfaces[1].elastic->layer, 2);
+}
+
+// An open contact is never looked for, so both its surfaces may go on for ever.
+TEST(ReadScene, AnOpenContactNeedsNoBounds) {
+  std::string text = with(kSmallScene, "kind = \"sphere\"\ncenter = [0, 20, 0]",
+                          "kind = \"cylinder\"\npoint = [0, 20, 0]\naxis = [0, 0, 1]");
+  text = with(text, "surfaces = [\"ball\", \"plateau\"]",
+              "surfaces = [\"ball\", \"plateau\"]\nstate = \"open\"");
+  EXPECT_EQ(parse_scene(text, "knee.toml").contacts[0].state, ContactState::kOpen);
+}
+
 TEST(ReadScene, StartsFromJointAngles) {
   const Scene scene = parse_scene(
       small_scene_with("start.rotation = [0, 0, 0]", "start.flexion = 90"), "knee.toml");

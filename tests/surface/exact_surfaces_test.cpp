@@ -303,5 +303,65 @@ TEST(ExactSurfaces, EvaluatingAndMovingAllocateNothing) {
   }
 }
 
+/// Bounded surfaces: how far their farthest sample lies from the edge, and how near any two
+/// neighbours.
+struct BoundedCase {
+  const char* name;
+  std::unique_ptr<Surface> surface;
+  Vector3d within, on_edge, beyond;  // with the distances 2, 0 and -1
+};
+
+std::vector<BoundedCase> bounded_surfaces() {
+  const Matrix3d I = Matrix3d::Identity();
+  const Vector3d z = Vector3d::UnitZ();
+  std::vector<BoundedCase> all;
+  all.push_back({"plane", make_plane({1, 2, 3}, z, 10), {9, 2, 3}, {1, 12, 3}, {-10, 2, 3}});
+  all.push_back(
+      {"cylinder", make_cylinder({1, 2, 3}, z, 5, true, 20), {6, 2, 11}, {1, 7, -7}, {1, 7, 14}});
+  all.push_back({"polynomial",
+                 make_polynomial(Vector3d::Zero(), I, {{2, 0, 0.05}}, true, 10),
+                 {8, 0, 3.2},
+                 {0, 10, 0},
+                 {0, -11, 0}});
+  return all;
+}
+
+TEST(ExactSurfaces, KnowTheirBounds) {
+  for (const BoundedCase& c : bounded_surfaces()) {
+    EXPECT_NEAR(c.surface->edge_distance(c.within), 2, 1e-14) << c.name;
+    EXPECT_NEAR(c.surface->edge_distance(c.on_edge), 0, 1e-14) << c.name;
+    EXPECT_NEAR(c.surface->edge_distance(c.beyond), -1, 1e-14) << c.name;
+  }
+  EXPECT_EQ(make_cylinder({0, 0, 0}, {0, 0, 1}, 5, true)->edge_distance({5, 0, 1e6}), kUnbounded);
+  EXPECT_EQ(make_plane({0, 0, 0}, {0, 0, 1})->edge_distance({5, 1e6, 0}), kUnbounded);
+}
+
+// Every place within the bounds has a sample within the spacing, some samples lie on the edge
+// itself, and none beyond.
+TEST(ExactSurfaces, AreSampledUpToTheirBounds) {
+  constexpr double kSpacing = 1.5;
+  for (const BoundedCase& c : bounded_surfaces()) {
+    const std::vector<Place> samples = c.surface->samples(kSpacing);
+    double nearest_edge = 1e9, nearest = 1e9;
+    for (const Place& place : samples) {
+      EXPECT_GT(c.surface->edge_distance(place), -1e-12) << c.name;
+      nearest_edge = std::min(nearest_edge, std::abs(c.surface->edge_distance(place)));
+      nearest = std::min(nearest, (place - c.within).norm());
+      EXPECT_LT((c.surface->seed(place) - place).norm(), 1e-12) << c.name;
+    }
+    EXPECT_LT(nearest_edge, 1e-12) << c.name;
+    EXPECT_LT(nearest, kSpacing) << c.name;
+  }
+  EXPECT_TRUE(make_plane({0, 0, 0}, {0, 0, 1})->samples(1).empty());
+}
+
+TEST(ExactSurfaces, RefuseBoundsThatBoundNothing) {
+  EXPECT_THROW((void)make_plane(Vector3d::Zero(), Vector3d::UnitZ(), 0), InputError);
+  EXPECT_THROW((void)make_cylinder(Vector3d::Zero(), Vector3d::UnitZ(), 1, true, -2), InputError);
+  EXPECT_THROW((void)make_polynomial(Vector3d::Zero(), Matrix3d::Identity(), {{1, 0, 1}}, true,
+                                     std::nan("")),
+               InputError);
+}
+
 }  // namespace
 }  // namespace condyle

@@ -1,0 +1,39 @@
+#pragma once
+
+/// What does not agree with unilateral contact at a position of equilibrium.
+
+#include <optional>
+#include <vector>
+
+#include "equilibrium/contact_search.h"
+#include "equilibrium/newton.h"
+
+namespace condyle {
+
+struct Fault {
+  int pulling = -1;                      ///< the contact of the state that pulls most
+  std::optional<ClosedContact> overlap;  ///< the deepest overlap that is no contact yet
+  [[nodiscard]] bool any() const { return pulling >= 0 || overlap; }
+};
+
+class ContactRules {
+ public:
+  explicit ContactRules(const Model& model);
+
+  /// `system` assembled at the state, which is one of equilibrium with its contacts. Where one
+  /// pulls, overlaps are not looked for.
+  Fault fault(const NewtonSystem& system, const EquilibriumState& state);
+
+ private:
+  std::optional<ClosedContact> overlap(const EquilibriumState& state);
+  [[nodiscard]] bool is_known(const EquilibriumState& state,
+                              int pair,
+                              const GapMinimum& minimum) const;
+  [[nodiscard]] const ContactPair& pair_of(const ClosedContact& contact) const;
+
+  const Model& model_;
+  std::vector<ContactSearch> searches_;
+  std::vector<GapMinimum> minima_;
+};
+
+}  // namespace condyle

@@ -1,0 +1,97 @@
+#include "equilibrium/predictor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/rotation.h"
+
+namespace condyle {
+namespace {
+
+constexpr double kLongestRatio = 2.5;  // of the step to the one before
+
+bool same_contacts(const EquilibriumState& a, const EquilibriumState& b) {
+  return std::equal(
+      a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(),
+      [](const ClosedContact& x, const ClosedContact& y) { return x.pair == y.pair; });
+}
+
+/// A place that was computed as if it were a number, brought back onto its surface.
+Place on_surface(const Surface& surface, const Place& place) {
+  return surface.moved(place, surface.evaluate_frame(place), Eigen::Vector3d::Zero());
+}
+
+}  // namespace
+
+void Predictor::add(const Drive& drive, const EquilibriumState& state) {
+  if (count_ > 0 && !same_contacts(known(0).state, state)) count_ = 0;
+  newest_ = (newest_ + 1) % kMost;
+  count_ = std::min(count_ + 1, kMost);
+  history_[static_cast<std::size_t>(newest_)].drive = drive;
+  history_[static_cast<std::size_t>(newest_)].state = state;
+}
+
+/// Where a known drive lies on the line from the newest (t = 0) to the target (t = 1).
+bool Predictor::position(const Drive& target, int back, double& t) const {
+  const Drive& newest = known(0).drive;
+  const Drive& old = known(back).drive;
+  double dot = 0, square = 0, old_square = 0;
+  const auto add = [&](const std::vector<double>& to, const std::vector<double>& from,
+                       const std::vector<double>& point) {
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      const double step = to[i] - from[i], way = point[i] - from[i];
+      dot += step * way;
+      square += step * step;
+      old_square += way * way;
+    }
+  };
+  add(target.values, newest.values, old.values);
+  add(target.scales, newest.scales, old.scales);
+  if (!(square > 0) || !(old_square > 0)) return false;
+  t = dot / square;
+  return std::abs(old_square - t * t * square) < 1e-12 * old_square &&
+         std::abs(t) > 1 / kLongestRatio;
+}
+
+bool Predictor::predict(const Drive& drive, EquilibriumState& state) {
+  double t1 = 0, t2 = 0;
+  if (count_ < 2 || !position(drive, 1, t1)) return false;
+  const bool parabola = count_ == 3 && position(drive, 2, t2) && std::abs(t2 - t1) > 0.4;
+  // Lagrange's weights at t = 1 of the knots 0, t1 and t2.
+  double weight[kMost] = {(1 - t1) / -t1, 1 / t1, 0};
+  if (parabola) {
+    weight[0] = (1 - t1) * (1 - t2) / (t1 * t2);
+    weight[1] = (1 - t2) / (t1 * (t1 - t2));
+    weight[2] = (1 - t1) / (t2 * (t2 - t1));
+  }
+  extrapolate(weight, parabola ? 3 : 2, state);
+  return true;
+}
+
+void Predictor::extrapolate(const double* weight, int points, EquilibriumState& state) const {
+  const EquilibriumState& newest = known(0).state;
+  state = newest;
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+  for (int k = 1; k < points; ++k) {
+    const EquilibriumState& old = known(k).state;
+    const double w = weight[k];
+    state.X.p += w * (old.X.p - newest.X.p);
+    turn += w * log_rotation(old.X.R * newest.X.R.transpose());
+    for (std::size_t c = 0; c < state.contacts.size(); ++c) {
+      ClosedContact& contact = state.contacts[c];
+      contact.on_B += w * (old.contacts[c].on_B - newest.contacts[c].on_B);
+      contact.on_A += w * (old.contacts[c].on_A - newest.contacts[c].on_A);
+      contact.p += w * (old.contacts[c].p - newest.contacts[c].p);
+    }
+    for (std::size_t i = 0; i < state.sigma.size(); ++i)
+      state.sigma[i] += w * (old.sigma[i] - newest.sigma[i]);
+  }
+  state.X.R = exp_rotation(turn) * newest.X.R;
+  for (ClosedContact& contact : state.contacts) {
+    const ContactPair& pair = model_.pairs[static_cast<std::size_t>(contact.pair)];
+    contact.on_B = on_surface(*pair.on_B, contact.on_B);
+    contact.on_A = on_surface(*pair.on_A, contact.on_A);
+  }
+}
+
+}  // namespace condyle

@@ -1,0 +1,36 @@
+#include <algorithm>
+
+#include "elements/contact.h"
+#include "equilibrium/contact_search.h"
+
+namespace condyle {
+
+bool refine_minimum(const Surface& on_B,
+                    Place& place_B,
+                    const Surface& on_A,
+                    Place& place_A,
+                    const RigidTransform& X_BA,
+                    double reach) {
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    const ContactLinearization contact = linearize_contact(on_B, place_B, on_A, place_A, X_BA);
+    if (iteration == 0) start = contact.B.c;
+    if (!contact.g.allFinite() || (contact.B.c - start).norm() > reach) return false;
+    // At a finite gap only the tangential part of g is an error.
+    const Eigen::Vector3d along = contact.gap() * contact.B.n;
+    const double slide = (contact.g - along).norm() + contact.h.norm() / 0.05;
+    if (slide < 1e-11) return contact.relative_curvature[0] > 0;
+    Eigen::Vector3d dc = contact.D0;
+    Eigen::Vector3d dc_A = dc - (contact.g - along);
+    const double longest = std::max(dc.norm(), dc_A.norm());
+    if (longest > reach) {
+      dc *= reach / longest;
+      dc_A *= reach / longest;
+    }
+    place_B = on_B.moved(place_B, contact.B, dc);
+    place_A = on_A.moved(place_A, contact.A, X_BA.R.transpose() * dc_A);
+  }
+  return false;
+}
+
+}  // namespace condyle

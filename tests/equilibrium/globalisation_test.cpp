@@ -1,0 +1,95 @@
+/// Poor starts and long ways come to the same pose; and nothing is allocated on the way.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "equilibrium/equilibrium_solver.h"
+#include "support/allocation_count.h"
+#include "support/quadric_knee.h"
+#include "support/random.h"
+
+namespace condyle {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+
+/// A pose displaced by up to 8 mm along each axis, 16 degrees about the flexion axis and 8 degrees
+/// about the others: far into overlaps and gaps.
+RigidTransform displaced(const RigidTransform& X, test::Random& random) {
+  const Eigen::Vector3d turn(random.between(-16, 16), random.between(-8, 8), random.between(-8, 8));
+  const Eigen::Vector3d way = random.vector(8);
+  return {exp_rotation(kDegree * turn) * X.R, X.p + way};
+}
+
+struct Count {
+  int lost = 0, elsewhere = 0;
+  void add(const PoseResult& pose, const PoseResult& expected) {
+    lost += pose.converged() ? 0 : 1;
+    const double away =
+        (pose.X_BA.p - expected.X_BA.p).norm() + (pose.X_BA.R - expected.X_BA.R).norm();
+    elsewhere += pose.converged() && away > 1e-8 ? 1 : 0;
+  }
+};
+
+class DisplacedStarts : public testing::TestWithParam<unsigned> {
+ protected:
+  static Model knee() {
+    Model model = test::quadric_knee();
+    model.conditions[0].value = 35 * kDegree;
+    return model;
+  }
+};
+
+TEST_P(DisplacedStarts, AHundredComeToOnePose) {
+  EquilibriumSolver reference(knee());
+  const PoseResult expected = reference.solve();
+  ASSERT_TRUE(expected.converged()) << expected.reason;
+  test::Random random(GetParam());
+  Count count;
+  for (int trial = 0; trial < 100; ++trial) {
+    Model model = knee();
+    model.start = displaced(expected.X_BA, random);
+    EquilibriumSolver solver(std::move(model));
+    count.add(solver.solve(), expected);
+  }
+  EXPECT_EQ(count.lost, 0);
+  EXPECT_EQ(count.elsewhere, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(FiveTimes, DisplacedStarts, testing::Values(1u, 2u, 3u, 4u, 5u));
+
+TEST(Globalisation, OneStepFrom0To120DegreesLandsWhereSmallStepsLand) {
+  EquilibriumSolver walker(test::quadric_knee()), jumper(test::quadric_knee());
+  PoseResult walked;
+  for (int flexion = 0; flexion <= 120; flexion += 5) {
+    walker.model().conditions[0].value = flexion * kDegree;
+    walked = walker.solve();
+    ASSERT_TRUE(walked.converged()) << flexion << ": " << walked.reason;
+  }
+  ASSERT_TRUE(jumper.solve().converged());
+  jumper.model().conditions[0].value = 120 * kDegree;
+  const PoseResult jumped = jumper.solve();
+  ASSERT_TRUE(jumped.converged()) << jumped.reason;
+  EXPECT_LT((jumped.X_BA.p - walked.X_BA.p).norm(), 1e-8);
+}
+
+TEST(Globalisation, NothingIsAllocatedAfterTheFirstPoses) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "allocations are not counted here";
+  EquilibriumSolver solver(test::quadric_knee());
+  PoseResult pose;
+  const auto sweep = [&](int from, int to) {
+    for (int flexion = from; flexion <= to; flexion += 5) {
+      solver.model().conditions[0].value = flexion * kDegree;
+      solver.solve(pose);
+      ASSERT_TRUE(pose.converged()) << pose.reason;
+    }
+  };
+  sweep(0, 10);
+  const test::AllocationCount count;
+  sweep(15, 90);
+  EXPECT_EQ(count.since_start(), 0);
+}
+
+}  // namespace
+}  // namespace condyle

@@ -1,0 +1,216 @@
+/// Every status that is not "converged", reached on purpose, with a reason that names the culprit.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "equilibrium/equilibrium_solver.h"
+#include "support/quadric_knee.h"
+
+namespace condyle {
+namespace {
+
+KinematicCondition hold(ConditionKind kind, int axis, double value = 0) {
+  KinematicCondition condition;
+  condition.kind = kind;
+  condition.axis = Eigen::Vector3d::Unit(axis);
+  condition.cardan_axis = axis;
+  condition.value = value;
+  return condition;
+}
+
+/// A ball of radius 10 about A's origin over the floor z = 0, with a weight of 10 N.
+Model ball_on_floor() {
+  Model model;
+  ContactPair pair;
+  pair.name = "floor";
+  pair.on_B = make_plane({0, 0, 0}, {0, 0, 1});
+  pair.on_A = make_sphere({0, 0, 0}, 10, true);
+  model.pairs = {pair};
+  Load weight;
+  weight.vector = {0, 0, -10};
+  model.loads = {weight};
+  model.load_names = {"weight"};
+  model.start.p = {0, 0, 10.5};
+  model.length = 10;
+  return model;
+}
+
+void add(Model& model, const char* name, const KinematicCondition& condition) {
+  model.conditions.push_back(condition);
+  model.condition_names.emplace_back(name);
+}
+
+void add_spring(Model& model,
+                const char* name,
+                const Eigen::Vector3d& x_C,
+                const Eigen::Vector3d& s_D,
+                const ForceLaw& law) {
+  LineElement& element = model.elements.emplace_back();
+  element.x_C = x_C;
+  element.s_D = s_D;
+  element.law = law;
+  model.element_names.emplace_back(name);
+}
+
+PoseResult solve(Model model, const EquilibriumOptions& options = {}) {
+  EquilibriumSolver solver(std::move(model), options);
+  return solver.solve();
+}
+
+void expect_reason(const PoseResult& pose, PoseStatus status, const std::string& words) {
+  EXPECT_EQ(name(pose.status), std::string(name(status))) << pose.reason;
+  EXPECT_NE(pose.reason.find(words), std::string::npos) << pose.reason;
+}
+
+TEST(Status, ConditionsThatSayTheSameAreNamed) {
+  Model model = ball_on_floor();
+  add(model, "x", hold(ConditionKind::kTranslation, 0));
+  add(model, "other", hold(ConditionKind::kTranslation, 1));
+  add(model, "x again", hold(ConditionKind::kTranslation, 0));
+  expect_reason(solve(model), PoseStatus::kSingular,
+                "conditions \"x\" and \"x again\" depend on each other");
+}
+
+TEST(Status, ConditionsThatContradictEachOtherSaySo) {
+  Model model = ball_on_floor();
+  add(model, "x", hold(ConditionKind::kTranslation, 0, 0));
+  add(model, "x again", hold(ConditionKind::kTranslation, 0, 2));
+  expect_reason(solve(model), PoseStatus::kSingular,
+                "conditions \"x\" and \"x again\" depend on each other and cannot all hold");
+}
+
+// The floor and the condition both say how high the ball is.
+TEST(Status, AConditionThatRepeatsAContactIsNamedWithIt) {
+  for (const double height : {9.0, 12.0}) {
+    Model model = ball_on_floor();
+    model.start.p.z() = height;
+    model.pairs[0].mode = ContactMode::kClosed;
+    add(model, "height", hold(ConditionKind::kTranslation, 2, height));
+    expect_reason(solve(model), PoseStatus::kSingular,
+                  "condition \"height\" and contact \"floor\" depend on each other");
+  }
+}
+
+// Two fibres that would have to be longer than their ends are apart.
+TEST(Status, FibresThatCannotBothHaveTheirLengthAreNamed) {
+  Model model;
+  KinematicCondition left = hold(ConditionKind::kDistance, 0, 4), right = left;
+  left.x_C = {-10, 0, 0};
+  right.x_C = {10, 0, 0};
+  add(model, "left", left);
+  add(model, "right", right);
+  model.start.p = {1, 3, 1};
+  model.length = 10;
+  expect_reason(solve(model), PoseStatus::kSingular, "conditions \"left\" and \"right\"");
+}
+
+TEST(Status, SevenConditionsAreNamed) {
+  Model model = ball_on_floor();
+  for (int k = 0; k < 6; ++k)
+    add(model, "one of six",
+        hold(k < 3 ? ConditionKind::kTranslation : ConditionKind::kRotation, k % 3,
+             k == 2 ? 12 : 0));
+  add(model, "the seventh", hold(ConditionKind::kTranslation, 0));
+  expect_reason(solve(model), PoseStatus::kSingular, "\"the seventh\"");
+}
+
+// A moment about the vertical turns the ball on the spot: nothing resists.
+TEST(Status, ALoadThatNothingCarriesIsNamed) {
+  Model model = ball_on_floor();
+  model.loads[0].vector = {0, 0, 10};
+  model.load_names[0] = "balloon";
+  expect_reason(solve(model), PoseStatus::kNoEquilibrium, "\"balloon\"");
+}
+
+TEST(Status, ALineElementWithoutLengthIsNamed) {
+  Model model;
+  model.length = 10;
+  for (int k = 0; k < 3; ++k) add(model, "hold", hold(ConditionKind::kTranslation, k));
+  for (int k = 0; k < 3; ++k) add(model, "turn", hold(ConditionKind::kRotation, k));
+  add_spring(model, "point", {1, 2, 3}, {1, 2, 3}, QuadraticLaw{10, 5});
+  expect_reason(solve(model), PoseStatus::kZeroLength, "\"point\"");
+}
+
+TEST(Status, AForceThatOverflowsIsNamed) {
+  Model model = ball_on_floor();
+  CustomLaw law;
+  law.tension = [](double length) {
+    const double f = length > 20 ? std::numeric_limits<double>::infinity() : 1.0;
+    return Tension{f, 0, f};
+  };
+  add_spring(model, "bursting", {0, 0, 60}, {0, 0, 0}, law);
+  expect_reason(solve(model), PoseStatus::kDiverged, "\"bursting\"");
+}
+
+TEST(Status, AnIterationLimitSaysWhatIsStillOff) {
+  Model model = test::quadric_knee();
+  model.conditions[0].value = 1.5;
+  EquilibriumOptions options;
+  options.newton.max_iterations = 1;
+  options.descent.max_steps = 1;
+  expect_reason(solve(model, options), PoseStatus::kIterationLimit, "condition \"flexion\" is");
+}
+
+/// A floor that is known only where x < 0.
+class HalfFloor : public Surface {
+ public:
+  HalfFloor() : plane_(make_plane({0, 0, 0}, {0, 0, 1})) {}
+  [[nodiscard]] SurfacePoint evaluate(const Place& place) const override {
+    return plane_->evaluate(place);
+  }
+  [[nodiscard]] Place moved(const Place& place,
+                            const SurfacePoint& at,
+                            const Eigen::Vector3d& dc) const override {
+    return plane_->moved(place, at, dc);
+  }
+  [[nodiscard]] Place closest(const Eigen::Vector3d& p, const Place& start) const override {
+    return plane_->closest(p, start);
+  }
+  [[nodiscard]] Place seed(const Eigen::Vector3d& p) const override { return plane_->seed(p); }
+  [[nodiscard]] double edge_distance(const Place& place) const override { return -place.x(); }
+  [[nodiscard]] std::vector<Place> samples(double) const override { return {}; }
+
+ private:
+  std::unique_ptr<Surface> plane_;
+};
+
+TEST(Status, AContactBeyondTheKnownSurfaceIsNamed) {
+  Model model = ball_on_floor();
+  model.pairs[0].on_B = std::make_shared<HalfFloor>();
+  add(model, "x", hold(ConditionKind::kTranslation, 0, -1));
+  add(model, "y", hold(ConditionKind::kTranslation, 1));
+  for (int k = 0; k < 3; ++k) add(model, "turn", hold(ConditionKind::kRotation, k));
+  model.start.p.x() = -1;
+  EquilibriumSolver solver(std::move(model));
+  const PoseResult inside = solver.solve();
+  EXPECT_TRUE(inside.converged()) << inside.reason;
+  solver.model().conditions[0].value = 0.5;
+  expect_reason(solver.solve(), PoseStatus::kLeftPatch, "\"floor\"");
+}
+
+// Conditions hold the ball 3 mm deep in the floor, from which it cannot come.
+TEST(Status, ABodyHeldInsideTheOtherIsNamed) {
+  Model model = ball_on_floor();
+  add(model, "height", hold(ConditionKind::kTranslation, 2, 7));
+  model.start.p.z() = 7;
+  expect_reason(
+      solve(model), PoseStatus::kOverlap,
+      "condition \"height\" and contact \"floor\" depend on each other and cannot all hold");
+}
+
+// Two floors in one, held apart by no condition: a ball between two walls that are too near.
+TEST(Status, ABallThatDoesNotFitBetweenTwoWallsOverlaps) {
+  Model model = ball_on_floor();
+  ContactPair roof = model.pairs[0];
+  roof.name = "roof";
+  roof.on_B = make_plane({0, 0, 18}, {0, 0, -1});
+  model.pairs.push_back(roof);
+  model.start.p.z() = 9;
+  expect_reason(solve(model), PoseStatus::kOverlap,
+                "contacts \"floor\" and \"roof\" depend on each other and cannot all hold");
+}
+
+}  // namespace
+}  // namespace condyle
