@@ -261,8 +261,10 @@ void EquilibriumSolver::solve(PoseResult& result, bool patient) {
                   result);
     // Beyond the edge of a patch as well: the next pose may come back.
     if (result.status != PoseStatus::kOverlap) keep(next_);
-  } else {
+  } else if (patient) {
     explain_failure(*model_, newton_.system(), next_, attempt, result);
+  } else {
+    result.status = PoseStatus::kIterationLimit;
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }

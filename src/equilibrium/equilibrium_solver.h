@@ -39,7 +39,7 @@ class EquilibriumSolver {
 
   /// Solves from the last converged state, or from the model's start when there is none. The state
   /// is kept when the pose converges. Without patience a step that does not settle is not taken in
-  /// parts.
+  /// parts, and a failure is not explained.
   /// Allocates nothing once `result` and the solver have held a pose of this model.
   void solve(PoseResult& result, bool patient = true);
   PoseResult solve(bool patient = true);
