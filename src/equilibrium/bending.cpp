@@ -114,7 +114,11 @@ int Bending::nearest(const Eigen::Vector3d& point, int start) const {
 }
 
 double Bending::within(double radius, int sample, const Eigen::Matrix3d& K) {
-  if (even_) return 0.5 * K.norm();
+  if (even_) {
+    // A ball of radius R departs by t⁴/(8 R³) and more, at t = R by R/2; |K| = √2/R.
+    const double k = K.norm();
+    return 0.5 * k * (radius * k) * (radius * k);
+  }
   if (sample < 0) return kInfinity;
   const auto index = static_cast<std::size_t>(sample);
   if (allowance_[index][0] < 0) measure(index);

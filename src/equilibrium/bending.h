@@ -4,7 +4,7 @@
 ///
 /// Measured, not bounded by theory: at a sample of the surface the height of all others over the
 /// tangent plane is compared with ½ tᵀ K t. A surface without samples tells nothing, unless it
-/// bends evenly (plane, cylinder): then half its curvature is more than it departs within a radius.
+/// bends evenly (plane, sphere, cylinder).
 
 #include <Eigen/Core>
 

@@ -9,6 +9,7 @@
 
 #include "elements/contact.h"
 #include "equilibrium/line_contact.h"
+#include "math/simd.h"
 
 namespace condyle {
 namespace {
@@ -18,7 +19,7 @@ constexpr int kLeafSize = 8;
 // All in sample spacings:
 constexpr double kBeyondEdge = 2;  // how far beyond the known part a minimum may lie
 constexpr double kDeepest = 12;    // overlap that is still taken for one
-constexpr double kLargest = 10;    // radius of a cluster that is worth a look
+constexpr double kLargest = 40;    // radius of a cluster that is worth a look
 constexpr double kBendingSpacing = 2;
 constexpr double kSteep = 0.7;  // cosine between two normals below which quadrics say nothing
 
@@ -159,6 +160,7 @@ double ContactSearch::gap_of(int sample, const RigidTransform& X_from_to) {
 /// By how much the gap may be lower somewhere in the cluster than at its centre, which lies
 /// `tangential` beside the origin of the other surface's quadric; infinite where the surfaces are
 /// too steep for that.
+CONDYLE_FMA_CLONE
 double ContactSearch::drop_within(const Cluster& cluster,
                                   const Eigen::Vector3d& tangential,
                                   const RigidTransform& X_from_to) {
@@ -168,10 +170,9 @@ double ContactSearch::drop_within(const Cluster& cluster,
   const Eigen::Vector3d up = at.n - at.K * tangential;
   if (-up.dot(n) < kSteep) return kInfinity;
   const Eigen::Matrix3d& K = curvatures_[cluster.center];
-  const Eigen::Matrix3d RK = X_from_to.R * K;
+  const Eigen::Matrix3d RK = X_from_to.R * K, KR = at.K * X_from_to.R;
   const double trace = K.trace() + at.K.trace();
-  const double square = K.squaredNorm() + at.K.squaredNorm() +
-                        2 * (RK * X_from_to.R.transpose()).cwiseProduct(at.K).sum();
+  const double square = K.squaredNorm() + at.K.squaredNorm() + 2 * RK.cwiseProduct(KR).sum();
   Bending& bending = sampled_on_A_ ? bending_B_ : bending_A_;
   const double opening = -largest_principal(trace, square) - cluster.bend -
                          bending.within(tangential.norm() + r, cluster.other.near, at.K);
@@ -182,6 +183,7 @@ double ContactSearch::drop_within(const Cluster& cluster,
 
 /// Is the whole cluster shown to stay above the cutoff, by its quadric or by the way to its centre?
 /// First with the quadric of an earlier pose as it is, then with one at the foot of this pose.
+CONDYLE_FMA_CLONE
 bool ContactSearch::is_clear(Cluster& cluster, const RigidTransform& X_from_to, double cutoff) {
   Quadric& quadric = cluster.other;
   const Eigen::Vector3d p = X_from_to * points_[cluster.center];

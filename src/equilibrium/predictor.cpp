@@ -8,7 +8,7 @@
 namespace condyle {
 namespace {
 
-constexpr double kLongestRatio = 2.5;  // of the step to the one before
+constexpr double kLongestRatio = 2.5;  // of the step to the distance between two knots
 
 bool same_contacts(const EquilibriumState& a, const EquilibriumState& b) {
   return std::equal(
@@ -49,32 +49,39 @@ bool Predictor::position(const Drive& target, int back, double& t) const {
   add(target.scales, newest.scales, old.scales);
   if (!(square > 0) || !(old_square > 0)) return false;
   t = dot / square;
-  return std::abs(old_square - t * t * square) < 1e-12 * old_square &&
-         std::abs(t) > 1 / kLongestRatio;
+  return std::abs(old_square - t * t * square) < 1e-12 * old_square;
 }
 
 bool Predictor::predict(const Drive& drive, EquilibriumState& state) {
-  double t1 = 0, t2 = 0;
-  if (count_ < 2 || !position(drive, 1, t1)) return false;
-  const bool parabola = count_ == 3 && position(drive, 2, t2) && std::abs(t2 - t1) > 0.4;
-  // Lagrange's weights at t = 1 of the knots 0, t1 and t2.
-  double weight[kMost] = {(1 - t1) / -t1, 1 / t1, 0};
-  if (parabola) {
-    weight[0] = (1 - t1) * (1 - t2) / (t1 * t2);
-    weight[1] = (1 - t2) / (t1 * (t1 - t2));
-    weight[2] = (1 - t1) / (t2 * (t2 - t1));
+  Weights t{};  // of the knots; the newest is at 0, the target at 1
+  int points = count_ > 0 ? 1 : 0;
+  while (points > 0 && points < count_) {
+    const auto k = static_cast<std::size_t>(points);
+    if (!position(drive, points, t[k])) break;
+    // Knots that crowd together magnify what they leave out.
+    bool apart = true;
+    for (std::size_t i = 0; i < k; ++i) apart &= std::abs(t[i] - t[k]) > 1 / kLongestRatio;
+    if (!apart) break;
+    ++points;
   }
-  extrapolate(weight, parabola ? 3 : 2, state);
+  if (points < 2) return false;
+  Weights weight{};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(points); ++k) {
+    weight[k] = 1;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(points); ++i)
+      if (i != k) weight[k] *= (1 - t[i]) / (t[k] - t[i]);
+  }
+  extrapolate(weight, points, state);
   return true;
 }
 
-void Predictor::extrapolate(const double* weight, int points, EquilibriumState& state) const {
+void Predictor::extrapolate(const Weights& weight, int points, EquilibriumState& state) const {
   const EquilibriumState& newest = known(0).state;
   state = newest;
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
   for (int k = 1; k < points; ++k) {
     const EquilibriumState& old = known(k).state;
-    const double w = weight[k];
+    const double w = weight[static_cast<std::size_t>(k)];
     state.X.p += w * (old.X.p - newest.X.p);
     turn += w * log_rotation(old.X.R * newest.X.R.transpose());
     for (std::size_t c = 0; c < state.contacts.size(); ++c) {

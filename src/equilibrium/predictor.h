@@ -36,13 +36,15 @@ class Predictor {
     Drive drive;
     EquilibriumState state;
   };
+  static constexpr int kMost = 5;
+  using Weights = std::array<double, kMost>;  ///< of the known states, the newest first
+
   [[nodiscard]] const Known& known(int back) const {
     return history_[static_cast<std::size_t>((newest_ - back + kMost) % kMost)];
   }
   [[nodiscard]] bool position(const Drive& target, int back, double& t) const;
-  void extrapolate(const double* weight, int points, EquilibriumState& state) const;
+  void extrapolate(const Weights& weight, int points, EquilibriumState& state) const;
 
-  static constexpr int kMost = 3;
   const Model& model_;
   std::array<Known, kMost> history_;
   int count_ = 0, newest_ = 0;
