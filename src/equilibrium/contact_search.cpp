@@ -33,16 +33,29 @@ Eigen::Vector3d off_normal(const Eigen::Vector3d& v, const Eigen::Vector3d& n) {
   return v - v.dot(n) * n;
 }
 
+/// The spacing that is wanted, or a wider one where that would take too many samples: a small model on
+/// a large ball. The area is told by a coarse cover.
+double affordable_spacing(const Surface& surface, double wanted) {
+  constexpr double kCoarsest = 0x1p60;  // in units of the spacing that is wanted
+  constexpr std::size_t kEnough = 64, kMost = 20000;
+  for (double coarse = kCoarsest * wanted; coarse > wanted; coarse /= 2) {
+    const std::size_t n = surface.samples(coarse).size();
+    if (n < kEnough) continue;
+    return std::max(wanted, coarse * std::sqrt(static_cast<double>(n) / kMost));
+  }
+  return wanted;
+}
+
 }  // namespace
 
 ContactSearch::ContactSearch(const ContactPair& pair, double spacing)
     : on_B_(pair.on_B.get()),
       on_A_(pair.on_A.get()),
-      spacing_(spacing),
-      lines_(have_straight_lines(*on_B_, *on_A_, spacing)),
-      bending_B_(*on_B_, kBendingSpacing * spacing),
-      bending_A_(*on_A_, kBendingSpacing * spacing) {
-  const std::vector<Place> on_A = on_A_->samples(spacing), on_B = on_B_->samples(spacing);
+      spacing_(std::max(affordable_spacing(*on_B_, spacing), affordable_spacing(*on_A_, spacing))),
+      lines_(have_straight_lines(*on_B_, *on_A_, spacing_)),
+      bending_B_(*on_B_, kBendingSpacing * spacing_),
+      bending_A_(*on_A_, kBendingSpacing * spacing_) {
+  const std::vector<Place> on_A = on_A_->samples(spacing_), on_B = on_B_->samples(spacing_);
   sampled_on_A_ = !on_A.empty() && (on_B.empty() || on_A.size() <= on_B.size());
   places_ = sampled_on_A_ ? on_A : on_B;
   const Surface& sampled = sampled_on_A_ ? *on_A_ : *on_B_;
@@ -60,7 +73,7 @@ ContactSearch::ContactSearch(const ContactPair& pair, double spacing)
   near_.reserve(n);
   discs_.reserve(kMaxConstraints);
   std::iota(order_.begin(), order_.end(), 0);
-  neighbours_ = nearest_neighbours(points_, 1.6 * spacing);
+  neighbours_ = nearest_neighbours(points_, 1.6 * spacing_);
   if (n > 0) build(0, static_cast<int>(n));
 }
 
