@@ -33,8 +33,8 @@ Eigen::Vector3d off_normal(const Eigen::Vector3d& v, const Eigen::Vector3d& n) {
   return v - v.dot(n) * n;
 }
 
-/// The spacing that is wanted, or a wider one where that would take too many samples: a small model on
-/// a large ball. The area is told by a coarse cover.
+/// The spacing that is wanted, or a wider one where that would take too many samples: a small model
+/// on a large ball. The area is told by a coarse cover.
 double affordable_spacing(const Surface& surface, double wanted) {
   constexpr double kCoarsest = 0x1p60;  // in units of the spacing that is wanted
   constexpr std::size_t kEnough = 64, kMost = 20000;

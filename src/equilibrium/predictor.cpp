@@ -25,6 +25,13 @@ Place on_surface(const Surface& surface, const Place& place) {
 
 void Predictor::add(const Drive& drive, const EquilibriumState& state) {
   if (count_ > 0 && !same_contacts(known(0).state, state)) count_ = 0;
+  if (count_ == 0) {
+    for (Known& entry : history_) {  // room for what may come
+      entry.drive = drive;
+      entry.state.contacts.reserve(kMaxConstraints);
+      entry.state.sigma.reserve(state.sigma.size());
+    }
+  }
   newest_ = (newest_ + 1) % kMost;
   count_ = std::min(count_ + 1, kMost);
   history_[static_cast<std::size_t>(newest_)].drive = drive;
