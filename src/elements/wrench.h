@@ -17,4 +17,12 @@ struct Wrench {
   Eigen::Matrix3d M2 = Eigen::Matrix3d::Zero();  ///< ∂m/∂π [N mm/rad]
 };
 
+/// -∂(f, m/L) with respect to (da, L dπ) [N/mm], L [mm]: the tangent stiffness with rotations as
+/// lengths. Symmetric at equilibrium for loads that have a potential.
+[[nodiscard]] inline Eigen::Matrix<double, 6, 6> scaled_stiffness(const Wrench& w, double L) {
+  Eigen::Matrix<double, 6, 6> K;
+  K << w.F1, w.F2 / L, w.M1 / L, w.M2 / (L * L);
+  return -K;
+}
+
 }  // namespace condyle

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "equilibrium/contact_rules.h"
+#include "equilibrium/events.h"
 
 namespace condyle {
 namespace {
@@ -76,7 +77,7 @@ class PathFollower {
     solver_.set_state(point.state);
     PoseResult pose = solver_.solve(/*patient=*/false);
     pose.value = point.value;
-    const bool usable = pose.converged() || pose.status == PoseStatus::kLeftPatch;
+    const bool usable = is_solved(pose);
     append(std::move(pose));
     return usable;
   }

@@ -3,25 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nanoflann.hpp>
+
+#include "surface/point_tree.h"
 
 namespace condyle {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSafety = 1.3;  // the quadric meant is that of a point near the sample
-
-struct PointCloud {
-  const std::vector<Eigen::Vector3d>& points;
-  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-  [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points[i][static_cast<Eigen::Index>(axis)];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
 
 }  // namespace
 
@@ -31,9 +20,7 @@ std::vector<std::array<int, 8>> nearest_neighbours(const std::vector<Eigen::Vect
   for (auto& list : neighbours) list.fill(-1);
   if (points.empty()) return neighbours;
   const PointCloud cloud{points};
-  const nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>,
-                                            PointCloud, 3>
-      tree(3, cloud);
+  const PointTree tree(3, cloud);
   std::array<unsigned int, 9> index;
   std::array<double, 9> square;
   for (std::size_t i = 0; i < points.size(); ++i) {

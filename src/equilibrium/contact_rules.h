@@ -16,6 +16,18 @@ struct Fault {
   [[nodiscard]] bool any() const { return pulling >= 0 || overlap; }
 };
 
+/// The contact of a state that pulls most, beyond round-off; -1 where none does. `system` assembled
+/// at the state.
+[[nodiscard]] int most_pulling(const Model& model,
+                               const NewtonSystem& system,
+                               const EquilibriumState& state);
+
+/// Is a minimum of the gap one of the state's contacts, but for what Newton leaves?
+[[nodiscard]] bool is_contact_of(const Model& model,
+                                 const EquilibriumState& state,
+                                 int pair,
+                                 const GapMinimum& minimum);
+
 class ContactRules {
  public:
   explicit ContactRules(const Model& model);
@@ -26,10 +38,6 @@ class ContactRules {
 
  private:
   std::optional<ClosedContact> overlap(const EquilibriumState& state);
-  [[nodiscard]] bool is_known(const EquilibriumState& state,
-                              int pair,
-                              const GapMinimum& minimum) const;
-  [[nodiscard]] const ContactPair& pair_of(const ClosedContact& contact) const;
 
   const Model& model_;
   std::vector<ContactSearch> searches_;

@@ -4,7 +4,8 @@
 
 namespace condyle {
 
-inline constexpr double kAnywhere = 1e3;  ///< how far an open contact is looked for
-inline constexpr double kMerge = 0.01;    ///< minima of the gap nearer than this are one contact
+inline constexpr double kSampleSpacing = 0.04;  ///< of contact samples (1.2 mm for a knee)
+inline constexpr double kAnywhere = 1e3;        ///< how far an open contact is looked for
+inline constexpr double kMerge = 0.01;  ///< minima of the gap nearer than this are one contact
 
 }  // namespace condyle

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "elements/contact.h"
+#include "equilibrium/contact_scales.h"
 #include "equilibrium/line_contact.h"
 #include "math/simd.h"
 
@@ -331,10 +332,33 @@ void ContactSearch::find_nearest(const RigidTransform& X_BA,
                                  double reach,
                                  std::vector<GapMinimum>& minima,
                                  double merge) {
+  const bool asked_before = nearest_reach_ == reach && nearest_merge_ == merge &&
+                            nearest_X_.p == X_BA.p && nearest_X_.R == X_BA.R;
+  if (!asked_before) {
+    find_within(X_BA, reach, nearest_, merge);
+    nearest_X_ = X_BA;
+    nearest_reach_ = reach;
+    nearest_merge_ = merge;
+  }
+  minima = nearest_;
+}
+
+void ContactSearch::find_within(const RigidTransform& X_BA,
+                                double reach,
+                                std::vector<GapMinimum>& minima,
+                                double merge) {
   for (double cutoff = spacing_;; cutoff *= 4) {
     find(X_BA, std::min(cutoff, reach), minima, merge);
     if (!minima.empty() || cutoff >= reach) return;
   }
+}
+
+std::vector<ContactSearch> make_searches(const Model& model) {
+  std::vector<ContactSearch> searches;
+  searches.reserve(model.pairs.size());
+  for (const ContactPair& pair : model.pairs)
+    searches.emplace_back(pair, kSampleSpacing * model.length);
+  return searches;
 }
 
 }  // namespace condyle

@@ -49,7 +49,8 @@ class ContactSearch {
             double merge = 0.3,
             const std::vector<KnownContact>& known = {});
 
-  /// The same for the lowest minimum within `reach` [mm] and whatever else lies as low.
+  /// The same for the lowest minimum within `reach` [mm] and whatever else lies as low. Asked again
+  /// at the same pose it gives the same answer without a search.
   void find_nearest(const RigidTransform& X_BA,
                     double reach,
                     std::vector<GapMinimum>& minima,
@@ -83,6 +84,10 @@ class ContactSearch {
     Eigen::Vector3d center;  ///< on the sampled surface, in its body's frame
     double radius;           ///< [mm]
   };
+  void find_within(const RigidTransform& X_BA,
+                   double reach,
+                   std::vector<GapMinimum>& minima,
+                   double merge);
   int build(int first, int last);
   void set_discs(const std::vector<KnownContact>& known);
   [[nodiscard]] bool is_clear(Cluster& cluster, const RigidTransform& X_from_to, double cutoff);
@@ -119,7 +124,13 @@ class ContactSearch {
   int near_contact_B_ = -1, near_contact_A_ = -1;  ///< samples of the bendings
   std::vector<int> near_;                          ///< samples below the cutoff
   int now_ = 0;
+  std::vector<GapMinimum> nearest_;  ///< the last answer of find_nearest, and to what
+  RigidTransform nearest_X_;
+  double nearest_reach_ = -1, nearest_merge_ = -1;
 };
+
+/// One search for each pair of the model.
+[[nodiscard]] std::vector<ContactSearch> make_searches(const Model& model);
 
 /// Refines two places to a local minimum of the gap at a fixed pose: Newton on g tangential = 0, h
 /// = 0. False where it does not settle on an isolated minimum within `reach` [mm] of the start.

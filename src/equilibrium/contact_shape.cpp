@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "equilibrium/contact_scales.h"
+#include "equilibrium/motion_name.h"
 
 namespace condyle {
 namespace {
 
 constexpr double kNegative = 1e-7;  // a relative curvature below minus this is no round-off [1/mm]
-constexpr double kSpacing = 0.04;   // of contact samples [L]
 constexpr double kBeside = 0.02;    // how far beside a point the gap is looked at [L]
 constexpr double kNoGap = 1e-9;     // a gap that counts as none [L]
 constexpr double kTilted = 1e-9;    // sine between two normals that are not parallel
@@ -30,7 +30,7 @@ bool touch_beside(const ContactPair& pair,
   return std::abs(at.gap) < no_gap && (at.point_B - contact.B.c).norm() > 0.5 * t.norm();
 }
 
-std::string quoted(const std::string& name) { return "contact \"" + name + "\""; }
+std::string named(const std::string& contact) { return "contact " + quoted(contact); }
 
 }  // namespace
 
@@ -52,7 +52,8 @@ TouchReport examine_touch(const ContactPair& pair,
   if (!flat_along(e)) return report;
   if (greatest < kFlatCurvature) {
     if (flat_along(contact.B.n.cross(e))) report.kind = Touch::kConforming;
-  } else if (find_line_ends(*pair.on_B, on_B, *pair.on_A, on_A, X_BA, kSpacing * L, report.ends)) {
+  } else if (find_line_ends(*pair.on_B, on_B, *pair.on_A, on_A, X_BA, kSampleSpacing * L,
+                            report.ends)) {
     report.kind = Touch::kLine;
   } else {
     report.kind = Touch::kEndlessLine;
@@ -65,15 +66,15 @@ std::optional<Objection> objection(Touch kind, const std::string& contact) {
     case Touch::kConforming:
       return Objection{
           PoseStatus::kSingular,
-          quoted(contact) + ": the surfaces conform, rigid contact does not say where they touch"};
+          named(contact) + ": the surfaces conform, rigid contact does not say where they touch"};
     case Touch::kEndlessLine:
       return Objection{PoseStatus::kSingular,
-                       quoted(contact) +
+                       named(contact) +
                            ": the surfaces touch along a line without ends, rigid contact does not "
                            "say where it carries (a cylinder ends where it has a length)"};
     case Touch::kInterpenetrating:
       return Objection{PoseStatus::kOverlap,
-                       quoted(contact) + ": the surfaces interpenetrate beside the point"};
+                       named(contact) + ": the surfaces interpenetrate beside the point"};
     default:
       return std::nullopt;
   }
@@ -81,18 +82,20 @@ std::optional<Objection> objection(Touch kind, const std::string& contact) {
 
 Objection tips_over(const std::string& contact) {
   return {PoseStatus::kLeftPatch,
-          quoted(contact) +
+          named(contact) +
               ": the line of contact carries nothing at one end, the body tips over "
               "the other"};
 }
 
-std::optional<Objection> objection_at(const Model& model, const RigidTransform& X_BA) {
+std::optional<Objection> objection_at(const Model& model,
+                                      std::vector<ContactSearch>& searches,
+                                      const RigidTransform& X_BA) {
   const double L = model.length;
   std::vector<GapMinimum> minima;
-  for (const ContactPair& pair : model.pairs) {
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    const ContactPair& pair = model.pairs[p];
     if (pair.mode == ContactMode::kOpen) continue;
-    ContactSearch search(pair, kSpacing * L);
-    search.find(X_BA, 1e-6 * L, minima, kMerge * L);
+    searches[p].find(X_BA, 1e-6 * L, minima, kMerge * L);
     for (const GapMinimum& at : minima) {
       const ContactLinearization contact =
           linearize_contact(*pair.on_B, at.on_B, *pair.on_A, at.on_A, X_BA);
@@ -102,7 +105,8 @@ std::optional<Objection> objection_at(const Model& model, const RigidTransform& 
           return objection(touch.kind, pair.name);
       }
       std::array<GapMinimum, 2> ends;
-      if (find_line_ends(*pair.on_B, at.on_B, *pair.on_A, at.on_A, X_BA, kSpacing * L, ends) &&
+      if (find_line_ends(*pair.on_B, at.on_B, *pair.on_A, at.on_A, X_BA, kSampleSpacing * L,
+                         ends) &&
           ends[1].gap > 1e-6 * L)
         return tips_over(pair.name);
     }

@@ -43,7 +43,9 @@ struct Objection {
 [[nodiscard]] Objection tips_over(const std::string& contact);
 
 /// For a pose that was not solved: does some contact at the last pose that was tried conform, or
-/// stand on the end of its line? Then that is why.
-[[nodiscard]] std::optional<Objection> objection_at(const Model& model, const RigidTransform& X_BA);
+/// stand on the end of its line? Then that is why. `searches`: one for each pair.
+[[nodiscard]] std::optional<Objection> objection_at(const Model& model,
+                                                    std::vector<ContactSearch>& searches,
+                                                    const RigidTransform& X_BA);
 
 }  // namespace condyle

@@ -33,9 +33,8 @@ Vector6 step_between(const RigidTransform& from, const RigidTransform& to, doubl
 
 /// Symmetric part of -∂wrench in scaled components [N/mm].
 Matrix6 stiffness(const Wrench& w, double L) {
-  Matrix6 K;
-  K << w.F1, w.F2 / L, w.M1 / L, w.M2 / (L * L);
-  return -0.5 * (K + K.transpose());
+  const Matrix6 K = scaled_stiffness(w, L);
+  return 0.5 * (K + K.transpose());
 }
 
 Vector6 scaled(const Wrench& wrench, double L) {

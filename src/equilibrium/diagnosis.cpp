@@ -26,8 +26,10 @@ std::string why_singular(const Model& model, const NewtonSystem& system, const R
 }
 
 /// The state with every contact that touches or overlaps there, and those that are held closed.
-EquilibriumState with_all_contacts(const Model& model, const EquilibriumState& state) {
-  constexpr double kSpacing = 0.04, kTouching = 1e-6;  // of L
+EquilibriumState with_all_contacts(const Model& model,
+                                   std::vector<ContactSearch>& searches,
+                                   const EquilibriumState& state) {
+  constexpr double kTouching = 1e-6;  // of L
   EquilibriumState all{state.X, {}, std::vector<double>(model.conditions.size(), 0.0)};
   std::vector<GapMinimum> minima;
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
@@ -35,8 +37,7 @@ EquilibriumState with_all_contacts(const Model& model, const EquilibriumState& s
     if (pair.mode == ContactMode::kOpen) continue;
     const bool held = pair.mode == ContactMode::kClosed;
     const double L = model.length;
-    ContactSearch search(pair, kSpacing * L);
-    search.find(state.X, held ? kAnywhere * L : kTouching * L, minima, kMerge * L);
+    searches[p].find(state.X, held ? kAnywhere * L : kTouching * L, minima, kMerge * L);
     for (const GapMinimum& minimum : minima) {
       ClosedContact contact{static_cast<int>(p), minimum.on_B, minimum.on_A, 0};
       // Deep inside a body the search keeps to its samples.
@@ -128,9 +129,10 @@ bool too_many_conditions(const Model& model, PoseResult& result) {
 /// Contacts and conditions that cannot all hold where the descent ended: a body that does not fit.
 bool explain_contradiction(const Model& model,
                            NewtonSystem& system,
+                           std::vector<ContactSearch>& searches,
                            const EquilibriumState& state,
                            PoseResult& result) {
-  const EquilibriumState all = with_all_contacts(model, state);
+  const EquilibriumState all = with_all_contacts(model, searches, state);
   system.assemble(all);
   const Dependence dependence = find_dependence(model, system);
   if (!dependence.contradiction) return false;
@@ -148,6 +150,7 @@ bool explain_contradiction(const Model& model,
 
 void explain_failure(const Model& model,
                      NewtonSystem& system,
+                     std::vector<ContactSearch>& searches,
                      const EquilibriumState& state,
                      const Attempt& attempt,
                      PoseResult& result) {
@@ -158,7 +161,7 @@ void explain_failure(const Model& model,
     set(result, PoseStatus::kDiverged, overflow + " has no finite force at the last pose");
     return;
   }
-  if (const std::optional<Objection> why = objection_at(model, state.X)) {
+  if (const std::optional<Objection> why = objection_at(model, searches, state.X)) {
     set(result, why->status, why->reason);
     return;
   }
@@ -174,7 +177,7 @@ void explain_failure(const Model& model,
   } else if (attempt.descent.ran_away) {
     set(result, PoseStatus::kNoEquilibrium,
         "the body runs away: nothing carries " + driving_load(model, state));
-  } else if (explain_contradiction(model, system, state, result)) {
+  } else if (explain_contradiction(model, system, searches, state, result)) {
     return;
   } else if (!singular.empty()) {
     set(result, PoseStatus::kSingular, singular);

@@ -8,9 +8,10 @@
 namespace condyle {
 
 /// Sets result.status and result.reason. `state` is the last that was tried; `system` belongs to
-/// the model and may be assembled anew.
+/// the model and may be assembled anew; `searches`: one for each pair.
 void explain_failure(const Model& model,
                      NewtonSystem& system,
+                     std::vector<ContactSearch>& searches,
                      const EquilibriumState& state,
                      const Attempt& attempt,
                      PoseResult& result);

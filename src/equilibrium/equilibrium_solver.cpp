@@ -4,24 +4,12 @@
 #include <chrono>
 #include <cmath>
 
+#include "equilibrium/contact_rules.h"
 #include "equilibrium/contact_scales.h"
 #include "equilibrium/diagnosis.h"
 #include "math/rotation.h"
 
 namespace condyle {
-namespace {
-
-constexpr double kSpacing = 0.04;  // of contact samples, in units of L (1.2 mm for a knee)
-
-std::vector<ContactSearch> make_searches(const Model& model) {
-  std::vector<ContactSearch> searches;
-  searches.reserve(model.pairs.size());
-  for (const ContactPair& pair : model.pairs) searches.emplace_back(pair, kSpacing * model.length);
-  return searches;
-}
-
-}  // namespace
-
 EquilibriumSolver::EquilibriumSolver(Model model, EquilibriumOptions options)
     : model_(std::make_unique<Model>(std::move(model))),
       options_(options),
@@ -62,14 +50,7 @@ void EquilibriumSolver::set_drive(const Drive& from, const Drive& to, double t) 
 }
 
 bool EquilibriumSolver::release_pulling(EquilibriumState& state) const {
-  int worst = -1;
-  double lowest = -1e-12 * newton_.system().force_scale();
-  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
-    const ClosedContact& contact = state.contacts[k];
-    if (model_->pairs[contact.pair].mode == ContactMode::kClosed || contact.p >= lowest) continue;
-    worst = static_cast<int>(k);
-    lowest = contact.p;
-  }
+  const int worst = most_pulling(*model_, newton_.system(), state);
   if (worst >= 0) state.contacts.erase(state.contacts.begin() + worst);
   return worst >= 0;
 }
@@ -94,13 +75,7 @@ bool EquilibriumSolver::add_overlaps(EquilibriumState& state, bool& too_many) {
     searches_[p].find(state.X, 0.0, minima_, kMerge * L, known_);
     for (const GapMinimum& minimum : minima_) {
       if (minimum.gap > -options_.description.overlap * L / 30) continue;
-      const bool known =
-          std::any_of(state.contacts.begin(), state.contacts.end(), [&](const ClosedContact& c) {
-            return c.pair == static_cast<int>(p) &&
-                   (model_->pairs[p].on_B->evaluate(c.on_B).c - minimum.point_B).norm() <
-                       kMerge * L;
-          });
-      if (known && minimum.gap > -1e-3 * kMerge * L) continue;
+      if (is_contact_of(*model_, state, static_cast<int>(p), minimum)) continue;
       if (state.contacts.size() + state.sigma.size() >= kMaxConstraints) {
         too_many = true;
         return added;
@@ -262,7 +237,7 @@ void EquilibriumSolver::solve(PoseResult& result, bool patient) {
     // Beyond the edge of a patch as well: the next pose may come back.
     if (result.status != PoseStatus::kOverlap) keep(next_);
   } else if (patient) {
-    explain_failure(*model_, newton_.system(), next_, attempt, result);
+    explain_failure(*model_, newton_.system(), searches_, next_, attempt, result);
   } else {
     result.status = PoseStatus::kIterationLimit;
   }

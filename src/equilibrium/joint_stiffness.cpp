@@ -1,7 +1,6 @@
 #include "equilibrium/joint_stiffness.h"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <algorithm>
 
@@ -24,20 +23,6 @@ constexpr std::array<ConditionKind, 6> kCoordinates = {
 Vector6 rotation_scale(double L) { return (Vector6() << 1, 1, 1, L, L, L).finished(); }
 /// The same for joint coordinates: angles come first.
 Vector6 angle_scale(double L) { return (Vector6() << L, L, L, 1, 1, 1).finished(); }
-
-/// An orthonormal basis of the scaled motions that no contact and no condition prevents.
-SmallMatrix admissible(const Model& model, const NewtonSystem& system) {
-  const std::size_t count =
-      std::min<std::size_t>(system.contacts().size() + system.conditions().size(), kMaxConstraints);
-  if (count == 0) return SmallMatrix::Identity(6, 6);
-  SmallMatrix G(6, static_cast<Eigen::Index>(count));
-  for (std::size_t k = 0; k < count; ++k)
-    G.col(static_cast<Eigen::Index>(k)) = constraint_direction(model, system, k);
-  Eigen::ColPivHouseholderQR<SmallMatrix> qr(G);
-  qr.setThreshold(kSingular);
-  const SmallMatrix Q = qr.householderQ() * SmallMatrix::Identity(6, 6);
-  return Q.rightCols(6 - qr.rank());
-}
 
 template <class Matrix>
 bool invertible(const Eigen::FullPivLU<Matrix>& lu, double scale) {
@@ -67,17 +52,14 @@ std::optional<JointStiffness> joint_stiffness(const Model& model,
   const Vector6 motions = rotation_scale(L), coordinates = angle_scale(L);
   const Matrix6 J = coordinates.asDiagonal() * joint_jacobian(*model.joint, X_BA) *
                     motions.cwiseInverse().asDiagonal();
-  const Wrench& w = system.wrench();
-  Matrix6 K;
-  K << w.F1, w.F2 / L, w.M1 / L, w.M2 / (L * L);
-  K = -K.eval();
+  const Matrix6 K = scaled_stiffness(system.wrench(), L);
   const double largest = std::max(K.cwiseAbs().maxCoeff(), system.force_scale() / L);
 
   const Eigen::FullPivLU<Matrix6> J_lu(J);
   if (!K.allFinite() || !invertible(J_lu, 1e-6)) return std::nullopt;
   const Matrix6 J_inverse = J_lu.inverse();
 
-  const SmallMatrix Z = admissible(model, system);
+  const Motions Z = admissible_motions(model, system);
   Matrix6 yielding = Matrix6::Zero();
   if (Z.cols() > 0) {
     const SmallMatrix reduced = Z.transpose() * K * Z;

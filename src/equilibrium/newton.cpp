@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "math/rotation.h"
@@ -94,6 +93,24 @@ int NewtonSystem::fill(const EquilibriumState& state, SmallLu& matrix, double* r
   return size;
 }
 
+void NewtonSystem::move(EquilibriumState& state, const double* step) const {
+  const double L = model_.length;
+  const Eigen::Vector3d da(step[0], step[1], step[2]);
+  const Eigen::Vector3d dpi(step[3] / L, step[4] / L, step[5] / L);
+  const std::size_t n = state.contacts.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    ClosedContact& contact = state.contacts[k];
+    const ContactPair& pair = model_.pairs[contact.pair];
+    slide_contact(*pair.on_B, contact.on_B, *pair.on_A, contact.on_A, contacts_[k], state.X, da,
+                  dpi, L);
+    contact.p += step[6 + k];
+  }
+  for (std::size_t k = 0; k < state.sigma.size(); ++k)
+    state.sigma[k] += condition_weight(model_, k) * step[6 + n + k];
+  state.X.p += da;
+  state.X.R = exp_rotation(dpi) * state.X.R;
+}
+
 double NewtonSystem::out_of_balance() const {
   return std::max(wrench_.f.norm(), wrench_.m.norm() / model_.length);
 }
@@ -174,7 +191,7 @@ NewtonReport Newton::solve(EquilibriumState& state) {
       const double scale = options_.longest_step * L / last_step;
       for (int i = 0; i < 6; ++i) step[i] *= scale;
     }
-    apply_step(state, step);
+    system_.move(state, step);
   }
 }
 
@@ -184,24 +201,6 @@ bool Newton::factor_softened(const EquilibriumState& state, double* step) {
   const int size = system_.fill(state, matrix_, step);
   for (int i = 0; i < 6; ++i) matrix_(i, i) -= kHold * system_.force_scale() / model_.length;
   return matrix_.factor(size);
-}
-
-void Newton::apply_step(EquilibriumState& state, const double* step) const {
-  const double L = model_.length;
-  const Eigen::Vector3d da(step[0], step[1], step[2]);
-  const Eigen::Vector3d dpi(step[3] / L, step[4] / L, step[5] / L);
-  const std::size_t n = state.contacts.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    ClosedContact& contact = state.contacts[k];
-    const ContactPair& pair = model_.pairs[contact.pair];
-    slide_contact(*pair.on_B, contact.on_B, *pair.on_A, contact.on_A, system_.contacts()[k],
-                  state.X, da, dpi, L);
-    contact.p += step[6 + k];
-  }
-  for (std::size_t k = 0; k < state.sigma.size(); ++k)
-    state.sigma[k] += condition_weight(model_, k) * step[6 + n + k];
-  state.X.p += da;
-  state.X.R = exp_rotation(dpi) * state.X.R;
 }
 
 }  // namespace condyle

@@ -68,6 +68,10 @@ class NewtonSystem {
   /// Fills the matrix and the right side (minus the residual); returns the number of rows.
   int fill(const EquilibriumState& state, SmallLu& matrix, double* right_side) const;
 
+  /// Moves the state at which the system was assembled by a step as the matrix has it: (da, L dπ,
+  /// dp, dσ/w).
+  void move(EquilibriumState& state, const double* step) const;
+
   [[nodiscard]] const Wrench& wrench() const { return wrench_; }
   [[nodiscard]] const std::vector<ContactLinearization>& contacts() const { return contacts_; }
   [[nodiscard]] const std::vector<ConditionDerivatives>& conditions() const { return conditions_; }
@@ -101,7 +105,6 @@ class Newton {
 
  private:
   bool factor_softened(const EquilibriumState& state, double* step);
-  void apply_step(EquilibriumState& state, const double* step) const;
 
   const Model& model_;
   NewtonOptions options_;

@@ -1,12 +1,8 @@
 #include "equilibrium/path_system.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-
-#include "math/rotation.h"
 
 namespace condyle {
 namespace {
@@ -48,23 +44,8 @@ int PathSystem::fill(const PathPoint& point, double* right_side) {
 }
 
 void PathSystem::apply(PathPoint& point, const double* step) const {
-  const double L = model_.length;
-  EquilibriumState& state = point.state;
-  const Eigen::Vector3d da(step[0], step[1], step[2]);
-  const Eigen::Vector3d dpi(step[3] / L, step[4] / L, step[5] / L);
-  const std::size_t n = state.contacts.size(), m = state.sigma.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    ClosedContact& contact = state.contacts[k];
-    const ContactPair& pair = model_.pairs[static_cast<std::size_t>(contact.pair)];
-    slide_contact(*pair.on_B, contact.on_B, *pair.on_A, contact.on_A, system_.contacts()[k],
-                  state.X, da, dpi, L);
-    contact.p += step[6 + k];
-  }
-  for (std::size_t k = 0; k < m; ++k)
-    state.sigma[k] += condition_weight(model_, k) * step[6 + n + k];
-  state.X.p += da;
-  state.X.R = exp_rotation(dpi) * state.X.R;
-  point.value += step[6 + n + m];
+  system_.move(point.state, step);
+  point.value += step[6 + point.state.contacts.size() + point.state.sigma.size()];
 }
 
 double PathSystem::product(const Direction& a, const Direction& b) const {

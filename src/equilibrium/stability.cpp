@@ -18,20 +18,6 @@ using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 
 constexpr double kNeutral = 1e-9;    // of the largest stiffness
 constexpr double kDependent = 1e-9;  // of constraint directions
 
-/// An orthonormal basis of the motions that no constraint prevents.
-SmallMatrix admissible_motions(const Model& model, const NewtonSystem& system) {
-  const std::size_t count =
-      std::min<std::size_t>(system.contacts().size() + system.conditions().size(), kMaxConstraints);
-  SmallMatrix columns(6, static_cast<Eigen::Index>(count));
-  for (std::size_t k = 0; k < count; ++k)
-    columns.col(static_cast<Eigen::Index>(k)) = constraint_direction(model, system, k);
-  if (count == 0 || !columns.allFinite()) return SmallMatrix::Identity(6, 6);
-  Eigen::ColPivHouseholderQR<SmallMatrix> qr(columns);
-  qr.setThreshold(kDependent);
-  const SmallMatrix Q = qr.householderQ() * SmallMatrix::Identity(6, 6);
-  return Q.rightCols(6 - qr.rank());
-}
-
 }  // namespace
 
 Eigen::Matrix<double, 6, 1> constraint_direction(const Model& model,
@@ -50,13 +36,23 @@ Eigen::Matrix<double, 6, 1> constraint_direction(const Model& model,
   return direction.normalized();
 }
 
+Motions admissible_motions(const Model& model, const NewtonSystem& system) {
+  const std::size_t count =
+      std::min<std::size_t>(system.contacts().size() + system.conditions().size(), kMaxConstraints);
+  SmallMatrix columns(6, static_cast<Eigen::Index>(count));
+  for (std::size_t k = 0; k < count; ++k)
+    columns.col(static_cast<Eigen::Index>(k)) = constraint_direction(model, system, k);
+  if (count == 0 || !columns.allFinite()) return SmallMatrix::Identity(6, 6);
+  Eigen::ColPivHouseholderQR<SmallMatrix> qr(columns);
+  qr.setThreshold(kDependent);
+  const SmallMatrix Q = qr.householderQ() * SmallMatrix::Identity(6, 6);
+  return Q.rightCols(6 - qr.rank());
+}
+
 Stability stability(const Model& model, const NewtonSystem& system) {
-  const double L = model.length;
-  const Wrench& w = system.wrench();
-  Eigen::Matrix<double, 6, 6> K;
-  K << w.F1, w.F2 / L, w.M1 / L, w.M2 / (L * L);
-  K = (-0.5 * (K + K.transpose())).eval();
-  const double largest = std::max(K.cwiseAbs().maxCoeff(), system.force_scale() / L);
+  Eigen::Matrix<double, 6, 6> K = scaled_stiffness(system.wrench(), model.length);
+  K = (0.5 * (K + K.transpose())).eval();
+  const double largest = std::max(K.cwiseAbs().maxCoeff(), system.force_scale() / model.length);
 
   Stability result{std::numeric_limits<double>::infinity(), Eigen::Matrix<double, 6, 1>::Zero(),
                    false, false, Motions(6, 0)};

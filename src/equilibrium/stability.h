@@ -41,4 +41,7 @@ struct Stability {
                                                                const NewtonSystem& system,
                                                                std::size_t constraint);
 
+/// An orthonormal basis of the motions that no contact and no condition prevents.
+[[nodiscard]] Motions admissible_motions(const Model& model, const NewtonSystem& system);
+
 }  // namespace condyle

@@ -1,17 +1,11 @@
 #include "math/small_lu.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "math/simd.h"
 
 namespace condyle {
-
-void SmallLu::clear(int n) {
-  assert(n <= kMaxSize);
-  for (int i = 0; i < n; ++i) std::fill(a_[i], a_[i] + n, 0.0);
-}
 
 CONDYLE_FMA_CLONE
 bool SmallLu::factor(int n) {

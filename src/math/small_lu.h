@@ -16,9 +16,6 @@ class SmallLu {
   double& operator()(int i, int j) { return a_[i][j]; }
   double operator()(int i, int j) const { return a_[i][j]; }
 
-  /// Sets the leading n x n block to zero.
-  void clear(int n);
-
   /// Factors the leading n x n block. False where a pivot vanishes relative to the largest entry.
   bool factor(int n);
 

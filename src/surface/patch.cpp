@@ -1,7 +1,6 @@
 #include "surface/patch.h"
 
 #include <Eigen/Geometry>
-#include <nanoflann.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -9,6 +8,7 @@
 
 #include "math/simd.h"
 #include "surface/bspline_basis.h"
+#include "surface/point_tree.h"
 
 namespace condyle {
 
@@ -21,19 +21,8 @@ struct Patch::Basis {
 struct Patch::SeedIndex {
   std::vector<Place> places;
   std::vector<Eigen::Vector3d> points;
-
-  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-  [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points[i][static_cast<Eigen::Index>(axis)];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-
-  using Tree = nanoflann::
-      KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, SeedIndex>, SeedIndex, 3>;
-  std::unique_ptr<Tree> tree;
+  PointCloud cloud{points};
+  std::unique_ptr<PointTree> tree;
 };
 
 Patch::Patch(PatchData data)
@@ -64,7 +53,7 @@ Patch::Patch(PatchData data)
     seeds->places.emplace_back((u_.min + u_.max) / 2, (v_.min + v_.max) / 2, 0);
     seeds->points.push_back(derivatives(seeds->places[0].x(), seeds->places[0].y()).c);
   }
-  seeds->tree = std::make_unique<SeedIndex::Tree>(3, *seeds);
+  seeds->tree = std::make_unique<PointTree>(3, seeds->cloud);
   seeds_ = std::move(seeds);
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "math/rotation.h"
+#include "support/ball_on_floor.h"
 #include "support/report_problems.h"
 #include "support/spring_knee.h"
 #include "surface/exact_surfaces.h"
@@ -141,16 +142,7 @@ TEST(EquilibriumSolver, LoadThatNothingCarriesIsNamed) {
 
 /// A ball of radius 10 on A over a floor, pushed or pulled by a load.
 Model ball_over_floor(double load) {
-  Model model;
-  ContactPair pair;
-  pair.name = "floor";
-  pair.on_B = make_plane({0, 0, 0}, {0, 0, 1});
-  pair.on_A = make_sphere({0, 0, 0}, 10, true);
-  model.pairs = {pair};
-  Load push;
-  push.vector = {0, 0, load};
-  model.loads = {push};
-  model.load_names = {"push"};
+  Model model = test::ball_on_floor("push", load);
   model.start.p = {0, 0, 9.5};
   model.length = characteristic_length(model);
   return model;

@@ -6,6 +6,7 @@
 
 #include "equilibrium/equilibrium_solver.h"
 #include "equilibrium/motion_name.h"
+#include "support/ball_on_floor.h"
 #include "support/quadric_knee.h"
 #include "support/truss.h"
 
@@ -118,17 +119,7 @@ TEST(Stability, NamesAnAxisWhereThereIsNoJoint) {
 
 // A ball on a floor with a weight may roll anywhere and spin.
 TEST(Stability, OfABallOnAFloorIsNeutral) {
-  Model model;
-  ContactPair pair;
-  pair.name = "floor";
-  pair.on_B = make_plane({0, 0, 0}, {0, 0, 1});
-  pair.on_A = make_sphere({0, 0, 0}, 10, true);
-  model.pairs = {pair};
-  Load weight;
-  weight.vector = {0, 0, -10};
-  model.loads = {weight};
-  model.load_names = {"weight"};
-  model.length = 10;
+  const Model model = test::ball_on_floor("weight", -10);
   EquilibriumState state = unloaded(model, {Eigen::Matrix3d::Identity(), {0, 0, 10}});
   state.contacts = {{0, {0, 0, 0}, {0, 0, -10}, 10}};
   const Judged judged = judge(model, state);

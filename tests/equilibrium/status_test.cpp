@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "equilibrium/equilibrium_solver.h"
+#include "support/ball_on_floor.h"
 #include "support/quadric_knee.h"
 
 namespace condyle {
@@ -20,20 +21,9 @@ KinematicCondition hold(ConditionKind kind, int axis, double value = 0) {
   return condition;
 }
 
-/// A ball of radius 10 about A's origin over the floor z = 0, with a weight of 10 N.
 Model ball_on_floor() {
-  Model model;
-  ContactPair pair;
-  pair.name = "floor";
-  pair.on_B = make_plane({0, 0, 0}, {0, 0, 1});
-  pair.on_A = make_sphere({0, 0, 0}, 10, true);
-  model.pairs = {pair};
-  Load weight;
-  weight.vector = {0, 0, -10};
-  model.loads = {weight};
-  model.load_names = {"weight"};
+  Model model = test::ball_on_floor("weight", -10);
   model.start.p = {0, 0, 10.5};
-  model.length = 10;
   return model;
 }
 

@@ -1,0 +1,29 @@
+#pragma once
+
+/// Points in space as nanoflann wants to see them, and its tree over them.
+
+#include <Eigen/Core>
+
+#include <nanoflann.hpp>
+#include <vector>
+
+namespace condyle {
+
+/// Keeps a reference: the points must stay as they are.
+struct PointCloud {
+  const std::vector<Eigen::Vector3d>& points;
+
+  [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
+  [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+    return points[i][static_cast<Eigen::Index>(axis)];
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+using PointTree = nanoflann::
+    KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>, PointCloud, 3>;
+
+}  // namespace condyle
