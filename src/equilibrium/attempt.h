@@ -11,8 +11,10 @@ struct Attempt {
   int iterations = 0;     ///< of Newton and of the descent, over the whole attempt
   NewtonReport newton;    ///< the last
   DescentReport descent;  ///< the last
-  bool faceless =
-      false;  ///< in equilibrium, but the surfaces of an open pair are not over each other
+  int zero_element = -1;  ///< that had no length on the way from the pose before
+  /// In equilibrium, but off the known surfaces: a contact far beyond an edge, or an open pair
+  /// whose surfaces are not over each other.
+  bool off_surfaces = false;
 };
 
 }  // namespace condyle

@@ -47,6 +47,15 @@ std::vector<std::array<int, 8>> nearest_neighbours(const std::vector<Eigen::Vect
   return neighbours;
 }
 
+/// Its own points, so that it stays where a search moves.
+struct Bending::Tree {
+  explicit Tree(const std::vector<Eigen::Vector3d>& of)
+      : points(of), cloud{points}, search(3, cloud) {}
+  std::vector<Eigen::Vector3d> points;
+  PointCloud cloud;
+  PointTree search;
+};
+
 Rise BendingMeter::at(const Eigen::Vector3d& point,
                       const Eigen::Vector3d& normal,
                       double least) const {
@@ -73,6 +82,7 @@ Bending::Bending(const Surface& surface, double spacing, const Radii& radii)
     points_.push_back(samples_.back().c);
     normals_.push_back(samples_.back().n);
   }
+  if (!points_.empty()) tree_ = std::make_shared<const Tree>(points_);
   neighbours_ = nearest_neighbours(points_, 3 * spacing);
   shells_.resize(samples_.size());
   for (Shells& shells : shells_) shells.within[0] = -1;
@@ -121,11 +131,9 @@ int Bending::nearest(const Eigen::Vector3d& point, int start) const {
   }
   const double lost = 2 * radii_[0] / kNeighbours;
   if (square < lost * lost) return best;
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
-    const double d = (points_[i] - point).squaredNorm();
-    if (d < square) best = static_cast<int>(i), square = d;
-  }
-  return best;
+  unsigned int index = 0;
+  tree_->search.knnSearch(point.data(), 1, &index, &square);
+  return square < lost * lost ? static_cast<int>(index) : -1;
 }
 
 double Bending::within(double radius, int sample, const Eigen::Matrix3d& K) {

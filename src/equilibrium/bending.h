@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "surface/surface.h"
@@ -36,7 +37,7 @@ class Bending {
   [[nodiscard]] static Radii shells(double spacing, double greatest);
 
   /// The sample nearest to a point of the surface, walking from the sample `start` (-1: from any);
-  /// -1 where there are no samples.
+  /// -1 where no sample is near.
   [[nodiscard]] int nearest(const Eigen::Vector3d& point, int start) const;
 
   /// Least a >= 0 [1/mm] with h - ½ tᵀ K t <= ½ a t² for all points within `radius` [mm] of a point
@@ -52,11 +53,13 @@ class Bending {
     std::array<Rise, kLevels> of;
     std::array<double, kLevels> within;  ///< up to and with each shell; the first < 0: not measured
   };
+  struct Tree;
   void measure(std::size_t sample);
 
   Radii radii_;
   bool even_;
   std::vector<SurfacePoint> samples_;
+  std::shared_ptr<const Tree> tree_;
   std::vector<Eigen::Vector3d> points_, normals_;
   std::vector<std::array<int, 8>> neighbours_;
   std::vector<Shells> shells_;

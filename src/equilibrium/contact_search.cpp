@@ -19,7 +19,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kLeafSize = 8;
 // All in sample spacings:
 constexpr double kBeyondEdge = 2;  // how far beyond the known part a minimum may lie
-constexpr double kDeepest = 12;    // overlap that is still taken for one
+constexpr double kDeepest = 12;    // overlap of a surface with an edge that is still taken for one
 constexpr double kLargest = 40;    // radius of a cluster that is worth a look
 constexpr double kBendingSpacing = 2;
 constexpr double kDoubt = 0.05;  // of the curvatures: a paraboloid is that of a sample nearby
@@ -54,6 +54,12 @@ bool is_cheaper_to_cover(const Surface& on_A, const Surface& on_B, double spacin
   return n_A > 0 && (n_B == 0 || n_A <= n_B);
 }
 
+/// Behind a surface that ends somewhere is not yet inside.
+bool has_edge(const Surface& surface) {
+  const Place somewhere = surface.seed(Eigen::Vector3d::Zero());
+  return std::isfinite(surface.edge_distance(somewhere));
+}
+
 /// No two of the places are farther apart [mm].
 double extent(const Surface& surface, const std::vector<Place>& places) {
   Eigen::AlignedBox3d box;
@@ -73,6 +79,7 @@ ContactSearch::ContactSearch(const ContactPair& pair, double spacing)
       shells_(Bending::shells(kBendingSpacing * spacing_, extent(sampled(), places_))),
       bending_B_(*on_B_, kBendingSpacing * spacing_, shells_),
       bending_A_(*on_A_, kBendingSpacing * spacing_, shells_) {
+  deepest_ = has_edge(other()) ? kDeepest * spacing_ : kInfinity;
   for (const Place& place : places_) {
     const SurfacePoint point = sampled().evaluate(place);
     points_.push_back(point.c);
@@ -229,7 +236,9 @@ bool ContactSearch::is_clear(Cluster& cluster, const RigidTransform& X_from_to, 
     if (near_foot) {
       // A distance changes by no more than the way; far behind an open patch is not inside.
       const double way = 1.05 * cluster.radius;
-      if (gap - way > cutoff || gap + way < -kDeepest * spacing_) return true;
+      if (gap - way > cutoff || gap + way < -deepest_) return true;
+      // Feet move less than twice as far as points; beyond an edge they face nothing.
+      if (other().edge_distance(quadric.place) < -2 * way - kBeyondEdge * spacing_) return true;
     }
     if (quadric.close && gap - drop_within(cluster, tangential, X_from_to) > cutoff) return true;
     if (near_foot) return false;
@@ -271,7 +280,7 @@ void ContactSearch::scan(const Cluster& cluster, const RigidTransform& X_from_to
       if (d.dot(at.n) - 0.5 * (t.dot(at.K * t) + allowance * t.squaredNorm()) > cutoff) continue;
     }
     const double gap = gap_of(sample, X_from_to);
-    if (gap < cutoff && gap > -kDeepest * spacing_) near_.push_back(sample);
+    if (gap < cutoff && gap > -deepest_) near_.push_back(sample);
   }
 }
 

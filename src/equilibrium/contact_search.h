@@ -112,6 +112,7 @@ class ContactSearch {
   bool lines_;  ///< the surfaces may touch along a line (line_contact.h)
   bool sampled_on_A_;
   std::vector<Place> places_;  ///< samples on the sampled surface
+  double deepest_ = 0;         ///< overlap that is still taken for one [mm]
   Bending::Radii shells_;
   Bending bending_B_, bending_A_;
   std::vector<Eigen::Vector3d> points_;      ///< their points, in the frame of their body

@@ -87,6 +87,25 @@ Objection tips_over(const std::string& contact) {
               "the other"};
 }
 
+std::optional<std::size_t> conforming_pair(const Model& model,
+                                           std::vector<ContactSearch>& searches,
+                                           const RigidTransform& X_BA) {
+  constexpr double kFarthest = 0.05, kDeepest = 0.5;  // of L
+  const double L = model.length;
+  std::vector<GapMinimum> minima;
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    const ContactPair& pair = model.pairs[p];
+    if (pair.mode == ContactMode::kOpen) continue;
+    searches[p].find(X_BA, kFarthest * L, minima, kMerge * L);
+    if (minima.empty() || minima.front().gap < -kDeepest * L) continue;
+    const GapMinimum& at = minima.front();
+    const auto [least, greatest] =
+        linearize_contact(*pair.on_B, at.on_B, *pair.on_A, at.on_A, X_BA).relative_curvature;
+    if (std::abs(least) < kFlatCurvature && std::abs(greatest) < kFlatCurvature) return p;
+  }
+  return std::nullopt;
+}
+
 std::optional<Objection> objection_at(const Model& model,
                                       std::vector<ContactSearch>& searches,
                                       const RigidTransform& X_BA) {

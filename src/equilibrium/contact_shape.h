@@ -42,6 +42,12 @@ struct Objection {
 /// The resultant of a line contact lies beyond an end.
 [[nodiscard]] Objection tips_over(const std::string& contact);
 
+/// A pair whose surfaces, near each other, have the same curvature in every direction: a ball in a
+/// cup of its radius. Nothing says where they will touch.
+[[nodiscard]] std::optional<std::size_t> conforming_pair(const Model& model,
+                                                         std::vector<ContactSearch>& searches,
+                                                         const RigidTransform& X_BA);
+
 /// For a pose that was not solved: does some contact at the last pose that was tried conform, or
 /// stand on the end of its line? Then that is why. `searches`: one for each pair.
 [[nodiscard]] std::optional<Objection> objection_at(const Model& model,

@@ -51,11 +51,11 @@ Descent::Descent(const Model& model,
                  DescentOptions options)
     : model_(model), searches_(searches), newton_(newton), options_(options) {}
 
-DescentReport Descent::solve(EquilibriumState& state, const Accept& accept) {
+DescentReport Descent::solve(EquilibriumState& state, const Accept& accept, int max_steps) {
   DescentReport report;
   const Eigen::Vector3d origin = state.X.p;
   start(state.X);
-  while (report.steps < options_.max_steps && iterate(accept, report)) {
+  while (report.steps < max_steps && iterate(accept, report)) {
     report.ran_away = (X_.p - origin).norm() > 50 * model_.length;
     if (report.ran_away) break;
   }
@@ -140,11 +140,13 @@ Descent::Constraint Descent::constrain(int pair,
 void Descent::gather(const RigidTransform& X, std::vector<Constraint>& constraints) {
   constraints.clear();
   const double L = model_.length;
+  // The next step is at most twice as long as this one's reach, and must not pass through anything.
+  const double ahead = 2 * std::max(options_.longest_step * L, 2 * reach_);
   for (int p = 0; p < static_cast<int>(model_.pairs.size()); ++p) {
     const ContactMode mode = model_.pairs[p].mode;
     if (mode == ContactMode::kOpen) continue;
     const bool held = mode == ContactMode::kClosed;
-    searches_[p].find(X, held ? 20 * L : 2 * options_.longest_step * L, minima_, 0.003 * L);
+    searches_[p].find(X, held ? 20 * L : ahead, minima_, 0.003 * L);
     minima_.resize(std::min(minima_.size(), held ? 1 : kMostMinima));
     const std::size_t first = constraints.size();
     for (const GapMinimum& minimum : minima_) {

@@ -49,7 +49,7 @@ class Descent {
 
   /// Improves `state` in place. `accept` says whether a Newton solution is one (no pull, no
   /// overlap).
-  DescentReport solve(EquilibriumState& state, const Accept& accept);
+  DescentReport solve(EquilibriumState& state, const Accept& accept, int max_steps);
 
  private:
   using Vector6 = Eigen::Matrix<double, 6, 1>;

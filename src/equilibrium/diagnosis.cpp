@@ -88,6 +88,19 @@ std::string overflowed(const Model& model, const EquilibriumState& state) {
   return {};
 }
 
+/// The condition that asks a middle angle, which turns back at 90 degrees, for more.
+std::string angle_out_of_range(const Model& model) {
+  for (std::size_t i = 0; i < model.conditions.size(); ++i) {
+    const KinematicCondition& condition = model.conditions[i];
+    const bool middle = condition.kind == ConditionKind::kAdduction ||
+                        (condition.kind == ConditionKind::kRotation && condition.cardan_axis == 0);
+    if (middle && std::abs(condition.value) > M_PI / 2)
+      return fmt::format("condition {} asks for {:.6g} degrees of an angle that turns back at 90",
+                         quoted(model.condition_names[i]), condition.value * 180 / M_PI);
+  }
+  return {};
+}
+
 /// What is farthest from what it should be.
 std::string worst_condition(const Model& model, const NewtonSystem& system, double last_step) {
   constexpr double kUnmet = 1e-6;
@@ -165,14 +178,21 @@ void explain_failure(const Model& model,
     set(result, why->status, why->reason);
     return;
   }
+  if (const std::optional<std::size_t> pair = conforming_pair(model, searches, state.X)) {
+    const Objection why = *objection(Touch::kConforming, model.pairs[*pair].name);
+    set(result, why.status, why.reason);
+    return;
+  }
   // Newton left the system where it failed.
   const std::string singular =
       newton.outcome == NewtonOutcome::kSingular ? why_singular(model, system, state.X) : "";
-  const bool has_lengths = system.assemble(state);
-  if (!has_lengths || newton.outcome == NewtonOutcome::kZeroLength) {
-    const int element = has_lengths ? newton.zero_element : system.zero_element();
+  const int without_length = system.assemble(state) ? attempt.zero_element : system.zero_element();
+  const std::string out_of_range = angle_out_of_range(model);
+  if (!out_of_range.empty()) {
+    set(result, PoseStatus::kNoEquilibrium, out_of_range);
+  } else if (without_length >= 0) {
     set(result, PoseStatus::kZeroLength,
-        "line element " + quoted(model.element_names[static_cast<std::size_t>(element)]) +
+        "line element " + quoted(model.element_names[static_cast<std::size_t>(without_length)]) +
             " has no length");
   } else if (attempt.descent.ran_away) {
     set(result, PoseStatus::kNoEquilibrium,

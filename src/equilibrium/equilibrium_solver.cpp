@@ -6,6 +6,7 @@
 
 #include "equilibrium/contact_rules.h"
 #include "equilibrium/contact_scales.h"
+#include "equilibrium/contact_shape.h"
 #include "equilibrium/diagnosis.h"
 #include "math/rotation.h"
 
@@ -87,28 +88,33 @@ bool EquilibriumSolver::add_overlaps(EquilibriumState& state, bool& too_many) {
   return added;
 }
 
-/// Contacts that Newton may have led astray: to a place where the solids interpenetrate beside the
-/// point, or far beyond the known part of a patch.
+/// False where Newton has led a contact to a place where the solids interpenetrate beside it.
 bool EquilibriumSolver::on_minima(const EquilibriumState& state) const {
   const std::vector<ContactLinearization>& contacts = newton_.system().contacts();
   for (std::size_t k = 0; k < state.contacts.size(); ++k) {
-    const ClosedContact& contact = state.contacts[k];
-    const ContactPair& pair = model_->pairs[contact.pair];
-    if (pair.mode == ContactMode::kAuto && contacts[k].relative_curvature[0] < -1e-7) return false;
-    if (edge_distance(pair, contact.on_B, contact.on_A) < -0.1 * model_->length) return false;
+    const bool automatic = model_->pairs[state.contacts[k].pair].mode == ContactMode::kAuto;
+    if (automatic && contacts[k].relative_curvature[0] < -1e-7) return false;
   }
   return true;
+}
+
+/// False where a contact lies far beyond the known part of a surface, or an open pair has passed
+/// through itself: no part of one surface faces the other, or one is buried.
+bool EquilibriumSolver::on_surfaces(const EquilibriumState& state) {
+  for (const ClosedContact& contact : state.contacts)
+    if (edge_distance(model_->pairs[contact.pair], contact.on_B, contact.on_A) <
+        -0.1 * model_->length)
+      return false;
+  return faces(state);
 }
 
 bool EquilibriumSolver::carries_and_clear(EquilibriumState& state) {
   bool too_many = false;
   EquilibriumState copy = state;
   return on_minima(state) && !release_pulling(copy) && !add_overlaps(copy, too_many) && !too_many &&
-         faces(state);
+         on_surfaces(state);
 }
 
-/// False where an open pair has passed through itself: no part of one surface faces the other, or
-/// one is buried.
 bool EquilibriumSolver::faces(const EquilibriumState& state) {
   const double L = model_->length;
   for (std::size_t p = 0; p < searches_.size(); ++p) {
@@ -129,20 +135,25 @@ bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
   for (int round = 0; round < kRounds; ++round) {
     attempt.newton = newton_.solve(state);
     attempt.iterations += attempt.newton.iterations;
+    if (attempt.newton.outcome == NewtonOutcome::kZeroLength)
+      attempt.zero_element = attempt.newton.zero_element;
     if (attempt.newton.outcome != NewtonOutcome::kConverged) return false;
     if (release_pulling(state)) continue;
     bool too_many = false;
     if (add_overlaps(state, too_many)) continue;
     if (too_many || !on_minima(state)) return false;
-    attempt.faceless = !faces(state);
-    return !attempt.faceless;
+    attempt.off_surfaces = !on_surfaces(state);
+    return !attempt.off_surfaces;
   }
   return false;
 }
 
 bool EquilibriumSolver::descend(EquilibriumState& state, Attempt& attempt) {
-  attempt.descent =
-      descent_.solve(state, [this](EquilibriumState& s) { return carries_and_clear(s); });
+  constexpr int kFewSteps = 10;  // where conforming surfaces leave the answer open
+  const bool open_ended = conforming_pair(*model_, searches_, state.X).has_value();
+  attempt.descent = descent_.solve(
+      state, [this](EquilibriumState& s) { return carries_and_clear(s); },
+      open_ended ? kFewSteps : options_.descent.max_steps);
   attempt.newton = attempt.descent.newton;
   attempt.iterations += attempt.descent.iterations;
   return attempt.descent.converged;
@@ -201,11 +212,11 @@ bool EquilibriumSolver::solve_from_last(EquilibriumState& state, Attempt& attemp
   if (predictor_.predict(target_, state) && settle(state, attempt)) return true;
   state = state_;
   if (settle(state, attempt)) return true;
-  const bool faceless = attempt.faceless;
-  if (faceless) trial_ = state;
+  const bool off_surfaces = attempt.off_surfaces;
+  if (off_surfaces) trial_ = state;
   if (descend(state = state_, attempt)) return true;
-  if (faceless) {
-    // Both ways end where the surfaces are no longer over each other: the pose says so itself.
+  if (off_surfaces) {
+    // Both ways end off the known surfaces: the pose says so itself.
     state = trial_;
     return newton_.solve(state).outcome == NewtonOutcome::kConverged;
   }

@@ -62,6 +62,7 @@ class EquilibriumSolver {
   bool add_overlaps(EquilibriumState& state, bool& too_many);
   [[nodiscard]] bool carries_and_clear(EquilibriumState& state);
   [[nodiscard]] bool on_minima(const EquilibriumState& state) const;
+  [[nodiscard]] bool on_surfaces(const EquilibriumState& state);
   [[nodiscard]] bool faces(const EquilibriumState& state);
 
   std::unique_ptr<Model> model_;

@@ -4,11 +4,14 @@
 #include <cmath>
 #include <optional>
 
+#include "equilibrium/closing_event.h"
 #include "equilibrium/path_system.h"
 #include "math/rotation.h"
 
 namespace condyle {
 namespace {
+
+constexpr double kStraight = 1e-4;  // part of a step over which gaps change in proportion
 
 int points_of(const PoseResult& pose, std::size_t contact) {
   const ContactResult& c = pose.contacts[contact];
@@ -59,12 +62,13 @@ SweptValue swept_value(const Model& model, const double& swept) {
   return {false, model.conditions.size()};
 }
 
-void append_changes(const SolvedPose& before, const SolvedPose& after, std::vector<Event>& events) {
+void append_changes(const SolvedPose& before,
+                    const SolvedPose& after,
+                    double value,
+                    std::vector<Event>& events) {
   for (std::size_t c = 0; c < before.result.contacts.size(); ++c) {
     const int was = points_of(before.result, c), is = points_of(after.result, c);
-    const auto add = [&](EventKind kind) {
-      events.push_back({0.5 * (before.value + after.value), kind, static_cast<int>(c)});
-    };
+    const auto add = [&](EventKind kind) { events.push_back({value, kind, static_cast<int>(c)}); };
     for (int k = was; k < is; ++k) add(EventKind::kClosing);
     for (int k = is; k < was; ++k) add(EventKind::kOpening);
     const bool was_out = beyond_edge(before.result, c), is_out = beyond_edge(after.result, c);
@@ -151,6 +155,16 @@ class EventSearch {
     return motion(left.result, right.result, contact) >= jump;
   }
 
+  /// Where between two poses on either side of a change it lies: where a gap closes, or half way.
+  /// `length` of the sweep on which the gaps are as good as straight.
+  double exact_value(const SolvedPose& before, const SolvedPose& after, double length) {
+    const double middle = 0.5 * (before.value + after.value);
+    const std::optional<SolvedPose> earlier =
+        pose_at(before.value - std::copysign(length, after.value - before.value), before);
+    if (!earlier || !same_contacts(earlier->result, before.result)) return middle;
+    return closing_value(solver_.model(), *earlier, before, after).value_or(middle);
+  }
+
  private:
   /// What the tangent at one pose says about the way to the value of another [mm].
   double foretold_motion(const SolvedPose& at, const SolvedPose& to) {
@@ -183,14 +197,14 @@ void locate_events(EquilibriumSolver& solver,
                    std::vector<Event>& events,
                    const EventOptions& options) {
   EventSearch search(solver, swept, options);
-  const double L = solver.model().length;
+  const double L = solver.model().length, straight = kStraight * std::abs(right.value - left.value);
   SolvedPose from = left;
   for (int k = 0; k < options.most_events && !same_contacts(from.result, right.result); ++k) {
     SolvedPose before = from, after = right;
     if (!search.bisect_change(before, after)) return;
     if (body_motion(before.result, after.result, L) >= options.jump * L)
       append_limit(before, after, events);
-    append_changes(before, after, events);
+    append_changes(before, after, search.exact_value(before, after, straight), events);
     from = after;
   }
   if (same_contacts(left.result, right.result) && search.moved_unexpectedly(left, right)) {
@@ -204,7 +218,8 @@ void locate_events(EquilibriumSolver& solver,
       continue;
     SolvedPose before = left, after = right;
     if (search.bisect_jump(before, after, c, options.jump * L))
-      events.push_back({0.5 * (before.value + after.value), EventKind::kJump, static_cast<int>(c)});
+      events.push_back(
+          {search.exact_value(before, after, straight), EventKind::kJump, static_cast<int>(c)});
   }
 }
 

@@ -99,8 +99,7 @@ TEST(ReportScenes, TheCancelledContactOpensAtItsForceAndClosesThereAgain) {
   EXPECT_EQ(result.events[0].kind, EventKind::kOpening);
   EXPECT_EQ(result.events[1].kind, EventKind::kClosing);
   EXPECT_NEAR(result.events[0].value, p, 2e-9);
-  // Closed from an overlap of 5e-7 mm for a model of 30 mm on, at about 3 N/mm.
-  EXPECT_NEAR(result.events[1].value, p, 2e-6);
+  EXPECT_NEAR(result.events[1].value, p, 2e-9);
 }
 
 }  // namespace
