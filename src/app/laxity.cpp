@@ -30,8 +30,9 @@ int report_failures(const Scene& scene, const LaxityResult& result) {
   int status = 0;
   const auto report = [&](const LaxityCurve& curve, const SweepResult& sweep, const char* model) {
     for (const std::string& line : failures(scene, sweep)) {
-      fmt::print(stderr, "condyle: {} deg, {}{}: {}\n", std::round(1e6 * curve.flexion / kDegree) / 1e6,
-                 curve.cut ? "cut" : "intact", model, line);
+      fmt::print(stderr, "condyle: {} deg, {}{}: {}\n",
+                 std::round(1e6 * curve.flexion / kDegree) / 1e6, curve.cut ? "cut" : "intact",
+                 model, line);
       status = kSomePoseFailed;
     }
   };

@@ -29,7 +29,8 @@ void add_range_options(CLI::App& command, RangeOptions& options) {
 }
 
 void override_range(const std::string& file, const RangeOptions& options, Scene& scene) {
-  if (!scene.sweep) throw InputError(file + ": [sweep] is missing, expected what to vary and how far");
+  if (!scene.sweep)
+    throw InputError(file + ": [sweep] is missing, expected what to vary and how far");
   if (!options.from && !options.to && !options.step) return;
   std::vector<double>& values = scene.sweep->values;
   const double unit = declared_sweep_unit(scene).factor;

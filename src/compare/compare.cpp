@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/one_contact_each.h"
 #include "equilibrium/sweep.h"
 #include "reference/polynomial_surface.h"
 #include "reference/wismans_solver.h"
@@ -78,7 +79,7 @@ Comparison compare(const Scene& scene,
       plain_sweep(scene, polynomials),
       plain_sweep(quadratic, surfaces),
       plain_sweep(with_closed_contacts(scene), surfaces),
-      plain_sweep(with_closed_contacts(quadratic), polynomials)};
+      sweep_one_contact_each(quadratic, polynomials, result.reference)};
   for (int v = 0; v < kVariantCount; ++v) result.converged[v] = sweeps[v].count_converged();
   for (const Quantity& quantity : compared_quantities(scene)) {
     ComparedQuantity compared{quantity.name, quantity.units, {}};

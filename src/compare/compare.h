@@ -2,8 +2,9 @@
 
 /// One specimen by both models over one sweep, and the engine with one thing of the reference model
 /// at a time: what part of a difference comes from the surfaces, what from the law of the springs,
-/// what from contacts that never open. With all three the engine is the reference model, so what is
-/// left then shows whether the two agree.
+/// what from contacts that never open. The engine's Newton on all three, with one contact in each
+/// compartment, is the reference model again (one_contact_each.h): what is left then shows whether
+/// the two agree.
 
 #include <array>
 #include <string>
@@ -36,8 +37,8 @@ struct ComparedQuantity {
 struct Comparison {
   CompareOptions options;
   SweepResult reference;
-  std::vector<HeightFit> heights;      ///< as Scene::surfaces
-  std::vector<ForceLaw> springs;       ///< of the reference model, as Scene::ligaments
+  std::vector<HeightFit> heights;  ///< as Scene::surfaces
+  std::vector<ForceLaw> springs;   ///< of the reference model, as Scene::ligaments
   std::vector<ComparedQuantity> quantities;
   std::array<int, kVariantCount> converged = {};  ///< poses
   /// Medians over the sweep, each model alone, without stability, events or results [s].
@@ -45,8 +46,8 @@ struct Comparison {
   double iterations_ours = 0, iterations_reference = 0;  ///< means per pose
 };
 
-/// `ours` is the engine's sweep of the scene. Throws InputError for a scene that the reference model
-/// cannot hold.
+/// `ours` is the engine's sweep of the scene. Throws InputError for a scene that the reference
+/// model cannot hold.
 [[nodiscard]] Comparison compare(const Scene& scene,
                                  const std::vector<FittedSurface>& surfaces,
                                  const SweepResult& ours,

@@ -20,8 +20,8 @@ void add_fits(const Scene& scene,
               const std::vector<FittedSurface>& surfaces,
               const Comparison& comparison,
               Lines& lines) {
-  lines.push_back(fmt::format("{:<20}{:>22}{:>24}", "surface", "polynomial rms, max mm",
-                              "patch rms, max mm"));
+  lines.push_back(
+      fmt::format("{:<20}{:>22}{:>24}", "surface", "polynomial rms, max mm", "patch rms, max mm"));
   for (std::size_t i = 0; i < comparison.heights.size(); ++i) {
     const HeightFit& fit = comparison.heights[i];
     const std::string polynomial =
@@ -29,8 +29,7 @@ void add_fits(const Scene& scene,
     const auto& report = surfaces[i].report;
     const std::string patch =
         report ? fmt::format("{:.3f}, {:.3f}", report->rms, report->max) : "exact";
-    lines.push_back(
-        fmt::format("{:<20}{:>22}{:>24}", scene.surfaces[i].name, polynomial, patch));
+    lines.push_back(fmt::format("{:<20}{:>22}{:>24}", scene.surfaces[i].name, polynomial, patch));
   }
 }
 
@@ -71,8 +70,7 @@ void add_contacts(const Scene& scene,
         }));
     say("reference: the surfaces cut into each other beside the " + name + " contact",
         runs_of(scene, comparison.reference, [c](const PoseResult& p) {
-          return !p.contacts[c].points.empty() &&
-                 p.contacts[c].points[0].relative_curvature[0] < 0;
+          return !p.contacts[c].points.empty() && p.contacts[c].points[0].relative_curvature[0] < 0;
         }));
     say("ours: the " + name + " contact is open",
         runs_of(scene, ours, [c](const PoseResult& p) { return !p.contacts[c].closed; }));
@@ -89,20 +87,19 @@ void add_failures(const Scene& scene, const Comparison& comparison, Lines& lines
     const Unit unit = border_sweep_unit(scene);
     lines.push_back(fmt::format("reference at {:g}: {}", pose.value / unit.factor, pose.reason));
   }
-  for (int v = 2; v < kVariantCount; ++v) {
-    const int missing =
-        static_cast<int>(comparison.reference.poses.size()) - comparison.converged[v];
+  for (const Variant v : {Variant::kSurfaces, Variant::kSprings, Variant::kClosed}) {
+    const std::size_t n = comparison.reference.poses.size();
+    const int missing = static_cast<int>(n) - comparison.converged[static_cast<std::size_t>(v)];
     if (missing > 0)
-      lines.push_back(fmt::format("engine with {} of the reference: {} of {} poses did not converge",
-                                  name(static_cast<Variant>(v)), missing,
-                                  comparison.reference.poses.size()));
+      lines.push_back(fmt::format("ours with {} of the reference: {} of {} poses did not converge",
+                                  name(v), missing, n));
   }
 }
 
 void add_differences(const Scene& scene, const Comparison& comparison, Lines& lines) {
-  lines.push_back(
-      fmt::format("{:<28}{:>8}{:>11}{:>11}{:>9}  |{:>10}{:>10}{:>10}{:>11}", "difference", "unit",
-                  "rms", "max", "at", "surfaces", "springs", "closed", "all three"));
+  lines.push_back(fmt::format("{:<28}{:>8}{:>11}{:>11}{:>9}  |{:>10}{:>10}{:>10}{:>11}",
+                              "difference", "unit", "rms", "max", "at", "surfaces", "springs",
+                              "closed", "all three"));
   for (const ComparedQuantity& quantity : comparison.quantities) {
     const std::vector<double>& ours = quantity.of(Variant::kOurs);
     const Difference all = difference(ours, quantity.of(Variant::kReference));
@@ -144,10 +141,12 @@ Lines summary_lines(const Scene& scene,
   add_failures(scene, comparison, lines);
   lines.emplace_back();
   add_differences(scene, comparison, lines);
-  lines.emplace_back("(rms and max: reference against ours. surfaces, springs, closed: rms of ours "
-                     "with that one thing of the reference, against ours.");
-  lines.emplace_back(" all three: largest difference of ours with all of them from the reference "
-                     "model, which is then the same.)");
+  lines.emplace_back(
+      "(rms and max: reference against ours. surfaces, springs, closed: rms of ours "
+      "with that one thing of the reference, against ours.");
+  lines.emplace_back(
+      " all three: largest difference of the engine's Newton on all three, one contact "
+      "in each compartment, from the reference's.)");
   lines.emplace_back();
   lines.push_back(fmt::format(
       "per pose (means and medians): ours {:.1f} iterations, {:.1f} us; reference {:.1f} "

@@ -20,11 +20,11 @@ constexpr double kFlexionStep = 5 * kDegree, kLoadStep = 0.1;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double JointCoordinates::*kCoordinates[6] = {
-    &JointCoordinates::flexion,         &JointCoordinates::adduction,
+    &JointCoordinates::flexion,           &JointCoordinates::adduction,
     &JointCoordinates::internal_rotation, &JointCoordinates::lateral_shift,
-    &JointCoordinates::anterior_drawer, &JointCoordinates::distraction};
-constexpr const char* kCoordinateNames[6] = {"flexion",       "adduction",       "internal rotation",
-                                             "lateral shift", "anterior drawer", "distraction"};
+    &JointCoordinates::anterior_drawer,   &JointCoordinates::distraction};
+constexpr const char* kCoordinateNames[6] = {
+    "flexion", "adduction", "internal rotation", "lateral shift", "anterior drawer", "distraction"};
 
 /// From one value to another in steps of at most `step`, both ends included.
 std::vector<double> way(double from, double to, double step) {
@@ -140,8 +140,8 @@ LaxityResult test_laxity(const Scene& scene,
         const PoseResult& middle = curve.ours.poses[least_load(curve.ours.poses)];
         if (middle.converged()) starts.push_back(middle.X_BA);
         const Scene quadratic = with_quadratic_springs(knee, options.strain);
-        curve.reference = by_reference(build_wismans_model(quadratic, heights), knee, ways, flexion,
-                                       starts);
+        curve.reference =
+            by_reference(build_wismans_model(quadratic, heights), knee, ways, flexion, starts);
       }
       result.curves.push_back(std::move(curve));
     }
@@ -175,10 +175,10 @@ std::vector<std::string> laxity_lines(const Scene& scene, const LaxityResult& re
   for (const LaxityCurve& curve : result.curves) {
     const std::string reference =
         curve.reference ? fmt::format("{:.2f}", laxity_of(scene, *curve.reference)) : "-";
-    lines.push_back(fmt::format("{:<10}{:<10g}{:>10.2f}{:>12}{:>8} of {}",
-                                curve.cut ? "cut" : "intact", std::round(1e6 * curve.flexion / kDegree) / 1e6,
-                                laxity_of(scene, curve.ours), reference,
-                                curve.ours.count_converged(), curve.ours.poses.size()));
+    lines.push_back(
+        fmt::format("{:<10}{:<10g}{:>10.2f}{:>12}{:>8} of {}", curve.cut ? "cut" : "intact",
+                    std::round(1e6 * curve.flexion / kDegree) / 1e6, laxity_of(scene, curve.ours),
+                    reference, curve.ours.count_converged(), curve.ours.poses.size()));
   }
   return lines;
 }

@@ -18,7 +18,8 @@ struct LaxityCurve {
 };
 
 struct LaxityResult {
-  std::vector<LaxityCurve> curves;  ///< all flexions of the knee as it is, then those of the cut one
+  std::vector<LaxityCurve>
+      curves;  ///< all flexions of the knee as it is, then those of the cut one
 };
 
 /// Needs scene.laxity. The load is reached from none, the flexion from that of the scene, in steps.

@@ -30,7 +30,10 @@ void add_joint(const Scene& scene, std::vector<Quantity>& quantities) {
 }
 
 /// The strongest point of a contact, in the tibia's anatomical frame: lateral, anterior.
-double place_on_tibia(const Scene& scene, const PoseResult& pose, std::size_t index, bool anterior) {
+double place_on_tibia(const Scene& scene,
+                      const PoseResult& pose,
+                      std::size_t index,
+                      bool anterior) {
   const ContactResult& contact = pose.contacts.at(index);
   const ContactPointResult* best = nullptr;
   for (const ContactPointResult& point : contact.points)
@@ -62,7 +65,8 @@ void add_ligaments(const Scene& scene, std::vector<Quantity>& quantities) {
   for (const LigamentBundle& bundle : ligament_columns(names, 16)) {
     quantities.push_back({bundle.name + " force", "N", [bundle](const PoseResult& p) {
                             double sum = 0;
-                            for (const std::size_t i : bundle.members) sum += p.ligaments.at(i).force;
+                            for (const std::size_t i : bundle.members)
+                              sum += p.ligaments.at(i).force;
                             return sum;
                           }});
   }
@@ -75,8 +79,8 @@ std::vector<Quantity> compared_quantities(const Scene& scene) {
   add_joint(scene, quantities);
   add_contacts(scene, quantities);
   add_ligaments(scene, quantities);
-  quantities.push_back(
-      {"flexion moment", "N mm", [](const PoseResult& p) { return p.conditions.at(0).multiplier; }});
+  quantities.push_back({"flexion moment", "N mm",
+                        [](const PoseResult& p) { return p.conditions.at(0).multiplier; }});
   return quantities;
 }
 

@@ -12,13 +12,14 @@
 namespace condyle {
 
 struct Quantity {
-  std::string name;   ///< "medial contact force"
-  std::string units;  ///< of the border: deg, mm, N, N mm
+  std::string name;                             ///< "medial contact force"
+  std::string units;                            ///< of the border: deg, mm, N, N mm
   std::function<double(const PoseResult&)> of;  ///< NaN where the pose does not have it
 };
 
-/// Joint coordinates but for a swept flexion, contact forces, places of contact on the tibia (in its
-/// anatomical frame), ligament forces (many of them by bundles), flexion moment. Needs [joint]. `scene` must outlive them.
+/// Joint coordinates but for a swept flexion, contact forces, places of contact on the tibia (in
+/// its anatomical frame), ligament forces (many of them by bundles), flexion moment. Needs [joint].
+/// `scene` must outlive them.
 [[nodiscard]] std::vector<Quantity> compared_quantities(const Scene& scene);
 
 /// Its values over the poses; NaN where one did not converge.

@@ -94,8 +94,9 @@ ShadedMesh contact_paths(const Run& run, const PictureScales& scales) {
 
 ShadedMesh reference_paths(const Run& run) {
   if (!run.comparison) return {};
-  return paths_of(run.scene, run.comparison->reference, kReferencePath,
-                  [](const PoseResult&) { return Paint{kReferenceColor, 0.9}; });
+  return paths_of(run.scene, run.comparison->reference, kReferencePath, [](const PoseResult&) {
+    return Paint{kReferenceColor, 0.9};
+  });
 }
 
 ShadedMesh contact_points(const std::vector<ContactMark>& marks) {

@@ -56,15 +56,17 @@ Scene with_closed_contacts(Scene scene) {
 void check_wismans_scene(const Scene& scene) {
   const std::string file = scene.file.string();
   if (!scene.joint)
-    throw InputError(file + ": [joint] is missing, expected the frames of femur and tibia: Wismans' "
-                            "model prescribes the flexion");
+    throw InputError(file +
+                     ": [joint] is missing, expected the frames of femur and tibia: Wismans' "
+                     "model prescribes the flexion");
   const auto contacts =
       std::count_if(scene.contacts.begin(), scene.contacts.end(),
                     [](const ContactDescription& c) { return c.state != ContactState::kOpen; });
   if (contacts != 2) {
-    throw InputError(fmt::format("{}: {} [[contact]] that may close, expected 2: Wismans' model has "
-                                 "one in each compartment",
-                                 file, contacts));
+    throw InputError(
+        fmt::format("{}: {} [[contact]] that may close, expected 2: Wismans' model has "
+                    "one in each compartment",
+                    file, contacts));
   }
   if (scene.conditions.size() != 1 || scene.conditions[0].kind != ConditionKind::kFlexion) {
     throw InputError(fmt::format(

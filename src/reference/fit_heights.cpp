@@ -19,7 +19,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kDegree = M_PI / 180;
-constexpr double kSpacing = 1;                             // [mm] of points on exact surfaces
+constexpr double kSpacing = 1;  // [mm] of points on exact surfaces
 constexpr double kMargin = 20 * kDegree, kWidest = 70 * kDegree;
 
 struct Points {
@@ -169,7 +169,8 @@ class HeightFitter {
     const int unknowns = (degree_ + 1) * (degree_ + 2) / 2;
     if (static_cast<int>(points.c.size()) < 2 * unknowns) {
       throw InputError(fmt::format(
-          "{}: surface \"{}\": {} points face the other bone, expected at least {} for a polynomial "
+          "{}: surface \"{}\": {} points face the other bone, expected at least {} for a "
+          "polynomial "
           "of degree {}",
           scene_.file.string(), description.name, points.c.size(), 2 * unknowns, degree_));
     }
@@ -194,8 +195,7 @@ class HeightFitter {
   static void measure(const Points& points, HeightFit& fit) {
     double sum = 0, total = 0;
     for (std::size_t i = 0; i < points.c.size(); ++i) {
-      const HeightPoint at =
-          evaluate(fit.surface, coordinates_of(fit.surface, points.c[i]));
+      const HeightPoint at = evaluate(fit.surface, coordinates_of(fit.surface, points.c[i]));
       const double distance = std::abs(at.n.dot(points.c[i] - at.c));
       sum += points.weights[i] * distance * distance;
       total += points.weights[i];

@@ -24,11 +24,11 @@ struct HeightSurface {
 
 /// All that the equations and their derivatives ask for at one pair of coordinates.
 struct HeightPoint {
-  Eigen::Vector3d c;            ///< point
-  Eigen::Vector3d t[2];         ///< ∂c/∂x, ∂c/∂y
-  Eigen::Vector3d c_xx[2][2];   ///< second derivatives of c
-  Eigen::Vector3d n;            ///< unit normal, out of the solid
-  Eigen::Vector3d n_x[2];       ///< ∂n/∂x, ∂n/∂y
+  Eigen::Vector3d c;           ///< point
+  Eigen::Vector3d t[2];        ///< ∂c/∂x, ∂c/∂y
+  Eigen::Vector3d c_xx[2][2];  ///< second derivatives of c
+  Eigen::Vector3d n;           ///< unit normal, out of the solid
+  Eigen::Vector3d n_x[2];      ///< ∂n/∂x, ∂n/∂y
 };
 [[nodiscard]] HeightPoint evaluate(const HeightSurface& surface, const Eigen::Vector2d& at);
 

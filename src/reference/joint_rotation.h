@@ -14,9 +14,9 @@ namespace condyle {
 
 /// Index 0 flexion, 1 adduction, 2 internal rotation.
 struct JointRotation {
-  Eigen::Matrix3d R;          ///< R_BA
-  Eigen::Matrix3d d[3];       ///< ∂R/∂angle
-  Eigen::Matrix3d dd[3][3];   ///< second derivatives
+  Eigen::Matrix3d R;         ///< R_BA
+  Eigen::Matrix3d d[3];      ///< ∂R/∂angle
+  Eigen::Matrix3d dd[3][3];  ///< second derivatives
 };
 [[nodiscard]] JointRotation joint_rotation(const JointFrames& frames,
                                            const Eigen::Vector3d& angles);

@@ -10,8 +10,8 @@ class PolynomialSurface final : public Surface {
  public:
   explicit PolynomialSurface(const HeightSurface& heights)
       : heights_(heights),
-        surface_(make_polynomial(heights.origin, heights.axes, heights.terms,
-                                 heights.solid_below)) {}
+        surface_(
+            make_polynomial(heights.origin, heights.axes, heights.terms, heights.solid_below)) {}
 
   [[nodiscard]] SurfacePoint evaluate(const Place& place) const override {
     return surface_->evaluate(place);

@@ -13,9 +13,9 @@ namespace condyle {
 
 struct WismansOptions {
   int max_iterations = 60;
-  double longest_step = 4;   ///< [mm] of a translation or a surface coordinate in one iteration
-  double largest_turn = 0.1; ///< [rad] in one iteration
-  int halvings = 8;          ///< of a step of the sweep
+  double longest_step = 4;    ///< [mm] of a translation or a surface coordinate in one iteration
+  double largest_turn = 0.1;  ///< [rad] in one iteration
+  int halvings = 8;           ///< of a step of the sweep
 };
 
 struct WismansSolution {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "elements/contact.h"
+#include "reference/joint_rotation.h"
 #include "reference/wismans_solver.h"
 #include "reference/wismans_system.h"
 
@@ -34,8 +35,8 @@ ContactResult describe_contact(const WismansModel& model,
   point.relative_curvature =
       linearize_contact(*surface(contact.on_B), B.c, *surface(contact.on_A), A.c, X_BA)
           .relative_curvature;
-  point.edge_distance = std::min(distance_to_outline(contact.on_B, at_B),
-                                 distance_to_outline(contact.on_A, at_A));
+  point.edge_distance =
+      std::min(distance_to_outline(contact.on_B, at_B), distance_to_outline(contact.on_A, at_A));
   point.on_edge = point.edge_distance < 0;
   const auto say = [&](const std::string& text) { remark += (remark.empty() ? "" : "; ") + text; };
   if (point.force < 0)
@@ -66,6 +67,22 @@ std::string reason_of(const WismansSolution& solution) {
   }
 }
 
+/// A new flexion turns the body about the middle of its contacts, not about an origin that may be
+/// far away.
+WismansVector turned_to(const WismansModel& model, double flexion, const WismansVector& unknowns) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (int c = 0; c < 2; ++c) {
+    middle += 0.5 * evaluate(model.contacts[static_cast<std::size_t>(c)].on_A,
+                             unknowns.segment<2>(wismans::on_A(c)))
+                        .c;
+  }
+  const Eigen::Vector3d before(flexion, unknowns[wismans::kAdduction],
+                               unknowns[wismans::kInternalRotation]);
+  WismansVector turned = unknowns;
+  turned.head<3>() += (joint_rotation(model.joint, before).R - pose_of(model, unknowns).R) * middle;
+  return turned;
+}
+
 /// One sweep: stands at the last solution, and takes a step in parts where it must.
 class Sweep {
  public:
@@ -86,7 +103,7 @@ class Sweep {
     for (int halved = 0; halved <= options_.halvings;) {
       const double next = std::min(1.0, done + part);
       swept_ = next < 1 ? from + next * (value - from) : value;
-      if (attempt(now_.unknowns)) {
+      if (attempt(turned_to(model_, at_flexion_, now_.unknowns))) {
         done = next;
         if (done == 1) return true;
       } else {
@@ -109,6 +126,7 @@ class Sweep {
     if (!solution.converged()) return false;
     now_ = solution;
     at_ = swept_;
+    at_flexion_ = model_.flexion;
     return true;
   }
 
@@ -116,7 +134,7 @@ class Sweep {
   double& swept_;
   const WismansOptions& options_;
   WismansSolution now_;
-  double at_ = 0;
+  double at_ = 0, at_flexion_ = 0;  ///< of the last solution
   int iterations_ = 0;
 };
 

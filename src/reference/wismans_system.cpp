@@ -28,8 +28,8 @@ struct MovedPoint {
     for (int i = 0; i < 6; ++i) {
       x_i[i] = i < 3 ? Vector3d(Vector3d::Unit(i)) : Vector3d(rotation.d[i - 3] * s);
       for (int j = 0; j < 6; ++j)
-        x_ij[i][j] = i < 3 || j < 3 ? Vector3d(Vector3d::Zero())
-                                    : Vector3d(rotation.dd[i - 3][j - 3] * s);
+        x_ij[i][j] =
+            i < 3 || j < 3 ? Vector3d(Vector3d::Zero()) : Vector3d(rotation.dd[i - 3][j - 3] * s);
     }
   }
 };
@@ -73,8 +73,7 @@ void add_force(const Load& load, const Vector3d& a, const JointRotation& rotatio
     work.Q[i] += F.dot(point.x_i[i]);
     for (int j = 0; j < 6; ++j) {
       work.dQ(i, j) += F.dot(point.x_ij[i][j]);
-      if (load.follows_body && j >= 3)
-        work.dQ(i, j) += (rotation.d[j - 3] * f).dot(point.x_i[i]);
+      if (load.follows_body && j >= 3) work.dQ(i, j) += (rotation.d[j - 3] * f).dot(point.x_i[i]);
     }
   }
 }
@@ -92,14 +91,15 @@ void add_moment(const Load& load, const JointRotation& rotation, Work& work) {
     for (int j = 0; j < 3; ++j) {
       const Matrix3d &R_j = rotation.d[j], &R_ij = rotation.dd[i][j];
       work.dQ(3 + i, 3 + j) +=
-          load.follows_body
-              ? half_trace(R_j.transpose() * R_i + rotation.R.transpose() * R_ij)
-              : half_trace(R_ij * rotation.R.transpose() + R_i * R_j.transpose());
+          load.follows_body ? half_trace(R_j.transpose() * R_i + rotation.R.transpose() * R_ij)
+                            : half_trace(R_ij * rotation.R.transpose() + R_i * R_j.transpose());
     }
   }
 }
 
-Work springs_and_loads(const WismansModel& model, const Vector3d& a, const JointRotation& rotation) {
+Work springs_and_loads(const WismansModel& model,
+                       const Vector3d& a,
+                       const JointRotation& rotation) {
   Work work;
   for (const LineElement& spring : model.springs) add_spring(spring, a, rotation, work);
   for (const Load& load : model.loads) {

@@ -14,9 +14,9 @@
 namespace condyle {
 
 struct WismansSystem {
-  WismansVector residual;   ///< [mm], [-], [N], [N mm]
-  WismansMatrix jacobian;   ///< ∂residual/∂unknowns
-  double force_scale = 0;   ///< sum of the magnitudes of all forces [N]
+  WismansVector residual;  ///< [mm], [-], [N], [N mm]
+  WismansMatrix jacobian;  ///< ∂residual/∂unknowns
+  double force_scale = 0;  ///< sum of the magnitudes of all forces [N]
 };
 [[nodiscard]] WismansSystem assemble(const WismansModel& model, const WismansVector& unknowns);
 

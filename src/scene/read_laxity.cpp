@@ -22,7 +22,6 @@ void read_laxity(const Section& root, Scene& scene) {
     section.fail_with("needs a [sweep] with vary = \"NAME.scale\", the load that pulls");
   LaxityDescription laxity;
   laxity.flexions = section.numbers("flexion", "angles [f1, f2, ...]");
-  if (laxity.flexions.empty()) section.fail("flexion", "at least one angle");
   for (double& flexion : laxity.flexions) flexion *= scene.angle_to_rad;
   laxity.condition = flexion_condition(section, scene);
   if (section.has("cut")) {

@@ -157,9 +157,9 @@ struct SweepDescription {
 /// A test of laxity: the swept load goes over its values at each of these angles of flexion, first
 /// in the knee as it is and then without some ligaments.
 struct LaxityDescription {
-  int condition = -1;              ///< the prescribed flexion
-  std::vector<double> flexions;    ///< [rad]
-  std::vector<int> cut;            ///< ligaments; empty: only the knee as it is
+  int condition = -1;            ///< the prescribed flexion
+  std::vector<double> flexions;  ///< [rad]
+  std::vector<int> cut;          ///< ligaments; empty: only the knee as it is
 };
 
 struct Scene {

@@ -97,6 +97,27 @@ TEST(Agreement, HoldsForLoadsOfEveryKindAndAMovingFemur) {
   }
 }
 
+TEST(Agreement, TheShippedKneeMovesAsAnIndependentSolutionSays) {
+  // Least spring energy under the two gaps as constraints, by another program; as printed.
+  struct Row {
+    std::size_t pose;
+    double adduction, rotation, medial, lateral;
+  };
+  constexpr Row kRows[] = {{0, -0.84, -0.04, 382, 614},
+                           {6, 0.71, -0.36, 324, 177},
+                           {12, 1.00, 9.09, 468, 106},
+                           {18, -0.60, 17.35, 241, 9}};
+  const Scene scene = read_scene(kKnee);
+  const SweepResult result = sweep(scene, fit_surfaces(scene));
+  for (const Row& row : kRows) {
+    const PoseResult& pose = result.poses.at(row.pose);
+    EXPECT_NEAR(pose.joint.adduction * 180 / M_PI, row.adduction, 0.006);
+    EXPECT_NEAR(pose.joint.internal_rotation * 180 / M_PI, row.rotation, 0.006);
+    EXPECT_NEAR(pose.contacts[0].force, row.medial, 0.6);
+    EXPECT_NEAR(pose.contacts[1].force, row.lateral, 0.6);
+  }
+}
+
 TEST(Agreement, QuadraticSpringsEqualTheToeAndItsEnd) {
   const Scene toe = read_scene(kKnee), quadratic = with_quadratic_springs(toe, 0.06);
   for (std::size_t i = 0; i < toe.ligaments.size(); ++i) {
