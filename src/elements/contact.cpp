@@ -84,12 +84,14 @@ ContactLinearization linearize_contact(const Surface& on_B,
   contact.h = n + m;
   contact.arm = s.cross(n);
 
-  const Eigen::Matrix<double, 3, 2> T = tangents(n);
+  contact.T = tangents(n);
+  const Eigen::Matrix<double, 3, 2>& T = contact.T;
   // Tᵀ Kr and, with it, the equivalent curvature Q = Tᵀ (K + Kr) T.
   const Eigen::Matrix<double, 3, 2> RT = R.transpose() * T;
   const Eigen::Matrix<double, 3, 2> K_RT = contact.A.K * RT;
   const Eigen::Matrix<double, 3, 2> Kr_T = R * K_RT;
-  const Eigen::Matrix<double, 3, 2> K_T = contact.B.K * T;
+  contact.K_T.noalias() = contact.B.K * T;
+  const Eigen::Matrix<double, 3, 2>& K_T = contact.K_T;
   const double q00 = T.col(0).dot(K_T.col(0)) + RT.col(0).dot(K_RT.col(0));
   const double q01 = T.col(0).dot(K_T.col(1)) + RT.col(0).dot(K_RT.col(1));
   const double q11 = T.col(1).dot(K_T.col(1)) + RT.col(1).dot(K_RT.col(1));
@@ -99,7 +101,8 @@ ContactLinearization linearize_contact(const Surface& on_B,
   // P = T Q⁻¹ Tᵀ, without the directions in which the principal value vanishes.
   Eigen::Matrix2d Q_inverse;
   enum class Pinned { kNot, kToB, kToA } pinned = Pinned::kNot;
-  Eigen::Vector3d along = Eigen::Vector3d::Zero(), fixed = along;
+  Eigen::Vector2d along = Eigen::Vector2d::Zero();  // in tangent coordinates
+  Eigen::Vector3d fixed = Eigen::Vector3d::Zero();
   const double small = std::min(std::abs(Q.high), std::abs(Q.low));
   if (small > kFlatAtEdge * std::abs(Q.low) && small > kFlatCurvature) {
     const double d = 1 / (q00 * q11 - q01 * q01);
@@ -117,7 +120,7 @@ ContactLinearization linearize_contact(const Surface& on_B,
       const Eigen::Matrix2d C = edges.nearer_on_A() ? T.transpose() * Kr_T : T.transpose() * K_T;
       const Eigen::Vector2d u = straight_direction(C, e);
       pinned = edges.nearer_on_A() ? Pinned::kToA : Pinned::kToB;
-      along = T * e;
+      along = e;
       fixed = T * u / u.dot(e);
     }
   }
@@ -127,19 +130,19 @@ ContactLinearization linearize_contact(const Surface& on_B,
   for (int k = 0; k < 2; ++k)
     to_dpi.row(k) = (m.cross(T.col(k)) + s.cross(Kr_T.col(k))).transpose();
   const Eigen::Vector2d to_0 = T.transpose() * contact.h + Kr_T.transpose() * contact.g;
-  const Eigen::Matrix<double, 3, 2> TQ = T * Q_inverse;
-  contact.D1.noalias() = TQ * to_da;
-  contact.D2.noalias() = TQ * to_dpi;
-  contact.D0.noalias() = TQ * to_0;
+  contact.S1.noalias() = Q_inverse * to_da;
+  contact.S2.noalias() = Q_inverse * to_dpi;
+  contact.S0.noalias() = Q_inverse * to_0;
   if (pinned == Pinned::kNot) return contact;
   // Along the line the point moves so that, on the surface it is pinned to, u.dc = 0.
-  contact.D0 -= along * fixed.dot(contact.D0);
-  contact.D1 -= (along * (fixed.transpose() * contact.D1)).eval();
-  contact.D2 -= (along * (fixed.transpose() * contact.D2)).eval();
+  const Eigen::RowVector2d fixed_T = fixed.transpose() * T;
+  contact.S0 -= along * fixed_T.dot(contact.S0);
+  contact.S1 -= (along * (fixed_T * contact.S1)).eval();
+  contact.S2 -= (along * (fixed_T * contact.S2)).eval();
   if (pinned == Pinned::kToB) return contact;
-  contact.D0 += along * fixed.dot(contact.g);
-  contact.D1 += along * fixed.transpose();
-  contact.D2 += along * s.cross(fixed).transpose();
+  contact.S0 += along * fixed.dot(contact.g);
+  contact.S1 += along * fixed.transpose();
+  contact.S2 += along * s.cross(fixed).transpose();
   return contact;
 }
 
@@ -153,19 +156,18 @@ Eigen::Vector3d direction_of_least_curvature(const ContactLinearization& contact
 
 CONDYLE_FMA_CLONE
 void add_contact_force(const ContactLinearization& contact, double p, Wrench& wrench) {
-  // dF = dp n - p K dc;  dM = (dc - g - da) x F + s x dF
+  // dF = dp n - p K dc;  dM = (dc - g - da) x F + s x dF;  dc = T (S0 + S1 da + S2 dπ)
   const Eigen::Vector3d F = p * contact.B.n;
-  const Eigen::Matrix3d pK = p * contact.B.K;
-  const Eigen::Matrix3d F1 = -pK * contact.D1, F2 = -pK * contact.D2;
-  const Eigen::Vector3d F0 = -pK * contact.D0;
-  const Eigen::Matrix3d Fx = skew(F), sx = skew(contact.s);
-  wrench.f += F + F0;
-  wrench.m += contact.s.cross(F + F0) + (contact.D0 - contact.g).cross(F);
-  wrench.F1 += F1;
-  wrench.F2 += F2;
-  wrench.M1.noalias() += sx * F1 - Fx * contact.D1;
-  wrench.M1 += Fx;
-  wrench.M2.noalias() += sx * F2 - Fx * contact.D2;
+  const Eigen::Matrix<double, 3, 2> G = -p * contact.K_T;
+  Eigen::Matrix<double, 3, 2> H;
+  for (int k = 0; k < 2; ++k) H.col(k) = contact.s.cross(G.col(k)) + contact.T.col(k).cross(F);
+  wrench.f += F + G * contact.S0;
+  wrench.m += (contact.s - contact.g).cross(F) + H * contact.S0;
+  wrench.F1.noalias() += G * contact.S1;
+  wrench.F2.noalias() += G * contact.S2;
+  wrench.M1.noalias() += H * contact.S1;
+  wrench.M2.noalias() += H * contact.S2;
+  wrench.M1 += skew(F);
 }
 
 CONDYLE_FMA_CLONE
@@ -178,7 +180,8 @@ void slide_contact(const Surface& on_B,
                    const Eigen::Vector3d& da,
                    const Eigen::Vector3d& dpi,
                    double longest_slide) {
-  Eigen::Vector3d dc = contact.D0 + contact.D1 * da + contact.D2 * dpi;
+  const Eigen::Vector2d slide = contact.S0 + contact.S1 * da + contact.S2 * dpi;
+  Eigen::Vector3d dc = contact.T * slide;
   Eigen::Vector3d dc_A = dc - contact.g - da - dpi.cross(contact.s);
   const double longest = std::sqrt(std::max(dc.squaredNorm(), dc_A.squaredNorm()));
   if (longest > longest_slide) {

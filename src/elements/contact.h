@@ -20,18 +20,24 @@
 namespace condyle {
 
 struct ContactLinearization {
-  SurfacePoint B;          ///< on the fixed body, ground frame
-  SurfacePoint A;          ///< on the moving body, in A's frame
-  Eigen::Vector3d s, m;    ///< R ĉ [mm] and R n̂
-  Eigen::Vector3d g, h;    ///< distance of the two points [mm] and of the opposite normals
-  Eigen::Vector3d arm;     ///< s x n [mm]: the moment of a unit contact force
-  Eigen::Matrix3d D1, D2;  ///< ∂c/∂a, ∂c/∂π
-  Eigen::Vector3d D0;      ///< what brings the two points together at a fixed pose [mm]
+  SurfacePoint B;                   ///< on the fixed body, ground frame
+  SurfacePoint A;                   ///< on the moving body, in A's frame
+  Eigen::Vector3d s, m;             ///< R ĉ [mm] and R n̂
+  Eigen::Vector3d g, h;             ///< distance of the two points [mm] and of the opposite normals
+  Eigen::Vector3d arm;              ///< s x n [mm]: the moment of a unit contact force
+  Eigen::Matrix<double, 3, 2> T;    ///< unit tangents of B at the contact
+  Eigen::Matrix<double, 3, 2> K_T;  ///< K T, of B
+  Eigen::Matrix<double, 2, 3> S1, S2;  ///< D1 = T S1, D2 = T S2: the slide in tangent coordinates
+  Eigen::Vector2d S0;                  ///< D0 = T S0
   /// Principal values of -(K + Kr) in the tangent plane [1/mm], ascending: both positive where the
   /// solids touch in an isolated point.
   std::array<double, 2> relative_curvature;
 
   [[nodiscard]] double gap() const { return B.n.dot(g); }
+  [[nodiscard]] Eigen::Matrix3d D1() const { return T * S1; }  ///< ∂c/∂a
+  [[nodiscard]] Eigen::Matrix3d D2() const { return T * S2; }  ///< ∂c/∂π
+  /// What brings the two points together at a fixed pose [mm].
+  [[nodiscard]] Eigen::Vector3d D0() const { return T * S0; }
 };
 
 /// Below this magnitude [1/mm] a principal relative curvature counts as zero: the contact is a line

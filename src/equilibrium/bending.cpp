@@ -10,7 +10,21 @@ namespace condyle {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kSafety = 1.3;  // the quadric meant is that of a point near the sample
+constexpr double kSafety = 1.3;      // the quadric meant is that of a point near the sample
+constexpr double kNeighbours = 1.6;  // radius of the first shell, in spacings
+
+/// Of a plane, sphere or cylinder as far as `radius` from any of its points. A cup of radius R
+/// rises to h = d²/2R at the distance d from its point, so 2 h/t² = 1/R (1 - d²/4R²).
+Rise even_rise(double radius, const Eigen::Matrix3d& K) {
+  const double trace = K.trace();
+  const double greatest =
+      0.5 * (trace + std::sqrt(std::max(0.0, 2 * K.squaredNorm() - trace * trace)));
+  if (trace <= 0) return {0, greatest};
+  const double x = 0.5 * radius * greatest;
+  if (x > 0.9) return {kInfinity, kInfinity};
+  const double rise = greatest / (1 - x * x);
+  return {rise - greatest, rise};
+}
 
 }  // namespace
 
@@ -33,57 +47,71 @@ std::vector<std::array<int, 8>> nearest_neighbours(const std::vector<Eigen::Vect
   return neighbours;
 }
 
-double BendingMeter::at(const Eigen::Vector3d& point,
-                        const Eigen::Vector3d& normal,
-                        double least) const {
-  if (n_.dot(normal) < 0.5) return kInfinity;
+Rise BendingMeter::at(const Eigen::Vector3d& point,
+                      const Eigen::Vector3d& normal,
+                      double least) const {
   const Eigen::Vector3d d = point - c_;
   const double height = n_.dot(d);
   const Eigen::Vector3d t = d - height * n_;
-  const double square = std::max(t.squaredNorm(), least * least);
-  return std::abs(2 * height - t.dot(K_ * t)) / square;
+  const double inverse = 1 / std::max(t.squaredNorm(), least * least);
+  return {n_.dot(normal) < 0.5 ? kInfinity : (2 * height - t.dot(K_ * t)) * inverse,
+          2 * height * inverse};
 }
 
-Bending::Bending(const Surface& surface, double spacing) : even_(surface.bends_evenly()) {
-  for (int level = 0; level < kLevels; ++level)
-    radii_[level] = spacing * std::pow(2, kLevels - 1 - level);
-  std::vector<Eigen::Vector3d> points;
+Bending::Radii Bending::shells(double spacing, double greatest) {
+  const double least = kNeighbours * spacing;
+  const double ratio = std::pow(std::max(greatest / least, 1.0), 1.0 / (kLevels - 1));
+  Radii radii;
+  for (int level = 0; level < kLevels; ++level) radii[level] = least * std::pow(ratio, level);
+  return radii;
+}
+
+Bending::Bending(const Surface& surface, double spacing, const Radii& radii)
+    : radii_(radii), even_(surface.bends_evenly()) {
   for (const Place& place : surface.samples(spacing)) {
     samples_.push_back(surface.evaluate(place));
-    points.push_back(samples_.back().c);
+    points_.push_back(samples_.back().c);
+    normals_.push_back(samples_.back().n);
   }
-  neighbours_ = nearest_neighbours(points, 3 * spacing);
-  allowance_.resize(samples_.size());
-  for (auto& of : allowance_) of.fill(-1);
+  neighbours_ = nearest_neighbours(points_, 3 * spacing);
+  shells_.resize(samples_.size());
+  for (Shells& shells : shells_) shells.within[0] = -1;
 }
 
 void Bending::measure(std::size_t sample) {
   const SurfacePoint& at = samples_[sample];
-  const double least = radii_[kLevels - 1];
+  const double least = radii_[0] / kNeighbours;
   const BendingMeter meter(at.c, at.n, at.K);
-  std::array<double, kLevels>& of = allowance_[sample];
-  of.fill(0);
-  for (const SurfacePoint& other : samples_) {
-    const double square = (other.c - at.c).squaredNorm();
-    if (square > radii_[0] * radii_[0] || &other == &at) continue;
-    const double a = kSafety * meter.at(other.c, other.n, least);
-    for (int level = 0; level < kLevels && square <= radii_[level] * radii_[level]; ++level)
-      of[level] = std::max(of[level], a);
+  Shells& shells = shells_[sample];
+  shells.of.fill({-kInfinity, -kInfinity});
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const double square = (points_[i] - at.c).squaredNorm();
+    int level = 0;
+    while (level < kLevels && square > radii_[level] * radii_[level]) ++level;
+    if (level == kLevels || i == sample) continue;
+    const Rise rise = meter.at(points_[i], normals_[i], least);
+    Rise& greatest = shells.of[level];
+    greatest.over_quadric = std::max(greatest.over_quadric, rise.over_quadric);
+    greatest.over_plane = std::max(greatest.over_plane, rise.over_plane);
   }
-  // A level whose ring holds no samples knows nothing of its own: that of the next one serves.
-  for (int level = 1; level < kLevels; ++level)
-    if (of[level] == 0) of[level] = of[level - 1];
+  double so_far = 0;
+  for (int level = 0; level < kLevels; ++level) {
+    Rise& rise = shells.of[level];
+    if (rise.over_quadric > 0) rise.over_quadric *= kSafety;
+    so_far = std::max(so_far, rise.over_quadric);
+    shells.within[level] = so_far;
+  }
 }
 
 int Bending::nearest(const Eigen::Vector3d& point, int start) const {
   if (samples_.empty()) return -1;
   int best = std::max(start, 0);
-  double square = (samples_[best].c - point).squaredNorm();
+  double square = (points_[best] - point).squaredNorm();
   for (bool moved = true; moved;) {
     moved = false;
     for (const int other : neighbours_[best]) {
       if (other < 0) break;
-      const double d = (samples_[other].c - point).squaredNorm();
+      const double d = (points_[other] - point).squaredNorm();
       if (d >= square) continue;
       best = other;
       square = d;
@@ -91,27 +119,31 @@ int Bending::nearest(const Eigen::Vector3d& point, int start) const {
       break;
     }
   }
-  const double lost = 2 * radii_[kLevels - 1];
+  const double lost = 2 * radii_[0] / kNeighbours;
   if (square < lost * lost) return best;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
-    const double d = (samples_[i].c - point).squaredNorm();
+    const double d = (points_[i] - point).squaredNorm();
     if (d < square) best = static_cast<int>(i), square = d;
   }
   return best;
 }
 
 double Bending::within(double radius, int sample, const Eigen::Matrix3d& K) {
-  if (even_) {
-    // A ball of radius R departs by t⁴/(8 R³) and more, at t = R by R/2; |K| = √2/R.
-    const double k = K.norm();
-    return 0.5 * k * (radius * k) * (radius * k);
-  }
+  if (even_) return even_rise(radius, K).over_quadric;
   if (sample < 0) return kInfinity;
   const auto index = static_cast<std::size_t>(sample);
-  if (allowance_[index][0] < 0) measure(index);
-  int level = kLevels - 1;
-  while (level > 0 && radii_[level] < radius) --level;
-  return radii_[level] < radius ? kInfinity : allowance_[index][level];
+  if (shells_[index].within[0] < 0) measure(index);
+  int level = 0;
+  while (level < kLevels && radii_[level] < radius) ++level;
+  return level == kLevels ? kInfinity : shells_[index].within[level];
+}
+
+Rise Bending::in_shell(int level, int sample, const Eigen::Matrix3d& K) {
+  if (even_) return even_rise(radii_[level], K);
+  if (sample < 0) return {kInfinity, kInfinity};
+  const auto index = static_cast<std::size_t>(sample);
+  if (shells_[index].within[0] < 0) measure(index);
+  return shells_[index].of[level];
 }
 
 }  // namespace condyle

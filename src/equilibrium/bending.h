@@ -1,8 +1,9 @@
 #pragma once
 
-/// How far a surface departs from its osculating quadric: what a bound on the gap has to allow for.
+/// How far a surface rises over its osculating quadric and over its tangent plane, towards the
+/// solid that touches it: what a bound on the gap has to allow for.
 ///
-/// Measured, not bounded by theory: at a sample of the surface the height of all others over the
+/// Measured, not bounded by theory: at a sample of the surface the height h of all others over the
 /// tangent plane is compared with ½ tᵀ K t. A surface without samples tells nothing, unless it
 /// bends evenly (plane, sphere, cylinder).
 
@@ -15,48 +16,65 @@
 
 namespace condyle {
 
+/// Of one shell of points about a sample [1/mm]; below zero where the surface bends away.
+struct Rise {
+  double over_quadric = 0;  ///< greatest (2 h - tᵀ K t)/t²; infinite where it turns away too far
+  double over_plane = 0;    ///< greatest 2 h/t²: a paraboloid of revolution above the whole shell
+};
+
 class Bending {
  public:
+  static constexpr int kLevels = 9;
+  /// Outer radii of the shells about a sample [mm], ascending.
+  using Radii = std::array<double, kLevels>;
+
   /// `spacing` of the samples [mm].
-  Bending(const Surface& surface, double spacing);
+  Bending(const Surface& surface, double spacing, const Radii& radii);
+
+  /// Shells in equal ratios, from one that holds the neighbours of a sample to one of radius
+  /// `greatest` [mm].
+  [[nodiscard]] static Radii shells(double spacing, double greatest);
 
   /// The sample nearest to a point of the surface, walking from the sample `start` (-1: from any);
   /// -1 where there are no samples.
   [[nodiscard]] int nearest(const Eigen::Vector3d& point, int start) const;
 
-  /// Least a [1/mm] with |height - ½ tᵀ K t| <= ½ a t² for all |t| <= radius [mm] about a point
+  /// Least a >= 0 [1/mm] with h - ½ tᵀ K t <= ½ a t² for all points within `radius` [mm] of a point
   /// near `sample`, where the curvature tensor is K; infinite where the surface turns away too far.
   /// Measured when a sample is first asked for.
   [[nodiscard]] double within(double radius, int sample, const Eigen::Matrix3d& K);
 
-  /// The largest radius [mm] of a table's level, counted from the largest; 0 after the last.
-  [[nodiscard]] double level_radius(int level) const { return radii_[level]; }
-  static constexpr int kLevels = 5;
+  /// The same of shell `level` alone, and over the plane.
+  [[nodiscard]] Rise in_shell(int level, int sample, const Eigen::Matrix3d& K);
 
  private:
-  std::array<double, kLevels> radii_;  ///< descending [mm]
+  struct Shells {
+    std::array<Rise, kLevels> of;
+    std::array<double, kLevels> within;  ///< up to and with each shell; the first < 0: not measured
+  };
   void measure(std::size_t sample);
 
+  Radii radii_;
   bool even_;
   std::vector<SurfacePoint> samples_;
+  std::vector<Eigen::Vector3d> points_, normals_;
   std::vector<std::array<int, 8>> neighbours_;
-  std::vector<std::array<double, kLevels>> allowance_;  ///< the first negative: not yet measured
+  std::vector<Shells> shells_;
 };
 
 /// For each point the up to eight nearest others within `radius` [mm]; -1 fills up.
 [[nodiscard]] std::vector<std::array<int, 8>> nearest_neighbours(
     const std::vector<Eigen::Vector3d>& points, double radius);
 
-/// Of the heights of `points` over the tangent plane at c: the greatest |h - ½ tᵀ K t|/(½ t²)
-/// [1/mm], points nearer than `least` [mm] counted as at that distance. Infinite where a normal
-/// turns by more than 60 degrees.
+/// Heights over the tangent plane at c, points nearer than `least` [mm] to the normal counted as at
+/// that distance; a normal that turns by more than 60 degrees is too far away.
 class BendingMeter {
  public:
   BendingMeter(const Eigen::Vector3d& c, const Eigen::Vector3d& n, const Eigen::Matrix3d& K)
       : c_(c), n_(n), K_(K) {}
-  [[nodiscard]] double at(const Eigen::Vector3d& point,
-                          const Eigen::Vector3d& normal,
-                          double least) const;
+  [[nodiscard]] Rise at(const Eigen::Vector3d& point,
+                        const Eigen::Vector3d& normal,
+                        double least) const;
 
  private:
   Eigen::Vector3d c_, n_;

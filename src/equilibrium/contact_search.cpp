@@ -22,7 +22,8 @@ constexpr double kBeyondEdge = 2;  // how far beyond the known part a minimum ma
 constexpr double kDeepest = 12;    // overlap that is still taken for one
 constexpr double kLargest = 40;    // radius of a cluster that is worth a look
 constexpr double kBendingSpacing = 2;
-constexpr double kSteep = 0.7;  // cosine between two normals below which quadrics say nothing
+constexpr double kDoubt = 0.05;  // of the curvatures: a paraboloid is that of a sample nearby
+constexpr double kSteep = 0.7;   // cosine between two normals below which quadrics say nothing
 
 /// The greatest principal value off the normal of a curvature tensor: where that of the sum of two
 /// is positive, the gap closes sideways.
@@ -47,6 +48,19 @@ double affordable_spacing(const Surface& surface, double wanted) {
   return wanted;
 }
 
+/// Is A the surface to be sampled? A surface without bounds has no samples.
+bool is_cheaper_to_cover(const Surface& on_A, const Surface& on_B, double spacing) {
+  const std::size_t n_A = on_A.samples(spacing).size(), n_B = on_B.samples(spacing).size();
+  return n_A > 0 && (n_B == 0 || n_A <= n_B);
+}
+
+/// No two of the places are farther apart [mm].
+double extent(const Surface& surface, const std::vector<Place>& places) {
+  Eigen::AlignedBox3d box;
+  for (const Place& place : places) box.extend(surface.evaluate(place).c);
+  return places.empty() ? 0 : box.diagonal().norm();
+}
+
 }  // namespace
 
 ContactSearch::ContactSearch(const ContactPair& pair, double spacing)
@@ -54,14 +68,13 @@ ContactSearch::ContactSearch(const ContactPair& pair, double spacing)
       on_A_(pair.on_A.get()),
       spacing_(std::max(affordable_spacing(*on_B_, spacing), affordable_spacing(*on_A_, spacing))),
       lines_(have_straight_lines(*on_B_, *on_A_, spacing_)),
-      bending_B_(*on_B_, kBendingSpacing * spacing_),
-      bending_A_(*on_A_, kBendingSpacing * spacing_) {
-  const std::vector<Place> on_A = on_A_->samples(spacing_), on_B = on_B_->samples(spacing_);
-  sampled_on_A_ = !on_A.empty() && (on_B.empty() || on_A.size() <= on_B.size());
-  places_ = sampled_on_A_ ? on_A : on_B;
-  const Surface& sampled = sampled_on_A_ ? *on_A_ : *on_B_;
+      sampled_on_A_(is_cheaper_to_cover(*on_A_, *on_B_, spacing_)),
+      places_((sampled_on_A_ ? *on_A_ : *on_B_).samples(spacing_)),
+      shells_(Bending::shells(kBendingSpacing * spacing_, extent(sampled(), places_))),
+      bending_B_(*on_B_, kBendingSpacing * spacing_, shells_),
+      bending_A_(*on_A_, kBendingSpacing * spacing_, shells_) {
   for (const Place& place : places_) {
-    const SurfacePoint point = sampled.evaluate(place);
+    const SurfacePoint point = sampled().evaluate(place);
     points_.push_back(point.c);
     normals_.push_back(point.n);
     curvatures_.push_back(point.K);
@@ -92,7 +105,9 @@ int ContactSearch::build(int first, int last) {
   for (int k = first; k < last; ++k) {
     const int i = order_[k];
     cluster.radius = std::max(cluster.radius, (points_[i] - points_[c]).norm());
-    if (i != c) cluster.bend = std::max(cluster.bend, meter.at(points_[i], normals_[i], spacing_));
+    if (i != c)
+      cluster.bend =
+          std::max(cluster.bend, meter.at(points_[i], normals_[i], spacing_).over_quadric);
   }
   const int index = static_cast<int>(clusters_.size());
   clusters_.push_back(cluster);
@@ -109,21 +124,25 @@ int ContactSearch::build(int first, int last) {
   return index;
 }
 
-/// The gap is convex about a contact as far as its relative curvature outweighs what both surfaces
-/// may depart from their quadrics there.
+/// About a contact the surfaces are apart as far, shell by shell, as its relative curvature
+/// outweighs what both rise over their quadrics, or as a paraboloid of revolution between them has
+/// both on its own sides.
 void ContactSearch::set_discs(const std::vector<KnownContact>& known) {
   discs_.clear();
   for (const KnownContact& contact : known) {
     near_contact_B_ = bending_B_.nearest(contact.on_B, near_contact_B_);
     near_contact_A_ = bending_A_.nearest(contact.on_A, near_contact_A_);
+    const double doubt = kDoubt * (contact.K_B.norm() + contact.K_A.norm());
+    double radius = 0;
     for (int level = 0; level < Bending::kLevels; ++level) {
-      const double radius = bending_A_.level_radius(level);
-      const double allowance = bending_B_.within(radius, near_contact_B_, contact.K_B) +
-                               bending_A_.within(radius, near_contact_A_, contact.K_A);
-      if (contact.least_curvature <= allowance) continue;
-      discs_.push_back({sampled_on_A_ ? contact.on_A : contact.on_B, radius});
-      break;
+      const Rise B = bending_B_.in_shell(level, near_contact_B_, contact.K_B);
+      const Rise A = bending_A_.in_shell(level, near_contact_A_, contact.K_A);
+      if (!(B.over_quadric + A.over_quadric < contact.least_curvature) &&
+          !(B.over_plane + A.over_plane < -doubt))
+        break;
+      radius = shells_[static_cast<std::size_t>(level)];
     }
+    if (radius > 0) discs_.push_back({sampled_on_A_ ? contact.on_A : contact.on_B, radius});
   }
 }
 

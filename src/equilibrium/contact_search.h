@@ -7,9 +7,10 @@
 /// osculating quadric of the other surface at the foot of its centre from the pose before; with it
 /// the gap over the whole cluster is bounded from below by a quadratic model less what both
 /// surfaces depart from their quadrics (bending.h). Clusters whose bound stays above the cutoff are
-/// passed over, and so are those within the disc about a known contact in which the gap is convex.
-/// Samples that are left and nearer than all their neighbours are refined by Newton on the contact
-/// conditions at a fixed pose. No pose is trusted that this search has not seen.
+/// passed over, and so are those within a ball about a known contact in which the surfaces are
+/// shown to be apart. Samples that are left and nearer than all their neighbours are refined by
+/// Newton on the contact conditions at a fixed pose. No pose is trusted that this search has not
+/// seen.
 
 #include <array>
 #include <memory>
@@ -79,7 +80,7 @@ class ContactSearch {
     Quadric other;
     bool split;  ///< its own bound was of no use the last time
   };
-  /// A disc about a known contact in which the gap has no other minimum.
+  /// A ball about a known contact in which the surfaces touch nowhere else.
   struct Disc {
     Eigen::Vector3d center;  ///< on the sampled surface, in its body's frame
     double radius;           ///< [mm]
@@ -102,15 +103,17 @@ class ContactSearch {
   [[nodiscard]] bool is_lowest_of_neighbours(int sample) const;
   [[nodiscard]] GapMinimum refine(int sample, const RigidTransform& X_BA) const;
   [[nodiscard]] double edge_of(const Place& on_B, const Place& on_A) const;
+  [[nodiscard]] const Surface& sampled() const { return sampled_on_A_ ? *on_A_ : *on_B_; }
   [[nodiscard]] const Surface& other() const { return sampled_on_A_ ? *on_B_ : *on_A_; }
 
   const Surface* on_B_;
   const Surface* on_A_;
-  bool sampled_on_A_ = true;
   double spacing_;
   bool lines_;  ///< the surfaces may touch along a line (line_contact.h)
+  bool sampled_on_A_;
+  std::vector<Place> places_;  ///< samples on the sampled surface
+  Bending::Radii shells_;
   Bending bending_B_, bending_A_;
-  std::vector<Place> places_;                ///< samples on the sampled surface
   std::vector<Eigen::Vector3d> points_;      ///< their points, in the frame of their body
   std::vector<Eigen::Vector3d> normals_;     ///< at the samples
   std::vector<Eigen::Matrix3d> curvatures_;  ///< curvature tensors at the samples

@@ -123,7 +123,7 @@ GapMinimum settle_across(const Surface& on_B,
   for (int k = 0;; ++k) {
     const ContactLinearization at = linearize_contact(on_B, place_B, on_A, place_A, X_BA);
     const Eigen::Vector3d beside = at.g - at.gap() * at.B.n;
-    const Eigen::Vector3d dc = at.D0, dc_A = dc - beside;
+    const Eigen::Vector3d dc = at.D0(), dc_A = dc - beside;
     const double slide = std::max(dc.norm(), dc_A.norm());
     end.point_B = at.B.c;
     end.n = at.B.n;

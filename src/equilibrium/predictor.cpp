@@ -16,11 +16,6 @@ bool same_contacts(const EquilibriumState& a, const EquilibriumState& b) {
       [](const ClosedContact& x, const ClosedContact& y) { return x.pair == y.pair; });
 }
 
-/// A place that was computed as if it were a number, brought back onto its surface.
-Place on_surface(const Surface& surface, const Place& place) {
-  return surface.moved(place, surface.evaluate_frame(place), Eigen::Vector3d::Zero());
-}
-
 }  // namespace
 
 void Predictor::add(const Drive& drive, const EquilibriumState& state) {
@@ -90,7 +85,7 @@ void Predictor::extrapolate(const Weights& weight, int points, EquilibriumState&
     const EquilibriumState& old = known(k).state;
     const double w = weight[static_cast<std::size_t>(k)];
     state.X.p += w * (old.X.p - newest.X.p);
-    turn += w * log_rotation(old.X.R * newest.X.R.transpose());
+    turn += w * cayley_vector(old.X.R * newest.X.R.transpose());
     for (std::size_t c = 0; c < state.contacts.size(); ++c) {
       ClosedContact& contact = state.contacts[c];
       contact.on_B += w * (old.contacts[c].on_B - newest.contacts[c].on_B);
@@ -100,11 +95,11 @@ void Predictor::extrapolate(const Weights& weight, int points, EquilibriumState&
     for (std::size_t i = 0; i < state.sigma.size(); ++i)
       state.sigma[i] += w * (old.sigma[i] - newest.sigma[i]);
   }
-  state.X.R = exp_rotation(turn) * newest.X.R;
+  state.X.R = cayley_rotation(turn) * newest.X.R;
   for (ClosedContact& contact : state.contacts) {
     const ContactPair& pair = model_.pairs[static_cast<std::size_t>(contact.pair)];
-    contact.on_B = on_surface(*pair.on_B, contact.on_B);
-    contact.on_A = on_surface(*pair.on_A, contact.on_A);
+    contact.on_B = pair.on_B->place_of(contact.on_B);
+    contact.on_A = pair.on_A->place_of(contact.on_A);
   }
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Where the next pose of a sweep will be, from the last two or three: the pose, the places of
-/// contact, forces and multipliers extrapolated by a parabola (or a line) in what drives them.
-/// Newton then needs two iterations in place of four.
+/// Where the next pose of a sweep will be, from up to five before it: the pose, the places of
+/// contact, forces and multipliers extrapolated by a polynomial in what drives them. Newton then
+/// needs two or three iterations in place of four.
 
 #include <array>
 #include <vector>

@@ -20,7 +20,7 @@ bool refine_minimum(const Surface& on_B,
     const Eigen::Vector3d along = contact.gap() * contact.B.n;
     const double slide = (contact.g - along).norm() + contact.h.norm() / 0.05;
     if (slide < 1e-11) return contact.relative_curvature[0] > 0;
-    Eigen::Vector3d dc = contact.D0;
+    Eigen::Vector3d dc = contact.D0();
     Eigen::Vector3d dc_A = dc - (contact.g - along);
     const double longest = std::max(dc.norm(), dc_A.norm());
     if (longest > reach) {

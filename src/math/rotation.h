@@ -17,6 +17,13 @@ namespace condyle {
 /// The rotation vector θ of R, |θ| <= π; accurate near 0 and near π.
 [[nodiscard]] Eigen::Vector3d log_rotation(const Eigen::Matrix3d& R);
 
+/// 2 tan(θ/2) along the axis of R: as smooth in R as the rotation vector and cheaper, for estimates
+/// far from half a turn, where it is infinite.
+[[nodiscard]] Eigen::Vector3d cayley_vector(const Eigen::Matrix3d& R);
+
+/// The rotation with that vector.
+[[nodiscard]] Eigen::Matrix3d cayley_rotation(const Eigen::Vector3d& c);
+
 /// The rotation nearest to R: removes the round-off that many products leave behind.
 [[nodiscard]] Eigen::Matrix3d orthonormalized(const Eigen::Matrix3d& R);
 

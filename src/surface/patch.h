@@ -58,6 +58,7 @@ class Patch final : public Surface {
 
   [[nodiscard]] SurfacePoint evaluate(const Place& place) const override;
   [[nodiscard]] SurfacePoint evaluate_frame(const Place& place) const override;
+  [[nodiscard]] Place place_of(const Eigen::Vector3d& numbers) const override { return numbers; }
   [[nodiscard]] Place moved(const Place& place,
                             const SurfacePoint& at,
                             const Eigen::Vector3d& dc) const override;

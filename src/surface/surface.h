@@ -47,6 +47,11 @@ class Surface {
                                     const SurfacePoint& at,
                                     const Eigen::Vector3d& dc) const = 0;
 
+  /// The place that is meant by numbers computed from those of places near each other: a mean, say.
+  [[nodiscard]] virtual Place place_of(const Eigen::Vector3d& numbers) const {
+    return moved(numbers, evaluate_frame(numbers), Eigen::Vector3d::Zero());
+  }
+
   /// The place closest to point p [mm], searched locally from `start`.
   [[nodiscard]] virtual Place closest(const Eigen::Vector3d& p, const Place& start) const = 0;
 

@@ -26,8 +26,8 @@ struct Pair {
     for (int k = 0; k < 60; ++k) {
       const ContactLinearization contact = linearize_contact(*on_B, B, *on_A, A, X);
       const Eigen::Vector3d along = contact.gap() * contact.B.n;
-      const Place next_B = on_B->moved(B, contact.B, contact.D0);
-      A = on_A->moved(A, contact.A, X.R.transpose() * (contact.D0 - (contact.g - along)));
+      const Place next_B = on_B->moved(B, contact.B, contact.D0());
+      A = on_A->moved(A, contact.A, X.R.transpose() * (contact.D0() - (contact.g - along)));
       B = next_B;
     }
     return linearize_contact(*on_B, B, *on_A, A, X);
@@ -62,12 +62,12 @@ TEST(Contact, SlidesAsDifferencesSay) {
   const Eigen::Vector3d slid =
       (point_after(h * t, Eigen::Vector3d::Zero()) - point_after(-h * t, Eigen::Vector3d::Zero())) /
       (2 * h);
-  EXPECT_LT((slid - contact.D1 * t).norm(), 1e-6);
+  EXPECT_LT((slid - contact.D1() * t).norm(), 1e-6);
   const Eigen::Vector3d turn(0.3, -0.8, 0.5);
   const Eigen::Vector3d a = -turn.cross(contact.s);
   const Eigen::Vector3d rolled =
       (point_after(h * a, h * turn) - point_after(-h * a, -h * turn)) / (2 * h);
-  EXPECT_LT((rolled - (contact.D1 * a + contact.D2 * turn)).norm(), 1e-5);
+  EXPECT_LT((rolled - (contact.D1() * a + contact.D2() * turn)).norm(), 1e-5);
 }
 
 // A ball of radius r on a plane: K + Kr = -1/r twice.
@@ -88,13 +88,13 @@ TEST(Contact, StaysFiniteWhereTheCurvatureVanishes) {
   const auto ball = make_sphere({0, 0, 0}, 20, true);
   const ContactLinearization conforming =
       linearize_contact(*socket, {0, 0, -20}, *ball, {0, 0, -20}, RigidTransform());
-  EXPECT_TRUE(conforming.D1.allFinite() && conforming.D2.allFinite() && conforming.D0.allFinite());
+  EXPECT_TRUE(conforming.D1().allFinite() && conforming.D2().allFinite() && conforming.D0().allFinite());
   EXPECT_NEAR(conforming.relative_curvature[0], 0, 1e-15);
   const auto plane = make_plane({0, 0, 0}, {0, 0, 1});
   const auto roll = make_cylinder({0, 0, 0}, {1, 0, 0}, 10, true);
   const ContactLinearization line = linearize_contact(*plane, {0, 0, 0}, *roll, {0, 0, -10},
                                                       {Eigen::Matrix3d::Identity(), {0, 0, 10}});
-  EXPECT_TRUE(line.D1.allFinite() && line.D2.allFinite());
+  EXPECT_TRUE(line.D1().allFinite() && line.D2().allFinite());
   EXPECT_NEAR(line.relative_curvature[0], 0, 1e-15);
   EXPECT_NEAR(line.relative_curvature[1], 0.1, 1e-15);
 }

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "elements/contact.h"
+#include "equilibrium/bending.h"
 #include "math/rotation.h"
 #include "surface/exact_surfaces.h"
 
@@ -81,6 +83,58 @@ TEST(ContactSearch, FindsTheSameMinimumWarmAndFresh) {
     EXPECT_EQ(minima.size(), 1u);
     EXPECT_NEAR(minima[0].gap, fresh_minima[0].gap, 1e-9) << k;
   }
+}
+
+// The ball rests on the inner side of the right ridge (z' = 0.1428 at x = 7), so far over that it
+// runs into the left one: 60 mm from its centre, but for the way that Pythagoras tells.
+TEST(ContactSearch, AKnownContactHidesNoOverlapElsewhere) {
+  const ContactPair pair = pair_of(make_polynomial({0, 0, 0}, Eigen::Matrix3d::Identity(),
+                                                   {{2, 0, 0.02}, {4, 0, -0.0001}}, true),
+                                   make_sphere({0, 0, 0}, 60, true));
+  const auto height = [](double x) { return 0.02 * x * x - 0.0001 * x * x * x * x; };
+  const double slope = 0.04 * 7 - 0.0004 * 343;
+  const Eigen::Vector3d touch(7, 0, height(7)), n = Eigen::Vector3d(-slope, 0, 1).normalized();
+  const RigidTransform X{Eigen::Matrix3d::Identity(), touch + 60 * n};
+  const Place on_B = pair.on_B->closest(touch, pair.on_B->seed(touch));
+  const Place on_A = pair.on_A->closest(-60 * n, pair.on_A->seed(-60 * n));
+  const ContactLinearization at = linearize_contact(*pair.on_B, on_B, *pair.on_A, on_A, X);
+  ASSERT_LT(at.g.norm(), 1e-9);
+  ASSERT_GT(at.relative_curvature[0], 0);
+  double lowest = 1e9;  // by a fine scan of the left ridge
+  for (double x = -20; x <= 0; x += 1e-3)
+    lowest = std::min(lowest, std::hypot(x - X.p.x(), X.p.z() - height(x)) - 60);
+  ASSERT_LT(lowest, -0.2);
+
+  ContactSearch search(pair);
+  std::vector<GapMinimum> minima;
+  search.find(X, 0, minima, 0.3, {{at.B.c, at.A.c, at.B.K, at.A.K, at.relative_curvature[0]}});
+  ASSERT_FALSE(minima.empty());
+  EXPECT_NEAR(minima[0].gap, lowest, 1e-6);
+}
+
+// A quarter of the spacing at which it was measured: between the samples too.
+TEST(Bending, NoPointOfAnEllipsoidRisesAboveWhatItAllows) {
+  const auto surface = make_ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {19, 26, 24}, true);
+  Bending bending(*surface, 2.4, Bending::shells(2.4, 60));
+  const std::vector<Place> dense = surface->samples(0.6), feet = surface->samples(5);
+  int told = 0;
+  for (const Place& foot : feet) {
+    const SurfacePoint at = surface->evaluate(foot);
+    const int near = bending.nearest(at.c, -1);
+    for (const double radius : {4.0, 8.0, 12.0}) {
+      const double allowance = bending.within(radius, near, at.K);
+      if (!std::isfinite(allowance)) continue;
+      ++told;
+      for (const Place& place : dense) {
+        const Eigen::Vector3d d = surface->evaluate(place).c - at.c;
+        if (d.norm() > radius) continue;
+        const Eigen::Vector3d t = d - at.n.dot(d) * at.n;
+        EXPECT_LE(at.n.dot(d) - 0.5 * t.dot(at.K * t), 0.5 * allowance * t.squaredNorm() + 2e-4)
+            << at.c.transpose() << " by " << d.transpose();
+      }
+    }
+  }
+  EXPECT_GT(told, 300);
 }
 
 }  // namespace

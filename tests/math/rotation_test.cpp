@@ -39,7 +39,7 @@ TEST(Rotation, SkewIsTheCrossProduct) {
 TEST(Rotation, ExponentialIsItsSeriesAtEverySize) {
   Random random(1);
   // On both sides of the branch near zero, and up to a full turn.
-  for (const double angle : {0.0, 1e-12, 0.9e-4, 1.1e-4, 1e-2, 1.0, std::numbers::pi, 6.0}) {
+  for (const double angle : {0.0, 1e-12, 1e-2, 0.24, 0.25, 1.0, std::numbers::pi, 6.0}) {
     const Vector3d theta = angle * random.direction();
     EXPECT_LT((exp_rotation(theta) - exponential_series(theta)).norm(), 20 * kRoundOff) << angle;
   }
@@ -48,6 +48,16 @@ TEST(Rotation, ExponentialIsItsSeriesAtEverySize) {
 TEST(Rotation, QuarterTurnAboutZTakesXToY) {
   const Matrix3d R = exp_rotation(std::numbers::pi / 2 * Vector3d::UnitZ());
   EXPECT_LT((R * Vector3d::UnitX() - Vector3d::UnitY()).norm(), kRoundOff);
+}
+
+TEST(Rotation, CayleyVectorIsTwiceTheTangentOfHalfTheAngleAndBack) {
+  Random random(3);
+  for (const double angle : {0.0, 1e-9, 0.1, 1.0, 3.0}) {
+    const Vector3d axis = random.direction(), c = 2 * std::tan(angle / 2) * axis;
+    const Matrix3d R = exp_rotation(angle * axis);
+    EXPECT_LT((cayley_vector(R) - c).norm(), 1e-13 * (1 + c.squaredNorm())) << angle;
+    EXPECT_LT((cayley_rotation(c) - R).norm(), kRoundOff) << angle;
+  }
 }
 
 TEST(Rotation, LogarithmGivesBackTheRotationVectorUpToHalfATurn) {
