@@ -22,6 +22,8 @@ void setup(CLI::App& program, int& status) {
   setup_check(program, status);
   setup_fit(program, status);
   setup_sweep(program, status);
+  setup_compare(program, status);
+  setup_laxity(program, status);
 #ifdef CONDYLE_PICTURES
   setup_render(program, status);
   setup_plot(program, status);

@@ -30,7 +30,7 @@ int run_plot(const PlotCommand& command) {
   std::vector<PlotFormat> formats;
   for (const std::string& text : command.formats) formats.push_back(format_from_name(text));
   const Run run = read_run(command.run);
-  if (run.sweep.poses.empty())
+  if (run.sweep.poses.empty() && !run.laxity)
     throw InputError(command.run + ": holds no poses, expected the result of condyle sweep");
   for (const auto& file : plot_run(run, make_picture_folder(command.folder), formats))
     fmt::print("wrote {}\n", file.string());

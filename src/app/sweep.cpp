@@ -4,21 +4,19 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "app/commands.h"
 #include "app/make_run.h"
 #include "app/print_fit.h"
+#include "app/range_options.h"
 #include "app/resume.h"
 #include "input_error.h"
 #include "results/journal.h"
 #include "results/output_file.h"
 #include "results/sweep_table.h"
 #include "scene/read_scene.h"
-#include "scene/sweep_range.h"
 
 namespace condyle {
 namespace {
@@ -27,32 +25,9 @@ constexpr int kSomePoseFailed = 2;
 
 struct SweepCommand {
   std::string scene, output;
-  std::optional<double> from, to, step;  // in the unit of the scene
+  RangeOptions range;
   bool resume = false;
 };
-
-// Without the last digits, which the way from degrees to radians and back has left.
-double rounded(double number) {
-  return std::strtod(fmt::format("{:.12g}", number).c_str(), nullptr);
-}
-
-// What the command line says about the range stands in for what the scene says.
-void override_range(const SweepCommand& command, Scene& scene) {
-  if (!scene.sweep)
-    throw InputError(command.scene + ": [sweep] is missing, expected what to vary and how far");
-  if (!command.from && !command.to && !command.step) return;
-  std::vector<double>& values = scene.sweep->values;
-  const double unit = declared_sweep_unit(scene).factor;
-  const double from = rounded(values.front() / unit), to = rounded(values.back() / unit);
-  const double step = values.size() > 1 ? rounded((values[1] - values[0]) / unit) : 1;
-  try {
-    values = range_values(command.from.value_or(from), command.to.value_or(to),
-                          command.step.value_or(step));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("--from, --to, --step: {}", error.what()));
-  }
-  for (double& value : values) value *= unit;
-}
 
 // The sweep with its table; each pose goes into the journal as soon as it is known.
 SweepResult sweep_aloud(const Scene& scene,
@@ -102,7 +77,7 @@ int run_sweep(const SweepCommand& command) {
   }
   refuse_to_overwrite_inputs(command.output, scene);
   refuse_to_overwrite_inputs(journal_path(command.output), scene);
-  override_range(command, scene);
+  override_range(command.scene, command.range, scene);
   fmt::print("{}\n\n", scene.title);
   const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
   print_fit(surfaces);
@@ -125,13 +100,7 @@ void setup_sweep(CLI::App& program, int& status) {
       "sweep", "Find the positions of equilibrium over a range of motion or load");
   command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
   command->add_option("-o,--output", options->output, "result file to write (HDF5)")->required();
-  const CLI::Validator number(
-      [](const std::string& text) { return std::string(text.empty() ? "expected a number" : ""); },
-      "");
-  command->add_option("--from", options->from, "first value, in the unit of the scene")
-      ->check(number);
-  command->add_option("--to", options->to, "last value")->check(number);
-  command->add_option("--step", options->step, "step between values")->check(number);
+  add_range_options(*command, options->range);
   command->add_flag("--resume", options->resume,
                     "take over what RUN.h5 and the journal of a stopped run hold");
   command->callback([options, &status] { status = run_sweep(*options); });

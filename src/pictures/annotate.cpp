@@ -121,6 +121,7 @@ void annotate(Image& image, const PageLayout& page, const Scenery& scenery) {
   draw_bars(pen, page, scenery);
   draw_directions(pen, page, scenery);
   draw_scale_bar(pen, page, scenery);
+  if (scenery.run.comparison) draw_reference_key(pen, page);
   const bool arrows =
       scenery.view != View::kPlateau && !contact_marks(scenery.run.scene, scenery.pose).empty();
   if (arrows) draw_force_scale(pen, page, scenery);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "pictures/solids.h"
 
@@ -11,8 +12,11 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr Rgb kContactColor = {22, 32, 43};
-constexpr double kPathRadius = 0.5, kPathDot = 0.75, kContactDot = 1.5,
-                 kArrowRadius = 0.95;  // [mm]
+struct PathSize {
+  double radius, dot;  // [mm]
+};
+constexpr PathSize kOurPath = {0.5, 0.75}, kReferencePath = {0.3, 0.6};
+constexpr double kContactDot = 1.5, kArrowRadius = 0.95;  // [mm]
 constexpr double kStrideOfPath = 25;  // [mm] between two poses: farther apart it is another contact
 
 bool tibia_moves(const Scene& scene) { return tibia_body(scene) == scene.moving_body(); }
@@ -30,9 +34,9 @@ Vector3d on_tibia(const Scene& scene, const ContactPointResult& point) {
 }
 
 /// One piece of a path: follows a contact as long as it stays closed.
-void add_piece(ShadedMesh& mesh, const std::vector<TubePoint>& piece) {
+void add_piece(ShadedMesh& mesh, const std::vector<TubePoint>& piece, const PathSize& size) {
   for (std::size_t i = 1; i < piece.size(); ++i) append(mesh, tube({piece[i - 1], piece[i]}));
-  for (const TubePoint& point : piece) append(mesh, ball(point.center, kPathDot, point.paint));
+  for (const TubePoint& point : piece) append(mesh, ball(point.center, size.dot, point.paint));
 }
 
 }  // namespace
@@ -51,27 +55,48 @@ std::vector<ContactMark> contact_marks(const Scene& scene, const PoseResult& pos
   return marks;
 }
 
-ShadedMesh contact_paths(const Run& run, const PictureScales& scales) {
+namespace {
+
+using PaintOf = std::function<Paint(const PoseResult&)>;
+
+ShadedMesh paths_of(const Scene& scene,
+                    const SweepResult& sweep,
+                    const PathSize& size,
+                    const PaintOf& paint) {
   ShadedMesh mesh;
-  const double range = std::max(1e-12, scales.sweep_high - scales.sweep_low);
-  for (std::size_t c = 0; c < run.scene.contacts.size(); ++c) {
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     std::vector<TubePoint> piece;
-    for (const PoseResult& pose : run.sweep.poses) {
+    for (const PoseResult& pose : sweep.poses) {
       const ContactPointResult* point =
           pose.converged() && c < pose.contacts.size() ? strongest(pose.contacts[c]) : nullptr;
       const double far =
-          point && !piece.empty() ? (on_tibia(run.scene, *point) - piece.back().center).norm() : 0;
+          point && !piece.empty() ? (on_tibia(scene, *point) - piece.back().center).norm() : 0;
       if (!point || far > kStrideOfPath) {
-        add_piece(mesh, piece);
+        add_piece(mesh, piece, size);
         piece.clear();
       }
       if (!point || (!piece.empty() && far < 1e-6)) continue;
-      const Rgb color = map_color(ColorMap::kFlexion, (pose.value - scales.sweep_low) / range);
-      piece.push_back({on_tibia(run.scene, *point), kPathRadius, {color, 0.9}});
+      piece.push_back({on_tibia(scene, *point), size.radius, paint(pose)});
     }
-    add_piece(mesh, piece);
+    add_piece(mesh, piece, size);
   }
   return mesh;
+}
+
+}  // namespace
+
+ShadedMesh contact_paths(const Run& run, const PictureScales& scales) {
+  const double range = std::max(1e-12, scales.sweep_high - scales.sweep_low);
+  return paths_of(run.scene, run.sweep, kOurPath, [&](const PoseResult& pose) {
+    return Paint{map_color(ColorMap::kFlexion, (pose.value - scales.sweep_low) / range), 0.9};
+  });
+}
+
+ShadedMesh reference_paths(const Run& run) {
+  if (!run.comparison) return {};
+  return paths_of(run.scene, run.comparison->reference, kReferencePath, [](const PoseResult&) {
+    return Paint{kReferenceColor, 0.9};
+  });
 }
 
 ShadedMesh contact_points(const std::vector<ContactMark>& marks) {

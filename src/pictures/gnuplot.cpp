@@ -88,13 +88,16 @@ std::string panel_script(const Chart& chart, std::size_t index, int height) {
   std::string commands;
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     if (!has_points(panel.curves[i])) continue;
+    const Curve& curve = panel.curves[i];
+    const std::size_t color = curve.color < 0 ? i : static_cast<std::size_t>(curve.color);
+    const int dash = curve.dashed ? 2 : kDashes[color / kColors.size() % kDashes.size()];
     const std::string name = fmt::format("panel{}curve{}", index, i);
-    script += data_block(name, panel.curves[i]);
+    script += data_block(name, curve);
     commands += fmt::format(
         "{}${} using 1:2 with linespoints linewidth 2 linecolor '{}' dashtype {} pointtype 7 "
         "pointsize 0.35 title {}",
-        commands.empty() ? "plot " : ", ", name, kColors[i % kColors.size()],
-        kDashes[i / kColors.size() % kDashes.size()], quoted(panel.curves[i].title));
+        commands.empty() ? "plot " : ", ", name, kColors[color % kColors.size()], dash,
+        quoted(curve.title));
   }
   if (commands.empty()) commands = "set xrange [0:1]\nset yrange [0:1]\nplot NaN notitle";
   return script + commands + "\nunset label 1\n";

@@ -13,6 +13,8 @@ namespace condyle {
 struct Curve {
   std::string title;
   std::vector<double> x, y;
+  int color = -1;       ///< of the list of colours; -1: the next one
+  bool dashed = false;  ///< a second curve in the colour of a first
 };
 
 struct Panel {

@@ -50,7 +50,7 @@ struct KneePictures::State {
   PictureScales scales;
   Renderer renderer;
   std::vector<KeptShape> shapes;
-  int path = -1, ligaments = -1, contacts = -1, arrows = -1;
+  int path = -1, reference_path = -1, ligaments = -1, contacts = -1, arrows = -1;
   std::vector<bool> seen;  // insertions on the tibia, from above
   std::array<Camera, kViewCount> cameras;
 
@@ -68,6 +68,7 @@ struct KneePictures::State {
                         some_vertices(shape.mesh)});
     }
     path = renderer.add(contact_paths(run, scales));
+    reference_path = renderer.add(reference_paths(run));
     for (int* id : {&ligaments, &contacts, &arrows}) *id = renderer.add({});
     for (int i = 0; i < kViewCount; ++i)
       cameras[static_cast<std::size_t>(i)] = frame_all(static_cast<View>(i));
@@ -146,7 +147,7 @@ std::vector<Item> KneePictures::State::items(View view, const PoseResult& pose) 
     items.push_back(shape.item);
     items.back().X_PM = X_P[static_cast<std::size_t>(shape.body)];
   }
-  for (const int mesh : {path, ligaments}) items.push_back({mesh, {}, Layer::kSolid, 0.12, true});
+  for (const int mesh : {path, reference_path, ligaments}) items.push_back({mesh, {}, Layer::kSolid, 0.12, true});
   for (const int mesh : {contacts, arrows}) items.push_back({mesh, {}, Layer::kMark, 0.12, true});
   return items;
 }

@@ -73,6 +73,9 @@ struct ContactMark {
 /// The points that the contacts leave on the tibia over the converged poses, coloured by the swept
 /// value.
 [[nodiscard]] ShadedMesh contact_paths(const Run& run, const PictureScales& scales);
+/// The same of the reference model, where the run holds one: thin, in kReferenceColor.
+[[nodiscard]] ShadedMesh reference_paths(const Run& run);
+inline constexpr Rgb kReferenceColor = {190, 58, 40};
 /// Balls at the contact points and arrows of the forces on the femur.
 [[nodiscard]] ShadedMesh contact_points(const std::vector<ContactMark>& marks);
 [[nodiscard]] ShadedMesh force_arrows(const std::vector<ContactMark>& marks,

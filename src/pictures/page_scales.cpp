@@ -111,4 +111,14 @@ void draw_force_scale(const Pen& pen, const PageLayout& page, const Scenery& sce
                   pen.style(14, kInk, Align::kCenter));
 }
 
+void draw_reference_key(const Pen& pen, const PageLayout& page) {
+  const double right = page.width - 30 * pen.s, y = page.height - 52 * pen.s;
+  const std::string words = "contact path of Wismans' model";
+  const TextStyle style = pen.style(14, kInk, Align::kRight);
+  const double left = right - pen.canvas.text_width(words, style) - 12 * pen.s;
+  pen.canvas.text({right, y + 5 * pen.s}, words, style);
+  pen.canvas.line({left - 34 * pen.s, y}, {left, y}, 3 * pen.s, kReferenceColor);
+  pen.canvas.disc({left - 17 * pen.s, y}, 3.4 * pen.s, kReferenceColor);
+}
+
 }  // namespace condyle

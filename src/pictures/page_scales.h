@@ -16,4 +16,7 @@ void draw_scale_bar(const Pen& pen, const PageLayout& page, const Scenery& scene
 /// The arrow of a round force, to compare the arrows in the picture with.
 void draw_force_scale(const Pen& pen, const PageLayout& page, const Scenery& scenery);
 
+/// What the second line of contact paths is, where a run holds the reference model.
+void draw_reference_key(const Pen& pen, const PageLayout& page);
+
 }  // namespace condyle

@@ -5,8 +5,10 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "pictures/ligament_groups.h"
+#include "pictures/plot_comparison.h"
 #include "pictures/swept_quantity.h"
 
 namespace condyle {
@@ -91,10 +93,12 @@ Chart ligament_force_chart(const Run& run) {
 std::vector<std::filesystem::path> plot_run(const Run& run,
                                             const std::filesystem::path& folder,
                                             const std::vector<PlotFormat>& formats) {
-  const std::vector<std::pair<std::string, Chart>> charts = {
-      {"joint_coordinates", joint_coordinate_chart(run)},
-      {"contact_forces", contact_force_chart(run)},
-      {"ligament_forces", ligament_force_chart(run)}};
+  std::vector<NamedChart> charts = {{"joint_coordinates", joint_coordinate_chart(run)},
+                                    {"contact_forces", contact_force_chart(run)},
+                                    {"ligament_forces", ligament_force_chart(run)}};
+  if (run.sweep.poses.empty()) charts.clear();
+  for (NamedChart& chart : comparison_charts(run)) charts.push_back(std::move(chart));
+  if (run.laxity) charts.push_back({"laxity", laxity_chart(run)});
   std::vector<std::filesystem::path> written;
   for (const auto& [name, chart] : charts) {
     for (const PlotFormat format : formats) {

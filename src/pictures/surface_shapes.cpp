@@ -110,10 +110,12 @@ TriangleMesh triangles_of(const SurfaceDescription& d, const Vector3d& near, dou
       });
     }
     case SurfaceKind::kPlane: {
-      const Vector3d middle = near - F.col(2) * F.col(2).dot(near - d.point);
+      const bool bounded = std::isfinite(d.known_radius);
+      const Vector3d middle =
+          bounded ? d.point : Vector3d(near - F.col(2) * F.col(2).dot(near - d.point));
+      const double radius = bounded ? d.known_radius : 0.5 * extent;
       return grid(8, 64, [&](double s, double t) -> Vector3d {
-        return middle +
-               0.5 * extent * s * (std::cos(tau * t) * F.col(0) + std::sin(tau * t) * F.col(1));
+        return middle + radius * s * (std::cos(tau * t) * F.col(0) + std::sin(tau * t) * F.col(1));
       });
     }
     case SurfaceKind::kPolynomial:

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <functional>
 
+#include "results/comparison_groups.h"
 #include "results/estimates.h"
 #include "results/hdf5_file.h"
 #include "results/run_file.h"
 #include "results/run_layout.h"
+#include "results/sweep_group.h"
 #include "scene/read_scene.h"
 #include "scene/sweep_range.h"
 #include "surface/bspline_basis.h"
@@ -149,17 +151,11 @@ void read_solver(const Hdf5Group& sweep, Poses& poses) {
   take(newton, "seconds", n, poses, [](PoseResult& p, const double* row) { p.seconds = *row; });
 }
 
-void read_sweep(const Hdf5Group& sweep, Run& run) {
-  Poses& poses = run.sweep.poses;
-  poses.resize(sweep.read("value").values.size());
-  if (poses.empty()) sweep.fail("dataset value is empty");
-  read_status(sweep, run.scene, poses);
-  read_pose(sweep, run.scene, poses);
-  read_elements(sweep, run.scene, poses);
-  read_solver(sweep, poses);
+void read_poses(const Hdf5Group& sweep, Run& run) {
+  run.sweep.poses = read_sweep(sweep, run.scene);
   if (!run.scene.sweep) return;
   run.scene.sweep->values.clear();  // the command line may have had its own
-  for (const PoseResult& pose : poses) run.scene.sweep->values.push_back(pose.value);
+  for (const PoseResult& pose : run.sweep.poses) run.scene.sweep->values.push_back(pose.value);
 }
 
 void read_events(const Hdf5Group& group, Run& run) {
@@ -255,12 +251,22 @@ BodyMesh read_body(const Hdf5Group& group, const std::string& name) {
 
 }  // namespace
 
+Poses read_sweep(const Hdf5Group& sweep, const Scene& scene) {
+  Poses poses(sweep.read("value").values.size());
+  if (poses.empty()) sweep.fail("dataset value is empty");
+  read_status(sweep, scene, poses);
+  read_pose(sweep, scene, poses);
+  read_elements(sweep, scene, poses);
+  read_solver(sweep, poses);
+  return poses;
+}
+
 Run read_run(const std::filesystem::path& path) {
   const Hdf5Reader reader(path);
   const Hdf5Group root = reader.root();
   Run run;
   run.scene = read_head(root);
-  if (root.has("sweep")) read_sweep(root.open("sweep"), run);
+  if (root.has("sweep")) read_poses(root.open("sweep"), run);
   if (root.has("events")) read_events(root.open("events"), run);
   const Hdf5Group patches = root.open("patches");
   for (const std::string& name : patches.names())
@@ -268,6 +274,8 @@ Run read_run(const std::filesystem::path& path) {
   const Hdf5Group bodies = root.open("bodies");
   for (const std::string& name : bodies.names())
     run.bodies.push_back(read_body(bodies.open(name), name));
+  if (root.has("reference")) run.comparison = read_comparison(root, run.scene);
+  if (root.has("laxity")) run.laxity = read_laxity(root.open("laxity"), run.scene);
   return run;
 }
 

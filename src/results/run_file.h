@@ -4,9 +4,11 @@
 /// needs is inside: the scene text, poses, patches, and the bodies' meshes.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "compare/laxity.h"
 #include "equilibrium/pose_result.h"
 #include "mesh/triangle_mesh.h"
 #include "scene/fit_surfaces.h"
@@ -32,6 +34,8 @@ struct Run {
   SweepResult sweep;
   std::vector<RunPatch> patches;
   std::vector<BodyMesh> bodies;
+  std::optional<Comparison> comparison = {};  ///< of `condyle compare`
+  std::optional<LaxityResult> laxity = {};    ///< of `condyle laxity`
 };
 
 /// Writes to a temporary file beside `path` and renames it: never a half-written file. Throws

@@ -5,11 +5,13 @@
 #include <functional>
 #include <limits>
 
+#include "results/comparison_groups.h"
 #include "results/estimates.h"
 #include "results/hdf5_file.h"
 #include "results/output_file.h"
 #include "results/run_file.h"
 #include "results/run_layout.h"
+#include "results/sweep_group.h"
 #include "scene/sweep_range.h"
 
 namespace condyle {
@@ -307,11 +309,7 @@ void write_body(const Hdf5Group& group, const TriangleMesh& mesh) {
 void write_all(const Hdf5Group& root, const Run& run) {
   write_head(root, run.scene);
   if (!run.sweep.poses.empty()) {
-    const Hdf5Group sweep = root.create("sweep");
-    write_status(sweep, run.scene, run.sweep.poses);
-    write_pose(sweep, run.scene, run.sweep.poses);
-    write_elements(sweep, run.scene, run.sweep.poses);
-    write_solver(sweep, run.sweep.poses);
+    write_sweep(root.create("sweep"), run.scene, run.sweep.poses);
     write_events(root.create("events"), run.scene, run.sweep.events);
   }
   const Hdf5Group patches = root.create("patches");
@@ -319,9 +317,18 @@ void write_all(const Hdf5Group& root, const Run& run) {
     write_patch(patches.create(patch.surface), patch, run.scene);
   const Hdf5Group bodies = root.create("bodies");
   for (const BodyMesh& body : run.bodies) write_body(bodies.create(body.name), body.mesh);
+  if (run.comparison) write_comparison(root, run.scene, *run.comparison);
+  if (run.laxity) write_laxity(root.create("laxity"), run.scene, *run.laxity);
 }
 
 }  // namespace
+
+void write_sweep(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) {
+  write_status(sweep, scene, poses);
+  write_pose(sweep, scene, poses);
+  write_elements(sweep, scene, poses);
+  write_solver(sweep, poses);
+}
 
 void write_run(const std::filesystem::path& path, const Run& run) {
   check_output_file(path);

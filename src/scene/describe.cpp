@@ -145,6 +145,16 @@ void describe_motion(const Scene& scene, Out out) {
                    values.front() / unit.factor, values.back() / unit.factor, unit.name,
                    values.size());
   }
+  if (!scene.laxity) return;
+  fmt::format_to(out, "laxity     at");
+  for (const double flexion : scene.laxity->flexions)
+    fmt::format_to(out, " {:.6g}", flexion / kDegree);
+  fmt::format_to(out, " deg of flexion");
+  for (const int cut : scene.laxity->cut) {
+    fmt::format_to(out, "{} {}", cut == scene.laxity->cut.front() ? ", also without" : ",",
+                   scene.ligaments[cut].name);
+  }
+  fmt::format_to(out, "\n");
 }
 
 }  // namespace

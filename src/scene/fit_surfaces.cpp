@@ -186,7 +186,7 @@ FittedSurface fit_one(const Scene& scene, const Source& source, const SurfaceDes
       report.notes.insert(report.notes.end(), notes.begin(), notes.end());
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return {std::make_shared<const Patch>(std::move(fit.patch)), std::move(report)};
+    return {std::make_shared<const Patch>(std::move(fit.patch)), std::move(report), region.mesh};
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {} ({})", place_of(scene, surface), error.what(),
                                  source.file.path.string()));

@@ -31,6 +31,7 @@ struct FitReport {
 struct FittedSurface {
   std::shared_ptr<const Surface> surface;
   std::optional<FitReport> report;  ///< patches only
+  TriangleMesh region = {};         ///< patches only: the part of the mesh that was fitted
 };
 
 /// One entry per Scene::surfaces. Throws InputError for meshes that cannot be used.

@@ -50,6 +50,7 @@ Scene parse(const std::string& text, const std::filesystem::path& file, bool mes
   read_conditions(root, scene);
   read_loads(root, scene);
   read_sweep(root, scene);
+  read_laxity(root, scene);
   root.finish();
   return scene;
 }

@@ -154,6 +154,14 @@ struct SweepDescription {
   bool arc_length = false;     ///< follow the path of equilibria through its limit points
 };
 
+/// A test of laxity: the swept load goes over its values at each of these angles of flexion, first
+/// in the knee as it is and then without some ligaments.
+struct LaxityDescription {
+  int condition = -1;            ///< the prescribed flexion
+  std::vector<double> flexions;  ///< [rad]
+  std::vector<int> cut;          ///< ligaments; empty: only the knee as it is
+};
+
 struct Scene {
   std::string title;
   std::string text;            ///< the whole file, for the result file
@@ -169,6 +177,7 @@ struct Scene {
   std::vector<ConditionDescription> conditions;
   std::vector<LoadDescription> loads;
   std::optional<SweepDescription> sweep;
+  std::optional<LaxityDescription> laxity;
 
   [[nodiscard]] int fixed_body() const {
     for (std::size_t i = 0; i < bodies.size(); ++i)

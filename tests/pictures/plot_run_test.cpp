@@ -98,5 +98,14 @@ TEST(RunProgram, CollectsWhatTheProgramComplainsOf) {
   EXPECT_EQ(result.messages, "one two");
 }
 
+TEST(PlotRun, ACurveMayBeDashedInTheColourOfAnother) {
+  Chart chart{"title", "x", {{"y", {}}}};
+  chart.panels[0].curves = {{"first", {0, 1}, {0, 1}, 3, false}, {"", {0, 1}, {1, 2}, 3, true}};
+  const std::string script = gnuplot_script(chart, "file.png", PlotFormat::kPng);
+  const std::size_t first = script.find("linecolor '#CC79A7' dashtype 1");
+  EXPECT_NE(first, std::string::npos) << script;
+  EXPECT_NE(script.find("linecolor '#CC79A7' dashtype 2", first), std::string::npos) << script;
+}
+
 }  // namespace
 }  // namespace condyle

@@ -4,6 +4,9 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <cmath>
+
 namespace condyle {
 namespace {
 
@@ -82,6 +85,17 @@ TEST(ExactShape, PointsLieOnTheSurfacesTheyShow) {
       EXPECT_NEAR(off, 0, 1e-4) << "single precision";
     }
   }
+}
+
+TEST(ExactShape, APlaneWithARadiusIsDrawnWhereItIsKnown) {
+  SurfaceDescription d;
+  d.kind = SurfaceKind::kPlane;
+  d.point = {1, 2, 3};
+  d.known_radius = 7;
+  double farthest = 0;
+  for (const ShadedVertex& vertex : exact_shape(d, {}, {50, 50, 50}).vertices)
+    farthest = std::max(farthest, (vertex.position.cast<double>() - d.point).norm());
+  EXPECT_NEAR(farthest, 7, 1e-5);
 }
 
 }  // namespace

@@ -1,0 +1,71 @@
+#include "compare/compare.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/make_run.h"
+#include "app/print_fit.h"
+#include "app/range_options.h"
+#include "app/reference_options.h"
+#include "equilibrium/sweep.h"
+#include "input_error.h"
+#include "results/output_file.h"
+#include "results/sweep_table.h"
+#include "scene/read_scene.h"
+
+namespace condyle {
+namespace {
+
+constexpr int kSomePoseFailed = 2;
+
+struct CompareCommand {
+  std::string scene, output;
+  RangeOptions range;
+  CompareOptions options;
+};
+
+int run_compare(const CompareCommand& command) {
+  check_output_file(command.output);
+  Scene scene = read_scene(command.scene);
+  refuse_to_overwrite_inputs(command.output, scene);
+  override_range(command.scene, command.range, scene);
+  check_wismans_scene(scene);
+  if (scene.sweep->arc_length)
+    throw InputError(command.scene +
+                     ": [sweep]: path = \"arc length\", expected \"steps\" for a comparison");
+  fmt::print("{}\n\n", scene.title);
+  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
+  print_fit(surfaces);
+  const SweepResult ours = sweep(scene, surfaces);
+  Run run = make_run(scene, surfaces, ours);
+  run.comparison = compare(scene, surfaces, ours, command.options);
+  for (const std::string& line : summary_lines(scene, surfaces, ours, *run.comparison))
+    fmt::print("{}\n", line);
+  write_run(command.output, run);
+  fmt::print("wrote {}\n", command.output);
+  for (const std::string& line : failures(scene, ours)) fmt::print(stderr, "condyle: {}\n", line);
+  for (const std::string& line : failures(scene, run.comparison->reference))
+    fmt::print(stderr, "condyle: reference: {}\n", line);
+  const auto all = static_cast<int>(ours.poses.size());
+  return ours.count_converged() == all && run.comparison->reference.count_converged() == all
+             ? 0
+             : kSomePoseFailed;
+}
+
+}  // namespace
+
+void setup_compare(CLI::App& program, int& status) {
+  const auto options = std::make_shared<CompareCommand>();
+  CLI::App* command = program.add_subcommand(
+      "compare", "Set Wismans' model of the same specimen beside ours, over the scene's sweep");
+  command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
+  command->add_option("-o,--output", options->output, "result file to write (HDF5)")->required();
+  add_range_options(*command, options->range);
+  add_reference_options(*command, options->options);
+  command->callback([options, &status] { status = run_compare(*options); });
+}
+
+}  // namespace condyle

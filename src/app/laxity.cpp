@@ -1,0 +1,76 @@
+#include "compare/laxity.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/make_run.h"
+#include "app/print_fit.h"
+#include "app/reference_options.h"
+#include "input_error.h"
+#include "results/output_file.h"
+#include "results/sweep_table.h"
+#include "scene/read_scene.h"
+
+namespace condyle {
+namespace {
+
+constexpr int kSomePoseFailed = 2;
+constexpr double kDegree = M_PI / 180;
+
+struct LaxityCommand {
+  std::string scene, output;
+  CompareOptions options;
+};
+
+int report_failures(const Scene& scene, const LaxityResult& result) {
+  int status = 0;
+  const auto report = [&](const LaxityCurve& curve, const SweepResult& sweep, const char* model) {
+    for (const std::string& line : failures(scene, sweep)) {
+      fmt::print(stderr, "condyle: {} deg, {}{}: {}\n",
+                 std::round(1e6 * curve.flexion / kDegree) / 1e6, curve.cut ? "cut" : "intact",
+                 model, line);
+      status = kSomePoseFailed;
+    }
+  };
+  for (const LaxityCurve& curve : result.curves) {
+    report(curve, curve.ours, "");
+    if (curve.reference) report(curve, *curve.reference, ", reference");
+  }
+  return status;
+}
+
+int run_laxity(const LaxityCommand& command) {
+  check_output_file(command.output);
+  const Scene scene = read_scene(command.scene);
+  refuse_to_overwrite_inputs(command.output, scene);
+  if (!scene.laxity)
+    throw InputError(command.scene +
+                     ": [laxity] is missing, expected the angles of flexion of the test");
+  fmt::print("{}\n\n", scene.title);
+  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
+  print_fit(surfaces);
+  Run run = make_run(scene, surfaces);
+  run.laxity = test_laxity(scene, surfaces, command.options);
+  for (const std::string& line : laxity_lines(scene, *run.laxity)) fmt::print("{}\n", line);
+  write_run(command.output, run);
+  fmt::print("wrote {}\n", command.output);
+  return report_failures(scene, *run.laxity);
+}
+
+}  // namespace
+
+void setup_laxity(CLI::App& program, int& status) {
+  const auto options = std::make_shared<LaxityCommand>();
+  CLI::App* command = program.add_subcommand(
+      "laxity", "Vary a load at several angles of flexion, with and without some ligaments");
+  command->add_option("SCENE", options->scene, "scene file (TOML) with [laxity]")->required();
+  command->add_option("-o,--output", options->output, "result file to write (HDF5)")->required();
+  add_reference_options(*command, options->options);
+  command->callback([options, &status] { status = run_laxity(*options); });
+}
+
+}  // namespace condyle

@@ -1,0 +1,103 @@
+#include "reference/build_wismans.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "input_error.h"
+#include "scene/start_pose.h"
+
+namespace condyle {
+namespace {
+
+/// Root mean square lever arm of what is fixed to A, about its origin.
+double lever_arm(const WismansModel& model) {
+  double sum = 0;
+  for (const LineElement& spring : model.springs) sum += spring.s_D.squaredNorm();
+  for (const WismansContact& contact : model.contacts) sum += contact.on_A.origin.squaredNorm();
+  return std::max(1.0, std::sqrt(sum / static_cast<double>(model.springs.size() + 2)));
+}
+
+Load load_of(const LoadDescription& description) {
+  Load load;
+  load.moment = description.moment;
+  load.follows_body = description.follows_body;
+  load.vector = description.vector;
+  load.at = description.at;
+  return load;
+}
+
+LineElement spring_of(const LigamentDescription& ligament, int fixed) {
+  const bool first_fixed = ligament.ends[0].body == fixed;
+  return {ligament.ends[first_fixed ? 0 : 1].at, ligament.ends[first_fixed ? 1 : 0].at,
+          ligament.law};
+}
+
+}  // namespace
+
+Scene with_quadratic_springs(Scene scene, double strain) {
+  for (LigamentDescription& ligament : scene.ligaments) {
+    const auto* law = std::get_if<ToeLinearLaw>(&ligament.law);
+    if (law == nullptr) continue;
+    const double stretch = strain * law->slack_length;
+    const double force = tension(*law, law->slack_length + stretch).force;
+    ligament.law = QuadraticLaw{force / (stretch * stretch), law->slack_length};
+  }
+  return scene;
+}
+
+Scene with_closed_contacts(Scene scene) {
+  for (ContactDescription& contact : scene.contacts)
+    if (contact.state == ContactState::kAuto) contact.state = ContactState::kClosed;
+  return scene;
+}
+
+void check_wismans_scene(const Scene& scene) {
+  const std::string file = scene.file.string();
+  if (!scene.joint)
+    throw InputError(file +
+                     ": [joint] is missing, expected the frames of femur and tibia: Wismans' "
+                     "model prescribes the flexion");
+  const auto contacts =
+      std::count_if(scene.contacts.begin(), scene.contacts.end(),
+                    [](const ContactDescription& c) { return c.state != ContactState::kOpen; });
+  if (contacts != 2) {
+    throw InputError(
+        fmt::format("{}: {} [[contact]] that may close, expected 2: Wismans' model has "
+                    "one in each compartment",
+                    file, contacts));
+  }
+  if (scene.conditions.size() != 1 || scene.conditions[0].kind != ConditionKind::kFlexion) {
+    throw InputError(fmt::format(
+        "{}: {} [[condition]], expected one of kind \"flexion\": Wismans' model prescribes nothing "
+        "else",
+        file, scene.conditions.size()));
+  }
+}
+
+WismansModel build_wismans_model(const Scene& scene, const std::vector<HeightFit>& heights) {
+  check_wismans_scene(scene);
+  const int fixed = scene.fixed_body();
+  WismansModel model;
+  model.joint = joint_frames(scene);
+  model.start = start_pose(scene);
+  model.flexion = scene.conditions[0].value;
+  for (const LigamentDescription& ligament : scene.ligaments)
+    model.springs.push_back(spring_of(ligament, fixed));
+  for (const LoadDescription& load : scene.loads) model.loads.push_back(load_of(load));
+  std::size_t next = 0;
+  model.scene_contacts = scene.contacts.size();
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
+    const ContactDescription& contact = scene.contacts[c];
+    if (contact.state == ContactState::kOpen) continue;
+    const auto [first, second] = contact.surfaces;
+    const bool first_fixed = scene.surfaces[first].body == fixed;
+    model.contacts[next++] = {contact.name, heights[first_fixed ? first : second].surface,
+                              heights[first_fixed ? second : first].surface, c};
+  }
+  model.length = lever_arm(model);
+  return model;
+}
+
+}  // namespace condyle

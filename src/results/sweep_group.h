@@ -1,0 +1,15 @@
+#pragma once
+
+/// A sweep as a group of a result file, for the runs and comparisons that hold one.
+
+#include "equilibrium/pose_result.h"
+#include "results/hdf5_file.h"
+#include "scene/scene.h"
+
+namespace condyle {
+
+/// All of /sweep but the events.
+void write_sweep(const Hdf5Group& sweep, const Scene& scene, const std::vector<PoseResult>& poses);
+[[nodiscard]] std::vector<PoseResult> read_sweep(const Hdf5Group& sweep, const Scene& scene);
+
+}  // namespace condyle

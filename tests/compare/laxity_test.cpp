@@ -1,0 +1,126 @@
+#include "compare/laxity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "equilibrium/sweep.h"
+#include "input_error.h"
+#include "results/run_file.h"
+#include "scene/read_scene.h"
+#include "scene/small_scene.h"
+#include "support/scratch_folder.h"
+
+namespace condyle {
+namespace {
+
+std::filesystem::path fresh_folder() {
+  const std::filesystem::path folder = test::scratch_folder("condyle_laxity");
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+constexpr const char* kDrawer = CONDYLE_SOURCE_DIR "/data/wismans-type/drawer.toml";
+constexpr double kDegree = M_PI / 180;
+
+TEST(Laxity, GrowsWhenTheCruciateIsCut) {
+  const Scene scene = read_scene(kDrawer);
+  EXPECT_EQ(loaded_coordinate(scene), 4U);  // a drawer force draws
+  const LaxityResult result = test_laxity(scene, fit_surfaces(scene));
+  ASSERT_EQ(result.curves.size(), 8U);
+  for (std::size_t f = 0; f < 4; ++f) {
+    const LaxityCurve &intact = result.curves[f], &cut = result.curves[f + 4];
+    EXPECT_FALSE(intact.cut);
+    EXPECT_TRUE(cut.cut);
+    EXPECT_NEAR(intact.flexion, static_cast<double>(30 * f) * kDegree, 1e-12);
+    EXPECT_EQ(intact.ours.count_converged(), 21);
+    EXPECT_EQ(cut.ours.count_converged(), 21);
+    EXPECT_GT(laxity_of(scene, cut.ours), 1.5 * laxity_of(scene, intact.ours));
+    ASSERT_TRUE(intact.reference && cut.reference);
+    EXPECT_GT(laxity_of(scene, *cut.reference), 1.2 * laxity_of(scene, *intact.reference));
+    // The cruciate is what a cut knee lacks.
+    EXPECT_EQ(cut.ours.poses.back().ligaments[0].force, 0);
+    EXPECT_GT(intact.ours.poses.back().ligaments[0].force, 0);
+  }
+}
+
+TEST(Laxity, ALoadIsSweptLikeAnAngle) {
+  // The same curve by the sweep that the scene describes, at its own flexion of 0.
+  const Scene scene = read_scene(kDrawer);
+  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
+  const SweepResult swept = sweep(scene, surfaces);
+  const LaxityResult result = test_laxity(scene, surfaces);
+  ASSERT_EQ(swept.poses.size(), 21U);
+  for (std::size_t i = 0; i < swept.poses.size(); ++i) {
+    ASSERT_TRUE(swept.poses[i].converged());
+    EXPECT_LT((swept.poses[i].X_BA.p - result.curves[0].ours.poses[i].X_BA.p).norm(), 1e-9);
+  }
+  const std::vector<double> drawn = displacements(scene, swept);
+  EXPECT_NEAR(drawn[10], 0, 1e-12);
+  EXPECT_LT(drawn.front(), 0);
+  EXPECT_GT(drawn.back(), 0);
+}
+
+TEST(Laxity, GoesThroughAFileUnchanged) {
+  Scene scene = read_scene(kDrawer);
+  LaxityResult result = test_laxity(scene, fit_surfaces(scene));
+  result.curves[5].ours.poses[3].status = PoseStatus::kNoEquilibrium;
+  const std::filesystem::path file = fresh_folder() / "lax.h5";
+  condyle::Run run{scene, {}, {}, {}};
+  run.laxity = result;
+  write_run(file, run);
+  const condyle::Run back = read_run(file);
+  ASSERT_TRUE(back.laxity.has_value());
+  ASSERT_EQ(back.laxity->curves.size(), 8U);
+  for (std::size_t c = 0; c < 8; ++c) {
+    const LaxityCurve &a = result.curves[c], &b = back.laxity->curves[c];
+    EXPECT_EQ(b.cut, a.cut);
+    EXPECT_EQ(b.flexion, a.flexion);
+    EXPECT_EQ(b.ours.poses[20].joint.anterior_drawer, a.ours.poses[20].joint.anterior_drawer);
+    EXPECT_NEAR(laxity_of(scene, *b.reference), laxity_of(scene, *a.reference), 1e-12);
+  }
+  EXPECT_EQ(back.laxity->curves[5].ours.poses[3].status, PoseStatus::kNoEquilibrium);
+  EXPECT_TRUE(std::isnan(displacements(scene, back.laxity->curves[5].ours)[3]));
+}
+
+std::string message_of(const std::string& laxity) {
+  const std::string load = with(kSmallScene, "vary = \"bend\"\nfrom = 0\nto = 120\nstep = 5",
+                                "vary = \"weight.scale\"\nvalues = [0, 1]");
+  try {
+    (void)parse_scene(load + laxity, "knee.toml");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Laxity, NamesWhatIsWrongInItsTable) {
+  EXPECT_EQ(message_of("[laxity]\nflexion = [0, 30]\ncut = [\"aACL\"]\n"), "no error");
+  EXPECT_EQ(message_of("[laxity]\ncut = []\n"),
+            "knee.toml:60: [laxity]: flexion is missing, expected angles [f1, f2, ...]");
+  EXPECT_EQ(message_of("[laxity]\nflexion = []\n"),
+            "knee.toml:61: [laxity]: flexion = [], expected angles [f1, f2, ...]");
+  EXPECT_EQ(
+      message_of("[laxity]\nflexion = [0]\ncut = [\"ACL\"]\n"),
+      "knee.toml:62: [laxity]: cut = \"ACL\", expected the name of a ligament: \"aACL\"; did you "
+      "mean \"aACL\"?");
+  EXPECT_EQ(message_of("[laxity]\nflexion = [0]\ncut = [\"aACL\", \"aACL\"]\n"),
+            "knee.toml:62: [laxity]: cut = \"aACL\", expected each ligament once");
+  EXPECT_EQ(message_of("[laxity]\nflexion = [0]\ncuts = []\n"),
+            "knee.toml:62: [laxity]: unknown key cuts = [], did you mean \"cut\"?");
+}
+
+TEST(Laxity, NeedsALoadThatIsSwept) {
+  try {
+    (void)parse_scene(kSmallScene + "[laxity]\nflexion = [0]\n", "knee.toml");
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "knee.toml:62: [laxity]: needs a [sweep] with vary = \"NAME.scale\", the load that "
+              "pulls");
+  }
+}
+
+}  // namespace
+}  // namespace condyle
