@@ -22,9 +22,9 @@ struct FitOptions {
   std::optional<std::array<int, 2>> control_points = {};  ///< absent: from the knot spacing
   std::optional<double> smoothing_length = {};            ///< [mm]; absent: chosen from the data
   int degree = 3;
-  double knot_spacing = 2.75;  ///< [mm of chart length]
-  int rounds = 6;              ///< of parameter correction, at most
-  double settled = 0.02;       ///< rms change of the parameters that ends them [mm]
+  double knot_spacing = 2;  ///< [mm of chart length]
+  int rounds = 6;           ///< of parameter correction, at most
+  double settled = 0.02;    ///< rms change of the parameters that ends them [mm]
 };
 
 /// A smoothing spline leans outwards near its last data: this margin of the data, in smoothing
