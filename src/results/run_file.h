@@ -32,6 +32,7 @@ struct Run {
   SweepResult sweep;
   std::vector<RunPatch> patches;
   std::vector<BodyMesh> bodies;
+  std::vector<std::string> start;  ///< of a fit: what start_warnings found
 };
 
 /// Writes to a temporary file beside `path` and renames it: never a half-written file. Throws

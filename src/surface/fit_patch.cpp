@@ -191,8 +191,8 @@ PatchFit fit_patch(const ArticularRegion& region, const FitOptions& options) {
       options.smoothing_length
           ? *options.smoothing_length
           : choose_smoothing(grid, points, judged_points(flat, points), penalty).length;
-  PatchData data =
-      patch_data(grid, solve_fit(assemble_data(grid, points), penalty, fit.smoothing_length));
+  DataTerm term = assemble_data(grid, points);
+  PatchData data = patch_data(grid, solve_fit(term, penalty, fit.smoothing_length));
 
   const std::vector<double> areas = vertex_areas(region.mesh);
   for (std::size_t i = 0; i < points.size(); ++i) points[i].weight = areas[i];
@@ -206,8 +206,10 @@ PatchFit fit_patch(const ArticularRegion& region, const FitOptions& options) {
       cells[k].stretch_v = stretched[k].stretch_v;
     }
     penalty = assemble_penalty(grid, cells);
-    data = patch_data(grid, solve_fit(assemble_data(grid, points), penalty, fit.smoothing_length));
+    term = assemble_data(grid, points);
+    data = patch_data(grid, solve_fit(term, penalty, fit.smoothing_length));
   }
+  fit.condition = fit_condition(term, penalty, fit.smoothing_length);
   correct_parameters(grid, Patch(data), points);
   finish(region, outline, std::move(data), points, fit);
   if (outline.holes > 0) fit.notes.push_back(fmt::format("{} small holes bridged", outline.holes));

@@ -34,6 +34,7 @@ inline constexpr double kUncertainRim = 0.6;
 struct PatchFit {
   PatchData patch;                          ///< its mask: distance to the edge of what is known
   double smoothing_length = 0;              ///< [mm]
+  double condition = 0;                     ///< of the normal equations
   int rounds = 0;                           ///< of parameter correction that were done
   std::vector<Eigen::Vector2d> parameters;  ///< of the closest point to each vertex of the region
   std::vector<double> distance;             ///< of each vertex, positive outside the patch [mm]

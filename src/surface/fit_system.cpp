@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "input_error.h"
 #include "surface/bspline_basis.h"
@@ -104,17 +105,34 @@ PenaltyTerm assemble_penalty(const SplineGrid& grid, const std::vector<CellMetri
   return term;
 }
 
+namespace {
+
+BandedMatrix whole_matrix(const DataTerm& data,
+                          const PenaltyTerm& penalty,
+                          double smoothing_length) {
+  const double l4 = std::pow(smoothing_length, 4), l6 = std::pow(smoothing_length, 6);
+  return data.matrix.plus(l6, penalty.third).plus(l4, penalty.second_outside);
+}
+
+}  // namespace
+
 std::vector<Eigen::Vector3d> solve_fit(const DataTerm& data,
                                        const PenaltyTerm& penalty,
                                        double smoothing_length) {
-  const double l4 = std::pow(smoothing_length, 4), l6 = std::pow(smoothing_length, 6);
-  BandedMatrix matrix = data.matrix.plus(l6, penalty.third).plus(l4, penalty.second_outside);
+  BandedMatrix matrix = whole_matrix(data, penalty, smoothing_length);
   if (!matrix.factorize()) throw InputError("too few vertices to determine the control points");
   Eigen::MatrixXd x = data.right;
   matrix.solve(x);
   std::vector<Eigen::Vector3d> points(x.rows());
   for (Eigen::Index i = 0; i < x.rows(); ++i) points[i] = x.row(i).transpose();
   return points;
+}
+
+double fit_condition(const DataTerm& data, const PenaltyTerm& penalty, double smoothing_length) {
+  const BandedMatrix matrix = whole_matrix(data, penalty, smoothing_length);
+  BandedMatrix factor = matrix;
+  if (!factor.factorize()) return std::numeric_limits<double>::infinity();
+  return condition_number(matrix, factor);
 }
 
 PatchData patch_data(const SplineGrid& grid, std::vector<Eigen::Vector3d> control_points) {
