@@ -10,6 +10,7 @@
 #include "input_error.h"
 #include "results/output_file.h"
 #include "scene/read_scene.h"
+#include "scene/start_warnings.h"
 
 namespace condyle {
 namespace {
@@ -29,7 +30,12 @@ int run_fit(const FitOptions& options) {
     throw InputError(options.scene + ": no surface has kind = \"patch\", expected one to fit");
   const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
   print_fit(surfaces);
-  write_run(options.output, make_run(scene, surfaces));
+  print_known_parts(surfaces);
+  Run run = make_run(scene, surfaces);
+  run.start = start_warnings(scene, surfaces);
+  fmt::print("\n");
+  for (const std::string& line : run.start) fmt::print("{}\n", line);
+  write_run(options.output, run);
   fmt::print("wrote {}\n", options.output);
   return 0;
 }

@@ -37,7 +37,7 @@ void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene
 }
 
 Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces, SweepResult sweep) {
-  Run run{scene, std::move(sweep), patches_of(scene, surfaces), {}};
+  Run run{scene, std::move(sweep), patches_of(scene, surfaces), {}, {}};
   for (const BodyDescription& body : scene.bodies) {
     if (body.mesh) run.bodies.push_back({body.name, load_body_mesh(body)});
   }

@@ -10,5 +10,7 @@
 namespace condyle {
 
 void print_fit(const std::vector<FittedSurface>& surfaces);
+/// How far the patches lie from the mesh and how large the part is that can touch.
+void print_known_parts(const std::vector<FittedSurface>& surfaces);
 
 }  // namespace condyle

@@ -195,6 +195,9 @@ FitReport read_fit(const Hdf5Group& patch, const std::string& surface, const Pat
   report.mesh_vertices = fit.read_integers("mesh_vertices", {})[0];
   const std::vector<double> range = fit.read("curvature_range", {2});
   report.curvature_range = {range[0], range[1]};
+  const std::vector<double> extent = fit.read("extent", {2}), turn = fit.read("turn", {2});
+  report.extent = {extent[0], extent[1]};
+  report.turn = {kDegree * turn[0], kDegree * turn[1]};
   report.notes = fit.read_texts("notes");
   return report;
 }
@@ -268,6 +271,7 @@ Run read_run(const std::filesystem::path& path) {
   run.scene = read_head(root);
   if (root.has("sweep")) read_poses(root.open("sweep"), run);
   if (root.has("events")) read_events(root.open("events"), run);
+  if (root.has("fit")) run.start = root.open("fit").read_texts("start");
   const Hdf5Group patches = root.open("patches");
   for (const std::string& name : patches.names())
     run.patches.push_back(read_patch(patches.open(name), name, run.scene));

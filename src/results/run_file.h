@@ -36,6 +36,7 @@ struct Run {
   std::vector<BodyMesh> bodies;
   std::optional<Comparison> comparison = {};  ///< of `condyle compare`
   std::optional<LaxityResult> laxity = {};    ///< of `condyle laxity`
+  std::vector<std::string> start = {};  ///< of a fit: what start_warnings found
 };
 
 /// Writes to a temporary file beside `path` and renames it: never a half-written file. Throws

@@ -38,9 +38,14 @@ inline constexpr std::array<Column<LigamentResult>, 3> kLigamentColumns = {{
 }};
 
 /// Of /patches/SURFACE/fit; rms and maximum stand beside it.
-inline constexpr std::array<Column<FitReport>, 6> kFitColumns = {{
+inline constexpr std::array<Column<FitReport>, 11> kFitColumns = {{
     {"smoothing_length", "mm", &FitReport::smoothing_length},
     {"p95", "mm", &FitReport::p95},
+    {"back_rms", "mm", &FitReport::back_rms},
+    {"back_p95", "mm", &FitReport::back_p95},
+    {"back_max", "mm", &FitReport::back_max},
+    {"condition", "1", &FitReport::condition},
+    {"area", "mm^2", &FitReport::area},
     {"core_rms", "mm", &FitReport::core_rms},
     {"core_max", "mm", &FitReport::core_max},
     {"normal_rms", "deg", &FitReport::normal_rms, kDegree},

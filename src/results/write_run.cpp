@@ -271,6 +271,9 @@ void write_fit(const Hdf5Group& patch, const FitReport& report) {
   fit.write("curvature_range",
             std::vector<double>(report.curvature_range.begin(), report.curvature_range.end()), {2},
             "1/mm");
+  fit.write("extent", std::vector<double>(report.extent.begin(), report.extent.end()), {2}, "mm");
+  fit.write("turn", std::vector<double>{report.turn[0] / kDegree, report.turn[1] / kDegree}, {2},
+            "deg");
   fit.write("notes", report.notes);
 }
 
@@ -315,6 +318,7 @@ void write_all(const Hdf5Group& root, const Run& run) {
   const Hdf5Group patches = root.create("patches");
   for (const RunPatch& patch : run.patches)
     write_patch(patches.create(patch.surface), patch, run.scene);
+  if (!run.start.empty()) root.create("fit").write("start", run.start);
   const Hdf5Group bodies = root.create("bodies");
   for (const BodyMesh& body : run.bodies) write_body(bodies.create(body.name), body.mesh);
   if (run.comparison) write_comparison(root, run.scene, *run.comparison);

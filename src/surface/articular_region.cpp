@@ -116,12 +116,12 @@ Vector3d centroid(const TriangleMesh& mesh, const std::vector<bool>& keep) {
   return sum / std::max(count, 1.0);
 }
 
-/// Region and chart over a plane: `forward` gives the direction of u.
+/// Region and chart over a plane, (0, 0) at `origin`: `forward` gives the direction of u.
 ArticularRegion plane_region(const TriangleMesh& mesh,
                              const std::vector<bool>& keep,
+                             const Vector3d& origin,
                              const Vector3d& height,
                              const Vector3d& forward) {
-  const Vector3d origin = centroid(mesh, keep);
   const Vector3d u = (forward - height * height.dot(forward)).normalized(), v = height.cross(u);
   return make_region(
       mesh, keep, [=](const Vector3d& p) { return Vector2d(u.dot(p - origin), v.dot(p - origin)); },
@@ -271,7 +271,7 @@ ArticularRegion tibial_region(const TriangleMesh& mesh,
       throw InputError("no tibial plateau found");
     height = total_area(mesh, keep).normalized();
   }
-  ArticularRegion region = plane_region(mesh, keep, height, frame.anterior);
+  ArticularRegion region = plane_region(mesh, keep, frame.origin, height, frame.anterior);
   const Vector3d h = frame.components(height);
   region.notes.push_back(
       fmt::format("plateau slopes {:.1f} degrees backwards, {:.1f} towards lateral",
@@ -302,7 +302,7 @@ ArticularRegion box_region(const TriangleMesh& mesh, const std::array<Vector3d, 
       spread += flat * flat.transpose();
     }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(spread);
-  return plane_region(mesh, keep, height, principal.eigenvectors().col(2));
+  return plane_region(mesh, keep, center, height, principal.eigenvectors().col(2));
 }
 
 }  // namespace condyle

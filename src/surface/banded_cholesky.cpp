@@ -52,4 +52,32 @@ void BandedMatrix::solve(Eigen::MatrixXd& b) const {
   }
 }
 
+Eigen::VectorXd BandedMatrix::times(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(n_);
+  for (int i = 0; i < n_; ++i) {
+    y[i] += at(i, i) * x[i];
+    for (int j = std::max(0, i - band_); j < i; ++j) {
+      y[i] += at(i, j) * x[j];
+      y[j] += at(i, j) * x[i];
+    }
+  }
+  return y;
+}
+
+double condition_number(const BandedMatrix& matrix, const BandedMatrix& factor) {
+  constexpr int kRounds = 25;
+  Eigen::VectorXd large(matrix.size());
+  for (int i = 0; i < matrix.size(); ++i) large[i] = 1 + 0.5 * std::sin(12.9898 * (i + 1));
+  Eigen::MatrixXd small = large;
+  double greatest = 0, inverse_least = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    large = matrix.times(large.normalized().eval());
+    greatest = large.norm();
+    small = small.normalized().eval();
+    factor.solve(small);
+    inverse_least = small.norm();
+  }
+  return greatest * inverse_least;
+}
+
 }  // namespace condyle

@@ -26,6 +26,9 @@ class BandedMatrix {
 
   /// Replaces the matrix by its Cholesky factor; false where it is not positive definite.
   [[nodiscard]] bool factorize();
+  /// This times a vector.
+  [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& x) const;
+
   /// Solves in place with the factor; columns are right-hand sides.
   void solve(Eigen::MatrixXd& b) const;
 
@@ -36,5 +39,9 @@ class BandedMatrix {
   int n_ = 0, band_ = 0;
   std::vector<double> entries_;  ///< row by row
 };
+
+/// Greatest over least eigenvalue of a positive definite matrix, by power iteration; good to a few
+/// per cent. `factor` is its Cholesky factor.
+[[nodiscard]] double condition_number(const BandedMatrix& matrix, const BandedMatrix& factor);
 
 }  // namespace condyle

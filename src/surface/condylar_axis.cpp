@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -145,9 +146,28 @@ double rms_distance(const Cylinders& c, const std::vector<Sample>& samples) {
   return std::sqrt(sum / std::max(area, 1e-12));
 }
 
+/// Share of 18 steps of 5 degrees, on either side, in which samples lie.
+double covered(const Cylinders& c, const std::vector<Sample>& samples) {
+  constexpr int kSteps = 18;
+  constexpr double kFirst = 0.35, kLast = 1.92;
+  std::array<std::array<bool, kSteps>, 2> filled{};
+  for (const Sample& s : samples) {
+    const Vector3d q = c.from_axis(s.p);
+    const double at = (angle_of(q.x(), q.y()) - kFirst) / (kLast - kFirst);
+    filled[c.side(s.p)][std::clamp(static_cast<int>(at * kSteps), 0, kSteps - 1)] = true;
+  }
+  int count = 0;
+  for (const auto& side : filled)
+    count += static_cast<int>(std::count(side.begin(), side.end(), true));
+  return count / (2.0 * kSteps);
+}
+
 void check(const Cylinders& c, const std::vector<Sample>& samples) {
   if (samples.size() < 40)
-    throw InputError("no posterior condyles found: expected a femur, in the frame of [joint]");
+    throw InputError(fmt::format(
+        "no posterior condyles found, {} vertices look like some, expected at least 40: expected a "
+        "femur, in the frame of [joint]",
+        samples.size()));
   for (const double r : c.radius)
     if (!(r > 8 && r < 45))
       throw InputError(
@@ -212,6 +232,7 @@ CondylarAxis fit_condylar_axis(const TriangleMesh& mesh,
   check(c, samples);
   CondylarAxis axis = in_body_frame(c, frame);
   axis.rms = rms_distance(c, samples);
+  axis.coverage = covered(c, samples);
   return axis;
 }
 

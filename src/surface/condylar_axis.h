@@ -25,8 +25,9 @@ struct CondylarAxis {
   Eigen::Vector3d direction;          ///< unit, towards lateral
   Eigen::Vector3d distal, posterior;  ///< unit, at right angles to it: angles 0 and 90 degrees
   double medial_radius = 0, lateral_radius = 0;  ///< of the posterior condyles [mm]
-  double split = 0;  ///< between the condyles, along the axis from `point` [mm]
-  double rms = 0;    ///< of the posterior condyles from the two cylinders [mm]
+  double split = 0;     ///< between the condyles, along the axis from `point` [mm]
+  double coverage = 0;  ///< share of the posterior arcs, medial and lateral, that the mesh fills
+  double rms = 0;       ///< of the posterior condyles from the two cylinders [mm]
 };
 
 /// Robust fit of two coaxial cylinders to the posterior condyles of a femur whose mesh faces

@@ -16,6 +16,13 @@ struct FitFigures {
   double core_rms = 0, core_max = 0;
   double core_normal_rms = 0;                      ///< angle between patch and mesh normals [rad]
   std::array<double, 2> curvature_range = {0, 0};  ///< principal curvatures in the core [1/mm]
+  double back_rms = 0, back_p95 = 0,
+         back_max = 0;                    ///< from the patch, where it is known, to the mesh
+  std::array<double, 2> extent = {0, 0};  ///< of the known part along u and v, at its longest [mm]
+  std::array<double, 2> turn = {0, 0};    ///< of the normal along them, at its greatest [rad]
+  double area = 0;                        ///< of the known part [mm²]
+  double depth = 0;                       ///< greatest distance from its edge [mm]
+  int folded = 0;                         ///< vertices where the patch faces away from the mesh
 };
 [[nodiscard]] FitFigures measure_fit(const ArticularRegion& region,
                                      const PatchFit& fit,

@@ -23,23 +23,29 @@ constexpr double kMargin = 1;  // of the parameter box around the data [mm]
 constexpr double kEdgeSmoothing = 0.4,
                  kEdgeBand = 6;  // smoothing length at the edge as a fraction; over [mm]
 
-int control_points_over(double length, double spacing, int degree) {
-  return std::max(1, static_cast<int>(std::ceil(length / spacing))) + degree;
-}
-
 SplineGrid make_grid(const ArticularRegion& region, const FitOptions& options) {
   Eigen::AlignedBox2d box;
   for (const Vector2d& uv : region.chart) box.extend(uv);
   SplineGrid grid;
   grid.degree = options.degree;
-  grid.u_min = box.min().x() - kMargin;
-  grid.u_max = box.max().x() + kMargin;
-  grid.v_min = box.min().y() - kMargin;
-  grid.v_max = box.max().y() + kMargin;
-  grid.nu = control_points_over(grid.u_max - grid.u_min, options.knot_spacing, options.degree);
-  grid.nv = control_points_over(grid.v_max - grid.v_min, options.knot_spacing, options.degree);
-  if (options.control_points)
+  const double h = options.knot_spacing;
+  if (options.control_points) {
+    grid.u_min = box.min().x() - kMargin;
+    grid.u_max = box.max().x() + kMargin;
+    grid.v_min = box.min().y() - kMargin;
+    grid.v_max = box.max().y() + kMargin;
     grid.nu = (*options.control_points)[0], grid.nv = (*options.control_points)[1];
+  } else {
+    // Knots at multiples of the spacing, so that meshes of one knee get the same ones.
+    const auto down = [h](double x) { return h * std::floor((x - kMargin) / h); };
+    const auto up = [h](double x) { return h * std::ceil((x + kMargin) / h); };
+    grid.u_min = down(box.min().x());
+    grid.u_max = up(box.max().x());
+    grid.v_min = down(box.min().y());
+    grid.v_max = up(box.max().y());
+    grid.nu = static_cast<int>(std::lround((grid.u_max - grid.u_min) / h)) + options.degree;
+    grid.nv = static_cast<int>(std::lround((grid.v_max - grid.v_min) / h)) + options.degree;
+  }
   const int least = options.degree + 1, vertices = static_cast<int>(region.mesh.vertices.size());
   if (grid.nu < least || grid.nv < least)
     throw InputError(fmt::format("{} x {} control points, expected at least {} each way", grid.nu,
@@ -63,6 +69,12 @@ std::vector<DataPoint> data_points(const ArticularRegion& region) {
   return points;
 }
 
+/// Less smoothing near the edge, where bones are round with small radii.
+double edge_fraction(double inside) {
+  return std::clamp(kEdgeSmoothing + (1 - kEdgeSmoothing) * inside / kEdgeBand, kEdgeSmoothing,
+                    1.0);
+}
+
 /// Stretch of the chart on a patch at the centres of the cells; which cells hold data, from its
 /// mask.
 std::vector<CellMetric> measure_cells(const SplineGrid& grid, const Patch& patch) {
@@ -73,14 +85,10 @@ std::vector<CellMetric> measure_cells(const SplineGrid& grid, const Patch& patch
                    v = grid.v_min + (j + 0.5) * grid.step_v();
       const PatchDerivatives d = patch.derivatives(u, v);
       const double inside = patch.edge_distance({u, v, 0});
-      cells.push_back(
-          {.stretch_u = std::clamp(d.c_u.norm(), 0.5, 4.0),
-           .stretch_v = std::clamp(d.c_v.norm(), 0.5, 4.0),
-           .smoothing = inside < -2
-                            ? 1
-                            : std::clamp(kEdgeSmoothing + (1 - kEdgeSmoothing) * inside / kEdgeBand,
-                                         kEdgeSmoothing, 1.0),
-           .known = inside > -0.5});
+      cells.push_back({.stretch_u = std::clamp(d.c_u.norm(), 0.5, 4.0),
+                       .stretch_v = std::clamp(d.c_v.norm(), 0.5, 4.0),
+                       .smoothing = inside < -2 ? 1 : edge_fraction(inside),
+                       .known = inside > -0.5});
     }
   return cells;
 }
@@ -104,13 +112,17 @@ Patch flat_patch(const SplineGrid& grid,
 
 /// The smoothing length is judged away from the edge, where side walls and rims begin, as long as
 /// that leaves enough.
-std::vector<bool> judged_points(const Patch& flat, const std::vector<DataPoint>& points) {
+std::vector<Judgement> judged_points(const Patch& flat, const std::vector<DataPoint>& points) {
   constexpr double kEdge = 2;  // [mm]
-  std::vector<bool> judged;
-  for (const DataPoint& p : points)
-    judged.push_back(flat.edge_distance({p.uv.x(), p.uv.y(), 0}) > kEdge);
-  const auto count = std::count(judged.begin(), judged.end(), true);
-  if (static_cast<std::size_t>(count) < points.size() / 5) judged.assign(points.size(), true);
+  std::vector<Judgement> judged;
+  std::size_t count = 0;
+  for (const DataPoint& p : points) {
+    const double inside = flat.edge_distance({p.uv.x(), p.uv.y(), 0});
+    judged.push_back({.counts = inside > kEdge, .smoothing = edge_fraction(inside)});
+    count += inside > kEdge;
+  }
+  if (count < points.size() / 5)
+    for (Judgement& judgement : judged) judgement.counts = true;
   return judged;
 }
 
@@ -179,8 +191,8 @@ PatchFit fit_patch(const ArticularRegion& region, const FitOptions& options) {
       options.smoothing_length
           ? *options.smoothing_length
           : choose_smoothing(grid, points, judged_points(flat, points), penalty).length;
-  PatchData data =
-      patch_data(grid, solve_fit(assemble_data(grid, points), penalty, fit.smoothing_length));
+  DataTerm term = assemble_data(grid, points);
+  PatchData data = patch_data(grid, solve_fit(term, penalty, fit.smoothing_length));
 
   const std::vector<double> areas = vertex_areas(region.mesh);
   for (std::size_t i = 0; i < points.size(); ++i) points[i].weight = areas[i];
@@ -194,8 +206,10 @@ PatchFit fit_patch(const ArticularRegion& region, const FitOptions& options) {
       cells[k].stretch_v = stretched[k].stretch_v;
     }
     penalty = assemble_penalty(grid, cells);
-    data = patch_data(grid, solve_fit(assemble_data(grid, points), penalty, fit.smoothing_length));
+    term = assemble_data(grid, points);
+    data = patch_data(grid, solve_fit(term, penalty, fit.smoothing_length));
   }
+  fit.condition = fit_condition(term, penalty, fit.smoothing_length);
   correct_parameters(grid, Patch(data), points);
   finish(region, outline, std::move(data), points, fit);
   if (outline.holes > 0) fit.notes.push_back(fmt::format("{} small holes bridged", outline.holes));

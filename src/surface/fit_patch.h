@@ -22,9 +22,9 @@ struct FitOptions {
   std::optional<std::array<int, 2>> control_points = {};  ///< absent: from the knot spacing
   std::optional<double> smoothing_length = {};            ///< [mm]; absent: chosen from the data
   int degree = 3;
-  double knot_spacing = 2.75;  ///< [mm of chart length]
-  int rounds = 6;              ///< of parameter correction, at most
-  double settled = 0.02;       ///< rms change of the parameters that ends them [mm]
+  double knot_spacing = 2;  ///< [mm of chart length]
+  int rounds = 6;           ///< of parameter correction, at most
+  double settled = 0.02;    ///< rms change of the parameters that ends them [mm]
 };
 
 /// A smoothing spline leans outwards near its last data: this margin of the data, in smoothing
@@ -34,6 +34,7 @@ inline constexpr double kUncertainRim = 0.6;
 struct PatchFit {
   PatchData patch;                          ///< its mask: distance to the edge of what is known
   double smoothing_length = 0;              ///< [mm]
+  double condition = 0;                     ///< of the normal equations
   int rounds = 0;                           ///< of parameter correction that were done
   std::vector<Eigen::Vector2d> parameters;  ///< of the closest point to each vertex of the region
   std::vector<double> distance;             ///< of each vertex, positive outside the patch [mm]

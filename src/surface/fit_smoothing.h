@@ -3,12 +3,12 @@
 /// The smoothing length chosen from the data.
 ///
 /// What a mesh leaves beside a smooth surface is texture that neighbouring vertices share, so plain
-/// cross-validation always votes for following it. Here the expected error of the patch is
-/// estimated with that sharing in the account [Mallows 1973]:
-///     E(ℓ) = mean squared distance(ℓ) + 2/(2π) ∫ S(k) k dk / (1 + (ℓk)⁶),
-/// where S is the spectrum of the texture: its variance from what is left at ℓ = 1 mm but no less
-/// than any segmentation has, its correlation length that of segmentations. docs/surface.md derives
-/// it and shows what was measured.
+/// cross-validation always votes for following it. Here fits of growing smoothing length are taken
+/// from each other; what lies between them, band by band, is explained as texture of some strength
+/// and correlation length, S(k), and shape whose spectrum falls as a power of k. The two tell what
+/// error to expect of a fit that passes H(k) = 1/(1 + (ℓk)⁶),
+///     E(ℓ) = (1/2π) ∫ H² S_texture k dk + (1/2π) ∫ (1 - H)² S_shape k dk,
+/// and its least is taken. docs/surface.md derives it and shows what was measured.
 
 #include <vector>
 
@@ -16,23 +16,31 @@
 
 namespace condyle {
 
+/// rms amplitude and length l of the correlation exp(-d²/2l²) [mm].
+struct Texture {
+  double rms = 0, correlation = 1.5;
+};
+
 struct SmoothingOptions {
-  double least = 0.75, greatest = 6;  ///< lengths allowed [mm]
-  double texture_correlation =
-      1.5;  ///< length l of the correlation exp(-d²/2l²) that is expected [mm]
-  double least_texture =
-      0.08;  ///< rms amplitude that every segmentation has, smoothed as it may be [mm]
+  double least = 1, greatest = 6;       ///< lengths allowed [mm]
+  Texture least_texture = {0.11, 1.5};  ///< that every segmentation has, smoothed as it may be
 };
 
 struct SmoothingChoice {
-  double length = 0;   ///< [mm]
-  double texture = 0;  ///< rms amplitude inferred [mm]
+  double length = 0;  ///< [mm]
+  Texture texture;    ///< inferred
+  double error = 0;   ///< expected rms distance from the true surface [mm]
 };
 
-/// `judged[i]` tells whether point i counts for the choice (all points count for the fits).
+/// What counts for the choice at one data point; all points count for the fits.
+struct Judgement {
+  bool counts = true;
+  double smoothing = 1;  ///< the smoothing length there as a fraction of ℓ
+};
+
 [[nodiscard]] SmoothingChoice choose_smoothing(const SplineGrid& grid,
                                                const std::vector<DataPoint>& points,
-                                               const std::vector<bool>& judged,
+                                               const std::vector<Judgement>& judged,
                                                const PenaltyTerm& penalty,
                                                const SmoothingOptions& options = {});
 

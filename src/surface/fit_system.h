@@ -62,6 +62,11 @@ struct PenaltyTerm {
                                                      const PenaltyTerm& penalty,
                                                      double smoothing_length);
 
+/// Condition number of the system that solve_fit solves.
+[[nodiscard]] double fit_condition(const DataTerm& data,
+                                   const PenaltyTerm& penalty,
+                                   double smoothing_length);
+
 /// The grid with its control points as a patch; no mask yet.
 [[nodiscard]] PatchData patch_data(const SplineGrid& grid,
                                    std::vector<Eigen::Vector3d> control_points);

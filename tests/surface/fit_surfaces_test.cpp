@@ -97,7 +97,8 @@ TEST(FitSurfaces, FindsTheExactPhantomUnderItsRoughness) {
     EXPECT_LT(std::sqrt(angle_square / count) * 180 / M_PI, 3.5) << scene.surfaces[i].name;
     const FitReport& report = *fitted[i].report;
     EXPECT_EQ(report.surface, scene.surfaces[i].name);
-    EXPECT_LE(report.rms, 0.205) << "the roughness of the mesh is 0.2 mm";
+    // The roughness of the mesh is 0.2 mm; at the rims a patch this smooth leaves more.
+    EXPECT_LE(report.rms, 0.23);
     EXPECT_LE(report.rms, report.max);
     EXPECT_GT(report.smoothing_length, 1);
   }
@@ -228,6 +229,44 @@ TEST(FitSurfaces, FollowsTheCartilageOfALivingKnee) {
                     .tibia = folder / "ACLC01-R-tibia-cart.obj",
                     .to_mm = 1000}),
               {.rms = 0.06, .max = 0.25, .normal_degrees = 2.5});
+}
+
+KneeFiles lenhart_files(const std::string& resolution) {
+  const fs::path folder = kSpecimens / "lenhart2015";
+  return {.femur = folder / ("ACLC01-R-femur-cart" + resolution),
+          .tibia = folder / ("ACLC01-R-tibia-cart" + resolution),
+          .to_mm = 1000};
+}
+
+/// rms difference of curvature between the patches of two knees, farther than 4 mm from both edges.
+double curvature_difference(const FittedSurface& a, const FittedSurface& b) {
+  const double rim_a = kUncertainRim * a.report->smoothing_length,
+               rim_b = kUncertainRim * b.report->smoothing_length;
+  double square = 0, count = 0;
+  for (const Place& place : a.surface->samples(1.0)) {
+    const SurfacePoint at = a.surface->evaluate(place);
+    const Place other = b.surface->closest(at.c, b.surface->seed(at.c));
+    if (a.surface->edge_distance(place) + rim_a < 4 || b.surface->edge_distance(other) + rim_b < 4)
+      continue;
+    square += (at.K - b.surface->evaluate(other).K).squaredNorm() / 2;  // two curvatures
+    ++count;
+  }
+  return std::sqrt(square / count);
+}
+
+// Three meshes of one knee, 13, 3 and 1 thousand vertices for the femur: what they differ in must
+// not look like curvature. A prototype with smoothing lengths fixed at 2 and 1.5 mm kept within
+// 0.0006 and 0.003; chosen from the data they are shorter on the plateaus.
+TEST(FitSurfaces, FindsTheSameCurvatureInMeshesOfDifferentResolution) {
+  if (!fs::exists(kSpecimens / "lenhart2015")) GTEST_SKIP() << "no specimens here";
+  const auto full = fit_surfaces(knee(lenhart_files(".obj"))),
+             medium = fit_surfaces(knee(lenhart_files("-medium.stl"))),
+             coarse = fit_surfaces(knee(lenhart_files("-coarse.stl")));
+  for (std::size_t i = 0; i < full.size(); ++i) {
+    EXPECT_LT(curvature_difference(full[i], medium[i]), 0.0013) << full[i].report->surface;
+    EXPECT_LT(curvature_difference(full[i], coarse[i]), 0.003) << full[i].report->surface;
+    EXPECT_LT(full[i].report->seconds, 1);
+  }
 }
 
 TEST(FitSurfaces, FollowsTheMeanKneeOfAShapeModel) {

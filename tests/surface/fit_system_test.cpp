@@ -148,7 +148,7 @@ struct Study {
     return std::sqrt(sum / count);
   }
   [[nodiscard]] SmoothingChoice choice() const {
-    return choose_smoothing(grid, points, std::vector<bool>(points.size(), true), penalty);
+    return choose_smoothing(grid, points, std::vector<Judgement>(points.size()), penalty);
   }
 };
 
@@ -163,7 +163,7 @@ TEST(FitSmoothing, IsCloseToTheBestChoiceOnTexture) {
     const SmoothingChoice choice = study.choice();
     EXPECT_LT(study.error(choice.length), 1.3 * best)
         << "roughness " << roughness << ", length " << choice.length;
-    EXPECT_NEAR(choice.texture, roughness, 0.5 * roughness);
+    EXPECT_NEAR(choice.texture.rms, roughness, 0.5 * roughness);
   }
 }
 

@@ -1,0 +1,31 @@
+#pragma once
+
+/// What a user should know before a sweep: overlap or gap of the bodies at the start pose, ligament
+/// insertions off the bone, slack lengths that hardly fit the start pose.
+
+#include <string>
+#include <vector>
+
+#include "scene/fit_surfaces.h"
+#include "scene/scene.h"
+
+namespace condyle {
+
+struct StartLimits {
+  double gap = 1;        ///< of a contact, or overlap [mm]
+  double insertion = 3;  ///< from the mesh of the body [mm]
+  double strain = 0.15;  ///< of a ligament, either way [-]
+};
+
+/// Smallest gap of a contact at the start pose [mm], negative where the bodies overlap; infinite
+/// where the surfaces do not face each other.
+[[nodiscard]] double start_gap(const Scene& scene,
+                               const std::vector<FittedSurface>& surfaces,
+                               const ContactDescription& contact);
+
+/// One line each; those beyond the limits begin with "warning: ".
+[[nodiscard]] std::vector<std::string> start_warnings(const Scene& scene,
+                                                      const std::vector<FittedSurface>& surfaces,
+                                                      const StartLimits& limits = {});
+
+}  // namespace condyle

@@ -1,0 +1,52 @@
+#include "scene/start_warnings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "scene/read_scene.h"
+
+namespace condyle {
+namespace {
+
+struct StartWarnings : testing::Test {
+  Scene scene = read_scene(std::filesystem::path(CONDYLE_SOURCE_DIR) / "data/phantom/knee.toml");
+  std::vector<FittedSurface> surfaces = fit_surfaces(scene);
+
+  /// The first warning that holds the words; empty where there is none.
+  [[nodiscard]] std::string warning(const std::string& words) const {
+    for (const std::string& line : start_warnings(scene, surfaces))
+      if (line.starts_with("warning: ") && line.find(words) != std::string::npos) return line;
+    return "";
+  }
+};
+
+// The exact bones overlap by 0.03 mm in both compartments; fits to rough meshes differ by 0.3 mm.
+TEST_F(StartWarnings, HasNoneForThePhantom) {
+  EXPECT_EQ(warning(""), "");
+  for (const ContactDescription& contact : scene.contacts)
+    EXPECT_NEAR(start_gap(scene, surfaces, contact), -0.03, 0.35) << contact.name;
+}
+
+TEST_F(StartWarnings, SeesAGapAndAnOverlap) {
+  scene.bodies[scene.moving_body()].start_translation += Eigen::Vector3d(0, -4, 0);
+  EXPECT_NE(warning("contact").find("gap of"), std::string::npos);
+  scene.bodies[scene.moving_body()].start_translation += Eigen::Vector3d(0, 8, 0);
+  EXPECT_NE(warning("contact").find("overlap of"), std::string::npos);
+}
+
+TEST_F(StartWarnings, SeesAnInsertionOffTheBone) {
+  scene.ligaments[0].ends[0].at += Eigen::Vector3d(0, 0, 60);
+  EXPECT_NE(warning("insertions").find("\"" + scene.ligaments[0].name + "\""), std::string::npos);
+}
+
+// Half the slack length doubles the length over it: more than 80 % of strain.
+TEST_F(StartWarnings, SeesAStrainThatCannotBe) {
+  auto& law = std::get<ToeLinearLaw>(scene.ligaments[1].law);
+  law.slack_length /= 2;
+  EXPECT_NE(warning("slack length").find(scene.ligaments[1].name), std::string::npos);
+}
+
+}  // namespace
+}  // namespace condyle

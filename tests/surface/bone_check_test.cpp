@@ -1,0 +1,84 @@
+#include "surface/bone_check.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "input_error.h"
+#include "mesh/clean_mesh.h"
+#include "mesh/load_mesh.h"
+#include "mesh/mesh_measures.h"
+#include "surface/mesh_distance.h"
+
+namespace condyle {
+namespace {
+
+const BoneFrame kRight{.lateral = {0, 0, 1}, .anterior = {1, 0, 0}, .proximal = {0, 1, 0}};
+
+TriangleMesh bone(const char* file) {
+  return clean_mesh(load_mesh(std::filesystem::path(CONDYLE_SOURCE_DIR) / "meshes" / file, 1)).mesh;
+}
+
+template <class Check>
+std::string complaint(Check check) {
+  try {
+    check();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(BoneCheck, AcceptsTheBonesOfThePhantom) {
+  EXPECT_NO_THROW(check_is_no_femur(bone("tibia.stl"), kRight));
+  EXPECT_NO_THROW(check_one_knee(bone("tibia.stl"), kRight));
+  const TriangleMesh femur = bone("femur.stl");
+  EXPECT_NO_THROW(check_is_femur(fit_condylar_axis(femur, vertex_normals(femur), kRight)));
+}
+
+// The radii of the phantom's posterior condyles are 21.5 and 20 mm.
+TEST(BoneCheck, KnowsAFemurByItsCondyles) {
+  const std::string text = complaint([] { check_is_no_femur(bone("femur.stl"), kRight); });
+  EXPECT_NE(text.find("looks like a femur, expected a tibia: it has posterior condyles of radius"),
+            std::string::npos)
+      << text;
+}
+
+TEST(BoneCheck, FindsNoCondylesOnATibia) {
+  const TriangleMesh tibia = bone("tibia.stl");
+  const std::string text =
+      complaint([&] { check_is_femur(fit_condylar_axis(tibia, vertex_normals(tibia), kRight)); });
+  EXPECT_NE(text.find("posterior condyles"), std::string::npos) << text;
+}
+
+TEST(BoneCheck, SeesTwoKneesByTheirWidth) {
+  TriangleMesh both = bone("femur.stl");
+  const TriangleMesh one = both;
+  const int first = static_cast<int>(one.vertices.size());
+  for (const Eigen::Vector3d& v : one.vertices)
+    both.vertices.emplace_back(v + Eigen::Vector3d(0, 0, 200));
+  for (const auto& [a, b, c] : one.triangles)
+    both.triangles.push_back({a + first, b + first, c + first});
+  const std::string text = complaint([&] { check_one_knee(both, kRight); });
+  EXPECT_NE(text.find("two knees in one file"), std::string::npos) << text;
+}
+
+// Depths of the phantom's plateaus: 49.5 mm medial, 43.5 lateral. Read as a left knee, they change
+// places.
+TEST(BoneCheck, DeeperPlateauTellsTheSide) {
+  const BoneFrame left{.lateral = {0, 0, -1}, .anterior = {1, 0, 0}, .proximal = {0, 1, 0}};
+  EXPECT_GT(plateau_depth_ratio(bone("tibia.stl"), kRight), 1.05);
+  EXPECT_LT(plateau_depth_ratio(bone("tibia.stl"), left), 0.95);
+}
+
+// A triangle in the plane z = 0: above its inside, beside an edge, beyond a corner.
+TEST(MeshDistance, IsThatToTheNearestPartOfATriangle) {
+  const TriangleMesh mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}};
+  const MeshDistance distance(mesh);
+  EXPECT_NEAR(distance({1, 1, 2}), 2, 1e-12);
+  EXPECT_NEAR(distance({2, -3, 0}), 3, 1e-12);
+  EXPECT_NEAR(distance({-3, -4, 0}), 5, 1e-12);
+}
+
+}  // namespace
+}  // namespace condyle
