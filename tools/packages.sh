@@ -46,6 +46,12 @@ install_packages() {
   }
 }
 
+# install_where_possible PACKAGE...: what a study compares with; without it the study does without.
+install_where_possible() {
+  local build_packages=("$@")
+  install_packages || echo "Going on without: $*" >&2
+}
+
 # apt waits for a busy package lock by itself, but not for the lock of its lists.
 update_package_lists() {
   local attempt

@@ -287,8 +287,8 @@ void ContactSearch::scan(const Cluster& cluster, const RigidTransform& X_from_to
 bool ContactSearch::is_lowest_of_neighbours(int sample) const {
   for (const int other : neighbours_[sample]) {
     if (other < 0 || stamp_[other] != now_) continue;
-    // Along a line the gap is the same for all, also for those that face nothing known.
-    if (lines_ && this->other().edge_distance(feet_[other].place) < 0) continue;
+    // One that faces nothing known stands for nothing, however low it is.
+    if (this->other().edge_distance(feet_[other].place) < 0) continue;
     if (gap_[other] < gap_[sample] || (gap_[other] == gap_[sample] && other < sample)) return false;
   }
   return true;

@@ -70,14 +70,8 @@ void check_converged_poses(const Knee& knee, const SweepResult& result) {
   }
 }
 
-// Smoothed more than the data ask for (2.1 to 2.6 mm), since the known part then ends farther from
-// the notch: from 35 degrees on the notch side of the medial condyle comes down on the eminence by
-// up to 0.17 mm within 0.7 mm of its edge, where the lowest gap lies beyond the patch and the
-// search finds none.
 TEST(Sweep, PhantomConvergesAtEveryPoseWithoutAnyOverlap) {
-  Knee knee{read_scene(std::filesystem::path(CONDYLE_SOURCE_DIR) / "data/phantom/knee.toml"), {}};
-  for (SurfaceDescription& surface : knee.scene.surfaces) surface.patch.smoothing = 4.5;
-  knee.surfaces = fit_surfaces(knee.scene);
+  const Knee knee = load(std::filesystem::path(CONDYLE_SOURCE_DIR) / "data/phantom/knee.toml");
   const SweepResult result = sweep(knee.scene, knee.surfaces);
   ASSERT_EQ(result.poses.size(), 25u);
   EXPECT_EQ(result.count_converged(), 25);

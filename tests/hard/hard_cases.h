@@ -35,6 +35,7 @@ struct HardOutcome {
   std::string statuses;  ///< as HardCase::expected
   int iterations = 0;    ///< most of a pose
   double residual = 0;   ///< largest of a converged pose [N]
+  double condition = 0;  ///< of Newton's matrix at the last pose that was solved, rows in N and mm
   double error = 0;
   bool finite = true;  ///< no converged pose holds a number that is none
   bool has_words = false;

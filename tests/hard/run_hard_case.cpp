@@ -1,9 +1,14 @@
+#include <Eigen/SVD>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
+#include "equilibrium/build_model.h"
+#include "equilibrium/path_system.h"
 #include "equilibrium/sweep.h"
 #include "hard/hard_cases.h"
 #include "scene/read_scene.h"
@@ -43,6 +48,19 @@ char letter(PoseStatus status) {
   return '?';
 }
 
+double condition_number(const Model& model, const EquilibriumState& state) {
+  NewtonSystem system(model);
+  if (!system.assemble(state)) return std::numeric_limits<double>::infinity();
+  SmallLu matrix;
+  double right_side[SmallLu::kMaxSize];
+  const int size = system.fill(state, matrix, right_side);
+  Eigen::MatrixXd dense(size, size);
+  for (int i = 0; i < size; ++i)
+    for (int j = 0; j < size; ++j) dense(i, j) = matrix(i, j);
+  const Eigen::VectorXd values = dense.jacobiSvd().singularValues();
+  return values[0] / values[size - 1];
+}
+
 bool is_finite(const PoseResult& pose) {
   bool finite = pose.X_BA.p.allFinite() && pose.X_BA.R.allFinite() && std::isfinite(pose.residual);
   for (const ContactResult& contact : pose.contacts) finite &= std::isfinite(contact.force);
@@ -64,8 +82,16 @@ HardOutcome run(const HardCase& hard, const std::filesystem::path& root) {
     text.replace(at, from.size(), to);
   }
   const Scene scene = parse_scene(text, file);
+  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
   HardOutcome outcome;
-  outcome.sweep = sweep(scene, fit_surfaces(scene));
+  if (scene.sweep->arc_length) {
+    outcome.sweep = sweep(scene, surfaces);
+  } else {
+    EquilibriumSolver solver(build_model(scene, surfaces));
+    const SweptValue swept{scene.sweep->varies_load, static_cast<std::size_t>(scene.sweep->index)};
+    outcome.sweep = sweep(solver, swept.in(solver.model()), scene.sweep->values);
+    outcome.condition = condition_number(solver.model(), solver.state());
+  }
   outcome.has_words = hard.words.empty();
   for (const PoseResult& pose : outcome.sweep.poses) {
     outcome.statuses += letter(pose.status);

@@ -1,0 +1,217 @@
+#include "accuracy/peers.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+#include "accuracy/dual.h"
+
+#ifdef CONDYLE_HAS_CERES
+#include <ceres/ceres.h>
+#endif
+#ifdef CONDYLE_HAS_KINSOL
+#include <kinsol/kinsol.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#endif
+
+namespace condyle::accuracy {
+namespace {
+
+using Jacobian = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+using D = Dual<kUnknowns>;
+
+constexpr int kMostIterations = 200;
+constexpr double kTolerance = 1e-9;  // of the residual [N]: 1e-12 of the forces
+
+Unknowns<double> linearize(const KneeEquations& equations,
+                           const Unknowns<double>& x,
+                           Jacobian& jacobian) {
+  Unknowns<D> dual;
+  for (int i = 0; i < kUnknowns; ++i) dual[i] = D::variable(x[i], i);
+  const Unknowns<D> r = equations.residual<D>(dual);
+  Unknowns<double> value;
+  for (int i = 0; i < kUnknowns; ++i) {
+    value[i] = r[i].v;
+    jacobian.row(i) = r[i].d.transpose();
+  }
+  return value;
+}
+
+PeerResult newton(const KneeEquations& equations, const Unknowns<double>& start, bool damped) {
+  PeerResult result{start, 0, false};
+  Jacobian jacobian;
+  Unknowns<double> r = linearize(equations, result.x, jacobian);
+  while (result.iterations < kMostIterations && r.allFinite()) {
+    if (r.cwiseAbs().maxCoeff() < kTolerance) {
+      result.converged = true;
+      break;
+    }
+    const Unknowns<double> step = jacobian.partialPivLu().solve(-r);
+    double part = 1;
+    if (damped)
+      while (part > 1e-4 && !(equations.residual<double>(result.x + part * step).norm() < r.norm()))
+        part /= 2;
+    result.x += part * step;
+    r = linearize(equations, result.x, jacobian);
+    ++result.iterations;
+  }
+  return result;
+}
+
+PeerResult plain_newton(const KneeEquations& equations, const Unknowns<double>& start) {
+  return newton(equations, start, false);
+}
+PeerResult damped_newton(const KneeEquations& equations, const Unknowns<double>& start) {
+  return newton(equations, start, true);
+}
+
+#ifdef CONDYLE_HAS_KINSOL
+int kinsol_residual(N_Vector x, N_Vector r, void* data) {
+  const auto& equations = *static_cast<const KneeEquations*>(data);
+  Eigen::Map<Unknowns<double>> out(N_VGetArrayPointer(r));
+  out = equations.residual<double>(Eigen::Map<const Unknowns<double>>(N_VGetArrayPointer(x)));
+  return out.allFinite() ? 0 : 1;
+}
+
+int kinsol_jacobian(N_Vector x, N_Vector, SUNMatrix J, void* data, N_Vector, N_Vector) {
+  Jacobian jacobian;
+  linearize(*static_cast<const KneeEquations*>(data),
+            Eigen::Map<const Unknowns<double>>(N_VGetArrayPointer(x)), jacobian);
+  Eigen::Map<Jacobian>(SUNDenseMatrix_Data(J)) = jacobian;
+  return 0;
+}
+
+PeerResult kinsol(const KneeEquations& equations, const Unknowns<double>& start) {
+  PeerResult result{start, 0, false};
+  SUNContext context = nullptr;
+  SUNContext_Create(nullptr, &context);
+  N_Vector x = N_VMake_Serial(kUnknowns, result.x.data(), context);
+  N_Vector ones = N_VNew_Serial(kUnknowns, context);
+  N_VConst(1, ones);
+  SUNMatrix J = SUNDenseMatrix(kUnknowns, kUnknowns, context);
+  SUNLinearSolver solver = SUNLinSol_Dense(x, J, context);
+  void* memory = KINCreate(context);
+  KINSetErrFile(memory, nullptr);
+  KINInit(memory, kinsol_residual, x);
+  KINSetUserData(memory, const_cast<KneeEquations*>(&equations));
+  KINSetLinearSolver(memory, solver, J);
+  KINSetJacFn(memory, kinsol_jacobian);
+  KINSetMaxSetupCalls(memory, 1);
+  KINSetFuncNormTol(memory, kTolerance);
+  KINSetScaledStepTol(memory, 1e-16);
+  const int flag = KINSol(memory, x, KIN_LINESEARCH, ones, ones);
+  long iterations = 0;
+  KINGetNumNonlinSolvIters(memory, &iterations);
+  result.iterations = static_cast<int>(iterations);
+  result.converged = flag >= 0;
+  KINFree(&memory);
+  SUNLinSolFree(solver);
+  SUNMatDestroy(J);
+  N_VDestroy(ones);
+  N_VDestroy(x);
+  SUNContext_Free(&context);
+  return result;
+}
+#endif
+
+#ifdef CONDYLE_HAS_CERES
+struct CeresResidual {
+  const KneeEquations* equations;
+  template <class T>
+  bool operator()(const T* x, T* r) const {
+    Eigen::Map<Unknowns<T>> out(r);
+    out = equations->residual<T>(Eigen::Map<const Unknowns<T>>(x));
+    return true;
+  }
+};
+
+PeerResult ceres_dogleg(const KneeEquations& equations, const Unknowns<double>& start) {
+  PeerResult result{start, 0, false};
+  ceres::Problem problem;
+  problem.AddResidualBlock(new ceres::AutoDiffCostFunction<CeresResidual, kUnknowns, kUnknowns>(
+                               new CeresResidual{&equations}),
+                           nullptr, result.x.data());
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.trust_region_strategy_type = ceres::DOGLEG;
+  options.logging_type = ceres::SILENT;
+  options.max_num_iterations = kMostIterations;
+  options.function_tolerance = 0;
+  options.parameter_tolerance = 1e-15;
+  options.gradient_tolerance = 0;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  result.iterations = static_cast<int>(summary.iterations.size()) - 1;
+  result.converged = std::sqrt(2 * summary.final_cost) < 10 * kTolerance;
+  return result;
+}
+#endif
+
+}  // namespace
+
+std::vector<Peer> peers() {
+  std::vector<Peer> all{{"Newton, plain, 17 equations", plain_newton},
+                        {"Newton, damped, 17 equations", damped_newton}};
+#ifdef CONDYLE_HAS_KINSOL
+  all.push_back({"KINSOL, line search", kinsol});
+#endif
+#ifdef CONDYLE_HAS_CERES
+  all.push_back({"Ceres, dogleg", ceres_dogleg});
+#endif
+  return all;
+}
+
+ExactPose solve_exactly(const KneeEquations& equations, const Unknowns<double>& near) {
+  Unknowns<long double> x = near.cast<long double>();
+  Eigen::Matrix<long double, kUnknowns, kUnknowns> jacobian;
+  constexpr long double kStep = 1e-7L;
+  for (int iteration = 0; iteration < 12; ++iteration) {
+    const Unknowns<long double> r = equations.residual<long double>(x);
+    if (iteration > 2 && r.cwiseAbs().maxCoeff() < 1e-15L) break;
+    for (int j = 0; j < kUnknowns; ++j) {
+      Unknowns<long double> up = x, down = x;
+      up[j] += kStep;
+      down[j] -= kStep;
+      jacobian.col(j) =
+          (equations.residual<long double>(up) - equations.residual<long double>(down)) /
+          (2 * kStep);
+    }
+    x -= jacobian.partialPivLu().solve(r);
+  }
+  const Vec3<long double> turn = x.segment<3>(3);
+  return {x.segment<3>(0), cayley<long double>(turn) * equations.R0,
+          static_cast<double>(equations.residual<long double>(x).cwiseAbs().maxCoeff())};
+}
+
+Unknowns<double> unknowns_of(const EquilibriumState& state,
+                             const NewtonSystem& system,
+                             KneeEquations& equations) {
+  equations.R0 = state.X.R.cast<long double>();
+  Unknowns<double> x = Unknowns<double>::Zero();
+  x.segment<3>(0) = state.X.p;
+  x[6] = state.sigma[0];
+  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(7 + 5 * state.contacts[k].pair);
+    x.segment<3>(at) = system.contacts()[k].B.c;
+    x[at + 3] = 1;
+    x[at + 4] = state.contacts[k].p;
+  }
+  return x;
+}
+
+RigidTransform pose_of(const KneeEquations& equations, const Unknowns<double>& x) {
+  const Vec3<double> turn = x.segment<3>(3);
+  return {cayley<double>(turn) * equations.R0.cast<double>(), x.segment<3>(0)};
+}
+
+double pose_error(const ExactPose& truth, const RigidTransform& X, double L) {
+  const long double moved =
+      (X.p.cast<long double>() - truth.a).norm() / static_cast<long double>(L);
+  const long double turned = (X.R.cast<long double>() - truth.R).norm() / std::sqrt(2.0L);
+  return static_cast<double>(std::max(moved, turned));
+}
+
+}  // namespace condyle::accuracy

@@ -1,0 +1,20 @@
+#pragma once
+
+/// The studies of tools/accuracy.sh. Each writes a CSV file into a folder and its part of the page.
+
+#include <filesystem>
+#include <string>
+
+namespace condyle::accuracy {
+
+/// Newton's convergence, error against tolerance and time, and other solvers on the same equations.
+[[nodiscard]] std::string study_solvers(const std::filesystem::path& folder);
+
+/// The hard cases: status, iterations, residual, condition, error.
+[[nodiscard]] std::string study_hard_cases(const std::filesystem::path& folder,
+                                           const std::filesystem::path& root);
+
+/// How the cost grows with poses, ligaments and contacts, and what each part of a scene costs.
+[[nodiscard]] std::string study_costs(const std::filesystem::path& folder);
+
+}  // namespace condyle::accuracy
