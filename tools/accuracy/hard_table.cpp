@@ -5,6 +5,20 @@
 #include "hard/hard_cases.h"
 
 namespace condyle::accuracy {
+namespace {
+
+/// "ccccll" as "4 c 2 l".
+std::string counted(const std::string& statuses) {
+  std::string text;
+  for (std::size_t i = 0, run; i < statuses.size(); i += run) {
+    const std::size_t end = statuses.find_first_not_of(statuses[i], i);
+    run = (end == std::string::npos ? statuses.size() : end) - i;
+    text += fmt::format("{}{} {}", i > 0 ? " " : "", run, statuses[i]);
+  }
+  return text;
+}
+
+}  // namespace
 
 std::string study_hard_cases(const std::filesystem::path& folder,
                              const std::filesystem::path& root) {
@@ -22,10 +36,12 @@ std::string study_hard_cases(const std::filesystem::path& folder,
     csv.print("\"{}\",{},{},{},{:.3e},{},{}\n", one.name, one.file, outcome.statuses,
               outcome.iterations, outcome.residual, condition, error);
     page += fmt::format("| {} | {} | {} | {} | {:.0e} | {} | {} |\n", one.name, one.why,
-                        outcome.statuses, outcome.iterations, outcome.residual, condition, error);
+                        counted(outcome.statuses), outcome.iterations, outcome.residual, condition,
+                        error);
   }
   return page +
-         "\nStatuses, one letter a pose: c converged, l left patch, n no equilibrium, s singular, "
+         "\nStatuses, poses and their letter: c converged, l left patch, n no equilibrium, s "
+         "singular, "
          "z zero "
          "length, i iteration limit.\n\n";
 }

@@ -7,6 +7,9 @@
 
 namespace condyle::accuracy {
 
+/// Error of fitted patches against control points, degree and noise, on shapes known exactly.
+[[nodiscard]] std::string study_surfaces(const std::filesystem::path& folder);
+
 /// Newton's convergence, error against tolerance and time, and other solvers on the same equations.
 [[nodiscard]] std::string study_solvers(const std::filesystem::path& folder);
 
