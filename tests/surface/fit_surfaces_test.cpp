@@ -11,6 +11,7 @@
 #include "mesh/load_mesh.h"
 #include "mesh/mesh_measures.h"
 #include "phantom/phantom_shape.h"
+#include "scene/read_scene.h"
 #include "surface/articular_region.h"
 #include "surface/fit_patch.h"
 #include "surface/patch.h"
@@ -279,6 +280,46 @@ TEST(FitSurfaces, FollowsTheMeanKneeOfAShapeModel) {
                     .anterior = {0, 1, 0},
                     .proximal = {0, 0, 1}}),
               {.rms = 0.04, .max = 0.25, .normal_degrees = 2.5});
+}
+
+/// Closed slabs of cartilage from MRI, with the staircase of its voxels.
+struct Slabs : testing::Test {
+  Scene scene;
+  void SetUp() override {
+    if (!fs::exists(kSpecimens / "oai_pymskt")) GTEST_SKIP() << "no specimens here";
+    scene = read_scene(fs::path(CONDYLE_SOURCE_DIR) / "tests/data/oai_pymskt.toml");
+  }
+  void smooth(std::optional<double> condyle, std::optional<double> plateau) {
+    for (SurfaceDescription& surface : scene.surfaces)
+      surface.patch.smoothing = surface.body == 0 ? condyle : plateau;
+  }
+};
+
+// 0.07 mm is wanted; left to itself the fit takes more of the staircase for texture on the plateaus
+// (0.078 and 0.074 mm). Normals of a staircase are those of its steps: 6.7 degrees there.
+TEST_F(Slabs, AreFollowedOnTheirOuterFaces) {
+  smooth({}, {});
+  for (const FittedSurface& fitted : fit_surfaces(scene)) {
+    const bool condyle = fitted.report->surface.ends_with("condyle");
+    EXPECT_LE(fitted.report->core_rms, condyle ? 0.05 : 0.08) << fitted.report->surface;
+    EXPECT_LE(fitted.report->normal_rms * 180 / M_PI, condyle ? 2.5 : 7) << fitted.report->surface;
+  }
+}
+
+TEST_F(Slabs, AreMetWithinSevenHundredthsWithOneAndAHalfMillimetresOnThePlateaus) {
+  smooth(2, 1.5);
+  for (const FittedSurface& fitted : fit_surfaces(scene))
+    EXPECT_LE(fitted.report->core_rms, 0.07) << fitted.report->surface;
+}
+
+// The inner face lies 2 to 4 mm deeper: a patch that mixed both would leave the mesh by a
+// millimetre.
+TEST_F(Slabs, LeaveTheirInnerFacesOut) {
+  for (const FittedSurface& fitted : fit_surfaces(scene)) {
+    EXPECT_LT(fitted.report->p95, 0.6) << fitted.report->surface;
+    EXPECT_GT(fitted.report->area, 500) << fitted.report->surface;
+    EXPECT_LT(fitted.report->area, 2300) << fitted.report->surface;
+  }
 }
 
 }  // namespace

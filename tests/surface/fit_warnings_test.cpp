@@ -1,0 +1,131 @@
+/// What the report of a fit warns of: meshes that face inwards, folds, regions too thin to trust.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "mesh/clean_mesh.h"
+#include "mesh/load_mesh.h"
+#include "mesh/mesh_shapes.h"
+#include "scene/fit_surfaces.h"
+#include "support/scratch_folder.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+namespace fs = std::filesystem;
+
+TriangleMesh phantom_femur() {
+  return load_mesh(fs::path(CONDYLE_SOURCE_DIR) / "meshes/femur.stl", 1);
+}
+TriangleMesh reversed(TriangleMesh mesh) {
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+struct FitWarnings : ::testing::Test {
+  fs::path folder = test::scratch_folder("fit warnings");
+  Scene scene;
+
+  FitWarnings() { fs::create_directories(folder); }
+  ~FitWarnings() override { fs::remove_all(folder); }
+
+  /// The notes of the only surface, fitted to this mesh.
+  std::vector<std::string> notes_of(const TriangleMesh& mesh, PatchDescription patch) {
+    return fit(mesh, std::move(patch)).report->notes;
+  }
+  FittedSurface fit(const TriangleMesh& mesh, PatchDescription patch) {
+    const fs::path file = folder / "mesh.off";
+    std::ofstream out(file);
+    out.precision(12);
+    out << "OFF\n" << mesh.vertices.size() << ' ' << mesh.triangles.size() << " 0\n";
+    for (const Vector3d& v : mesh.vertices) out << v.transpose() << '\n';
+    for (const auto& [a, b, c] : mesh.triangles) out << "3 " << a << ' ' << b << ' ' << c << '\n';
+    out.close();
+    scene.bodies.resize(2);
+    scene.bodies[0].name = "femur";
+    scene.bodies[0].mesh = MeshFile{file, 1};
+    const auto frame = [](int body) {
+      return AnatomicalFrame{.body = body,
+                             .origin = Vector3d::Zero(),
+                             .lateral = {0, 0, 1},
+                             .anterior = {1, 0, 0},
+                             .proximal = {0, 1, 0}};
+    };
+    if (patch.compartment)
+      scene.joint = JointDescription{.side = Side::kRight, .femur = frame(0), .tibia = frame(1)};
+    SurfaceDescription surface;
+    surface.name = "patch";
+    surface.body = 0;
+    surface.kind = SurfaceKind::kPatch;
+    surface.patch = std::move(patch);
+    scene.surfaces = {surface};
+    return fit_surfaces(scene)[0];
+  }
+};
+
+PatchDescription medial() {
+  PatchDescription patch;
+  patch.compartment = Compartment::kMedial;
+  return patch;
+}
+PatchDescription within(const Vector3d& a, const Vector3d& b) {
+  PatchDescription patch;
+  patch.region_box = {{a, b}};
+  return patch;
+}
+bool holds(const std::vector<std::string>& notes, const std::string& words) {
+  return std::any_of(notes.begin(), notes.end(), [&](const std::string& note) {
+    return note.find(words) != std::string::npos;
+  });
+}
+
+// Mirroring the vertices alone turns every triangle of a closed bone inwards: what an export of the
+// other side leaves behind.
+TEST_F(FitWarnings, NameAMeshThatWasMirrored) {
+  TriangleMesh mesh = phantom_femur();
+  EXPECT_FALSE(holds(notes_of(mesh, medial()), "mirroring"));
+  for (Vector3d& v : mesh.vertices) v.z() = -v.z();
+  EXPECT_TRUE(holds(notes_of(mesh, medial()),
+                    "triangles faced into the bone, as after mirroring: check the side"));
+}
+
+// An open sheet has no inside; the condyle tells which way is out.
+TEST_F(FitWarnings, SayThatAnOpenSheetWasTurned) {
+  const TriangleMesh sheet = fit(phantom_femur(), medial()).region;
+  const FittedSurface right = fit(sheet, medial()), turned = fit(reversed(sheet), medial());
+  EXPECT_FALSE(holds(right.report->notes, "were turned"));
+  EXPECT_TRUE(holds(turned.report->notes, "1 of 1 sheets faced into the bone and were turned"));
+  const Vector3d distal(0, -60, -23);
+  EXPECT_LT(turned.surface->evaluate(turned.surface->seed(distal)).n.y(), -0.8);
+}
+
+// Hills of 45 degrees with ripples of 1.5 mm on them that reach 70 degrees the other way: a patch
+// that follows the hills faces away from the ripples' far sides.
+TEST_F(FitWarnings, NameAFold) {
+  const auto hills = [](double x, double) { return 4.77 * std::sin(2 * M_PI * x / 30); };
+  const auto rippled = [&](double x, double y) {
+    return hills(x, y) + 0.88 * std::sin(2 * M_PI * x / 1.5);
+  };
+  PatchDescription patch = within({-20, -20, -20}, {20, 20, 20});
+  patch.smoothing = 3;
+  EXPECT_FALSE(holds(notes_of(testing::height_sheet(24, 80, hills), patch), "fold"));
+  EXPECT_TRUE(holds(notes_of(testing::height_sheet(24, 160, rippled), patch),
+                    "warning: fold: the patch faces away from the mesh at"));
+}
+
+// A strip of 7 mm is at most 3.5 mm from its edge, less the rim that smoothing makes uncertain.
+TEST_F(FitWarnings, NameAThinRegion) {
+  const TriangleMesh mesh =
+      testing::height_sheet(30, 60, [](double x, double y) { return 0.01 * (x * x + y * y); });
+  EXPECT_FALSE(holds(notes_of(mesh, within({-15, -15, -5}, {15, 15, 20})), "thin region"));
+  EXPECT_TRUE(holds(notes_of(mesh, within({-15, -3.6, -5}, {15, 3.6, 20})),
+                    "warning: thin region: nowhere farther than"));
+}
+
+}  // namespace
+}  // namespace condyle
