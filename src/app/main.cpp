@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 
 #include "app/commands.h"
 #include "input_error.h"
@@ -30,10 +31,22 @@ void setup(CLI::App& program, int& status) {
 #endif
 }
 
+/// CLI11 would only say that a command is missing.
+void check_command(const CLI::App& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::string names;
+  for (const CLI::App* command : program.get_subcommands(nullptr)) {
+    if (command->check_name(argv[1])) return;
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  throw InputError(fmt::format("unknown command \"{}\", expected one of {}", argv[1], names));
+}
+
 int run(int argc, char** argv) {
   CLI::App program("condyle: positions of equilibrium of a knee, from its meshes", "condyle");
   int status = 0;
   setup(program, status);
+  check_command(program, argc, argv);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {

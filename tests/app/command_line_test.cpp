@@ -25,6 +25,15 @@ TEST_F(CommandLine, ChecksAScene) {
   EXPECT_EQ(outcome.err, "");
 }
 
+TEST_F(CommandLine, NamesACommandThatItDoesNotKnow) {
+  const Outcome outcome = run("swep knee.toml -o run.h5");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.err.rfind("condyle: unknown command \"swep\", expected one of check, fit, ", 0),
+            0U)
+      << outcome.err;
+  EXPECT_TRUE(results().empty());
+}
+
 TEST_F(CommandLine, SweepsASceneIntoAFileThatCanBeReadAgain) {
   const Outcome outcome = run("sweep knee.toml -o run.h5");
   EXPECT_EQ(outcome.code == 0 || outcome.code == 2, true) << outcome.err;
