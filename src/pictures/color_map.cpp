@@ -28,6 +28,18 @@ constexpr std::array<Rgb, 10> kPlasma = {{{13, 8, 135},
                                           {253, 202, 38},
                                           {240, 249, 33}}};
 
+constexpr std::array<Rgb, 11> kRdBu = {{{5, 48, 97},
+                                        {33, 102, 172},
+                                        {67, 147, 195},
+                                        {146, 197, 222},
+                                        {209, 229, 240},
+                                        {247, 247, 247},
+                                        {253, 219, 199},
+                                        {244, 165, 130},
+                                        {214, 96, 77},
+                                        {178, 24, 43},
+                                        {103, 0, 31}}};
+
 Rgb interpolate(std::span<const Rgb> anchors, double t) {
   const double x = t * static_cast<double>(anchors.size() - 1);
   const std::size_t i = std::min(static_cast<std::size_t>(x), anchors.size() - 2);
@@ -44,7 +56,15 @@ Rgb interpolate(std::span<const Rgb> anchors, double t) {
 
 Rgb map_color(ColorMap map, double t) {
   const double s = std::isfinite(t) ? std::clamp(t, 0.0, 1.0) : 0.0;
-  return map == ColorMap::kStrain ? interpolate(kPlasma, 0.8 * s) : interpolate(kViridis, 0.95 * s);
+  switch (map) {
+    case ColorMap::kStrain:
+      return interpolate(kPlasma, 0.8 * s);
+    case ColorMap::kFlexion:
+      return interpolate(kViridis, 0.95 * s);
+    case ColorMap::kDiverging:
+      return interpolate(kRdBu, s);
+  }
+  return {};
 }
 
 double round_up_nicely(double x) {

@@ -1,16 +1,18 @@
 #pragma once
 
-/// Colour maps whose lightness rises evenly, so that they survive colour blindness and grey
-/// printing: viridis and plasma of matplotlib (van der Walt and Smith 2015), by their anchor
-/// colours.
+/// Colour maps by their anchor colours: viridis and plasma of matplotlib (van der Walt and Smith
+/// 2015), whose lightness rises evenly, so that they survive colour blindness and grey printing;
+/// and for values of both signs RdBu of ColorBrewer (Brewer 2003), blue through white to red, which
+/// the colour-blind tell apart.
 
 #include "pictures/image.h"
 
 namespace condyle {
 
 enum class ColorMap {
-  kStrain,  ///< plasma without its pale end, which would drown on bone
-  kFlexion  ///< viridis
+  kStrain,    ///< plasma without its pale end, which would drown on bone
+  kFlexion,   ///< viridis
+  kDiverging  ///< RdBu: blue below the middle, red above
 };
 
 /// t is clamped to [0, 1].

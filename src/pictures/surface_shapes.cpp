@@ -132,6 +132,13 @@ TriangleMesh triangles_of(const SurfaceDescription& d, const Vector3d& near, dou
 }  // namespace
 
 ShadedMesh patch_shape(const Patch& patch, const Paint& paint, double spacing) {
+  return painted_patch(
+      patch, [&](const SurfacePoint&) { return paint; }, spacing);
+}
+
+ShadedMesh painted_patch(const Patch& patch,
+                         const std::function<Paint(const SurfacePoint&)>& paint,
+                         double spacing) {
   const int nu = cells(patch.u_max() - patch.u_min(), spacing),
             nv = cells(patch.v_max() - patch.v_min(), spacing);
   std::vector<Sample> samples;
@@ -141,7 +148,7 @@ ShadedMesh patch_shape(const Patch& patch, const Paint& paint, double spacing) {
       const Place place(patch.u_min() + (patch.u_max() - patch.u_min()) * i / nu,
                         patch.v_min() + (patch.v_max() - patch.v_min()) * j / nv, 0);
       const SurfacePoint at = patch.evaluate(place);
-      samples.push_back({{at.c.cast<float>(), at.n.cast<float>(), bytes(paint)},
+      samples.push_back({{at.c.cast<float>(), at.n.cast<float>(), bytes(paint(at))},
                          std::min(patch.edge_distance(place), 1e3)});
     }
   }

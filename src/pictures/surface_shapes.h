@@ -3,6 +3,8 @@
 /// Articular surfaces as shaded meshes: spline patches cut off at the edge of their data, and the
 /// exact kinds.
 
+#include <functional>
+
 #include "pictures/shaded_mesh.h"
 #include "scene/scene.h"
 #include "surface/patch.h"
@@ -11,6 +13,11 @@ namespace condyle {
 
 /// A patch within its known region, body frame; about `spacing` [mm] between vertices.
 [[nodiscard]] ShadedMesh patch_shape(const Patch& patch, const Paint& paint, double spacing = 1.2);
+
+/// The same with a paint of its own at every point.
+[[nodiscard]] ShadedMesh painted_patch(const Patch& patch,
+                                       const std::function<Paint(const SurfacePoint&)>& paint,
+                                       double spacing);
 
 /// An exact surface, body frame. Those without bounds are drawn as a piece of about `extent` [mm]
 /// around `near`.

@@ -13,27 +13,22 @@ namespace {
 
 using Eigen::Vector3d;
 
-double square_to_segment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
-  const Vector3d ab = b - a, ap = p - a;
-  const double t = std::clamp(ap.dot(ab) / std::max(ab.squaredNorm(), 1e-300), 0.0, 1.0);
-  return (ap - t * ab).squaredNorm();
+Vector3d on_segment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
+  const Vector3d ab = b - a;
+  return a + std::clamp(ab.dot(p - a) / std::max(ab.squaredNorm(), 1e-300), 0.0, 1.0) * ab;
 }
 
-/// The foot of the perpendicular where it falls inside, else the nearest edge.
-double square_to_triangle(const Vector3d& p,
-                          const Vector3d& a,
-                          const Vector3d& b,
-                          const Vector3d& c) {
+/// The foot of the perpendicular where it falls inside, else the nearest point of the edges.
+Vector3d on_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const Vector3d n = (b - a).cross(c - a);
   const double area = n.squaredNorm();
   const bool above = area > 0 && n.dot((b - a).cross(p - a)) >= 0 &&
                      n.dot((c - b).cross(p - b)) >= 0 && n.dot((a - c).cross(p - c)) >= 0;
-  if (above) {
-    const double height = n.dot(p - a);
-    return height * height / area;
-  }
-  return std::min(
-      {square_to_segment(p, a, b), square_to_segment(p, b, c), square_to_segment(p, c, a)});
+  if (above) return p - n.dot(p - a) / area * n;
+  Vector3d nearest = on_segment(p, a, b);
+  for (const Vector3d& other : {on_segment(p, b, c), on_segment(p, c, a)})
+    if ((other - p).squaredNorm() < (nearest - p).squaredNorm()) nearest = other;
+  return nearest;
 }
 
 }  // namespace
@@ -54,21 +49,22 @@ MeshDistance::MeshDistance(const TriangleMesh& mesh)
     : mesh_(mesh), index_(std::make_unique<Index>(mesh)) {}
 MeshDistance::~MeshDistance() = default;
 
-double MeshDistance::operator()(const Vector3d& p) const {
+Vector3d MeshDistance::closest(const Vector3d& p) const {
   constexpr std::size_t kNearest = 4;
-  std::array<std::size_t, kNearest> nearest{};
+  std::array<std::size_t, kNearest> vertices{};
   std::array<double, kNearest> square{};
   nanoflann::KNNResultSet<double> result(kNearest);
-  result.init(nearest.data(), square.data());
+  result.init(vertices.data(), square.data());
   index_->tree.findNeighbors(result, p.data(), nanoflann::SearchParams());
-  double least = square[0];
+  Vector3d nearest = mesh_.vertices[vertices[0]];
   for (std::size_t k = 0; k < result.size(); ++k)
-    for (const int t : index_->around[nearest[k]]) {
+    for (const int t : index_->around[vertices[k]]) {
       const auto& [a, b, c] = mesh_.triangles[t];
-      least = std::min(
-          least, square_to_triangle(p, mesh_.vertices[a], mesh_.vertices[b], mesh_.vertices[c]));
+      const Vector3d point =
+          on_triangle(p, mesh_.vertices[a], mesh_.vertices[b], mesh_.vertices[c]);
+      if ((point - p).squaredNorm() < (nearest - p).squaredNorm()) nearest = point;
     }
-  return std::sqrt(least);
+  return nearest;
 }
 
 }  // namespace condyle

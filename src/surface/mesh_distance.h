@@ -16,7 +16,11 @@ class MeshDistance {
   explicit MeshDistance(const TriangleMesh& mesh);
   ~MeshDistance();
 
-  [[nodiscard]] double operator()(const Eigen::Vector3d& p) const;
+  [[nodiscard]] double operator()(const Eigen::Vector3d& p) const {
+    return (closest(p) - p).norm();
+  }
+  /// The nearest point of the mesh.
+  [[nodiscard]] Eigen::Vector3d closest(const Eigen::Vector3d& p) const;
 
  private:
   struct Index;

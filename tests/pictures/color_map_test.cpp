@@ -20,6 +20,18 @@ TEST(ColorMap, GetsLighterAllTheWaySoThatItReadsInGrey) {
   }
 }
 
+TEST(ColorMap, OfBothSignsIsLightestInTheMiddleAndBlueBelow) {
+  for (int i = 0; i < 25; ++i) {
+    EXPECT_LT(lightness(map_color(ColorMap::kDiverging, i / 50.0)),
+              lightness(map_color(ColorMap::kDiverging, (i + 1) / 50.0)));
+    EXPECT_LT(lightness(map_color(ColorMap::kDiverging, 1 - i / 50.0)),
+              lightness(map_color(ColorMap::kDiverging, 1 - (i + 1) / 50.0)));
+  }
+  const Rgb low = map_color(ColorMap::kDiverging, 0.1), high = map_color(ColorMap::kDiverging, 0.9);
+  EXPECT_GT(low[2], low[0] + 80);
+  EXPECT_GT(high[0], high[2] + 80);
+}
+
 TEST(ColorMap, ClampsAndSurvivesNotANumber) {
   EXPECT_EQ(map_color(ColorMap::kStrain, -3), map_color(ColorMap::kStrain, 0));
   EXPECT_EQ(map_color(ColorMap::kStrain, 7), map_color(ColorMap::kStrain, 1));

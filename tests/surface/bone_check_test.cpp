@@ -78,6 +78,8 @@ TEST(MeshDistance, IsThatToTheNearestPartOfATriangle) {
   EXPECT_NEAR(distance({1, 1, 2}), 2, 1e-12);
   EXPECT_NEAR(distance({2, -3, 0}), 3, 1e-12);
   EXPECT_NEAR(distance({-3, -4, 0}), 5, 1e-12);
+  EXPECT_TRUE(distance.closest({1, 1, 2}).isApprox(Eigen::Vector3d(1, 1, 0)));
+  EXPECT_TRUE(distance.closest({2, -3, 0}).isApprox(Eigen::Vector3d(2, 0, 0)));
 }
 
 }  // namespace
