@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "input_error.h"
@@ -21,6 +22,7 @@ namespace {
 constexpr int kPerBody = 13;  // reference port, quaternion, twist
 constexpr int kSums = 2;      // dissipated, work of the drivers
 constexpr int kRecoverable = 1;
+constexpr double kBeforeJump = 1e-12;  // [s]: a step may not see a driver after its jump
 
 /// Owns an object of SUNDIALS.
 template <typename T, typename Free>
@@ -139,17 +141,48 @@ class Integrator {
   void advance(double& t, double to) {
     constexpr int kMostEvents = 1000;
     for (int events = 0; t < to; ++events) {
-      const int flag = CVode(memory_, to, y_, &t, CV_NORMAL);
+      const double jump = next_jump(t), stop = std::min(to, jump - kBeforeJump);
+      if (stop <= t) {  // just before a jump: go on behind it
+        t = jump;
+        if (!handle_event(t, false)) return;
+        continue;
+      }
+      CVodeSetStopTime(memory_, stop);
+      const int flag = CVode(memory_, stop, y_, &t, CV_NORMAL);
       if (flag < 0 || events == kMostEvents) {
         motion_.completed = false;
-        motion_.reason = fmt::format(
-            "at {:.6g} s: {}", t,
-            flag < 0 ? failure(flag) : std::string("contacts open and close without end"));
+        motion_.reason = fmt::format("at {:.6g} s: {}", t,
+                                     flag < 0 ? lost_contact().value_or(failure(flag))
+                                              : std::string("contacts open and close without end"));
         return;
       }
-      if (flag == CV_ROOT_RETURN && !handle_event(t)) return;
+      if (flag == CV_ROOT_RETURN && !handle_event(t, true)) return;
     }
     store(t);
+  }
+
+  /// The next time after t at which a driver jumps, or never.
+  double next_jump(double t) const {
+    double next = INFINITY;
+    for (const double jump : options_.breaks)
+      if (jump > t) next = std::min(next, jump);
+    return next;
+  }
+
+  /// A closed contact whose surfaces have come to bend alike in one direction: its point runs away,
+  /// and the contact will be somewhere else.
+  std::optional<std::string> lost_contact() {
+    constexpr double kAlike = 0.1;  // of the other direction's relative curvature
+    unpack(numbers(), state_.t);
+    if (!equations_.assemble(state_)) return std::nullopt;
+    for (std::size_t i = 0; i < network_.contacts.size(); ++i) {
+      const auto [least, greatest] = equations_.contacts()[i].relative_curvature;
+      if (state_.contacts[i].closed && least < kAlike * greatest)
+        return fmt::format(
+            "contact \"{}\" ceases to be an isolated point (relative curvature {:.2g} 1/mm)",
+            network_.contacts[i].name, least);
+    }
+    return std::nullopt;
   }
 
   static std::string failure(int flag) {
@@ -175,9 +208,10 @@ class Integrator {
     }
   }
 
-  bool handle_event(double t) {
+  /// Contacts change where a root was found, or may where a driver jumps.
+  bool handle_event(double t, bool at_root) {
     std::vector<int> found(watched_.size()), struck, released;
-    CVodeGetRootInfo(memory_, found.data());
+    if (at_root) CVodeGetRootInfo(memory_, found.data());
     unpack(numbers(), t);
     for (std::size_t k = 0; k < found.size(); ++k) {
       if (found[k] == 0) continue;

@@ -19,7 +19,8 @@ struct IntegrationOptions {
   double tolerance = 1e-9;   ///< relative, and absolute for quantities scaled to a knee
   double restitution = 0;    ///< 0 to 1, of the velocity along the normal
   double least_rebound = 1;  ///< a contact that would rebound more slowly stays closed [mm/s]
-  long most_steps = 200000;  ///< from one frame to the next
+  std::vector<double> breaks = {};  ///< times at which a driver jumps [s]
+  long most_steps = 200000;         ///< from one frame to the next
 };
 
 struct MotionFrame {

@@ -103,7 +103,12 @@ bool NetworkEquations::settle_far(const ContactComponent& contact,
 bool NetworkEquations::settle_contacts(NetworkState& state) const {
   for (std::size_t i = 0; i < network_.contacts.size(); ++i) {
     const ContactComponent& contact = network_.contacts[i];
-    if (!settle_near(contact, state.bodies[contact.body].X, state.contacts[i])) return false;
+    const RigidTransform& X = state.bodies[contact.body].X;
+    ContactPlaces places = state.contacts[i];
+    if (settle_near(contact, X, places))
+      state.contacts[i] = places;
+    else if (state.contacts[i].closed || !settle_far(contact, X, state.contacts[i]))
+      return false;
   }
   return true;
 }

@@ -69,7 +69,8 @@ TEST(ContactMotion, BeadLeavesTheSphereAtTwoThirds) {
   // Exactly at the event: energy gives the speed, the fall from there is free.
   IntegrationOptions until = options(motion.events[0].t, motion.events[0].t, 1e-10);
   const Motion again = integrate(ball.network, ball.state, until);
-  EXPECT_NEAR(again.frames.back().state.bodies[0].X.p.y() / path, 2.0 / 3 * std::cos(start), 1e-7);
+  // The top is unstable: an error of 1e-10 at the start has grown a thousandfold.
+  EXPECT_NEAR(again.frames.back().state.bodies[0].X.p.y() / path, 2.0 / 3 * std::cos(start), 1e-6);
   EXPECT_LT(motion.largest_imbalance, 1e-7 * motion.energy_scale);
 }
 
