@@ -15,6 +15,7 @@ void setup_fit(CLI::App& program, int& status);
 void setup_sweep(CLI::App& program, int& status);
 void setup_compare(CLI::App& program, int& status);
 void setup_laxity(CLI::App& program, int& status);
+void setup_simulate(CLI::App& program, int& status);
 void setup_render(CLI::App& program, int& status);  // built with CONDYLE_PICTURES only
 void setup_plot(CLI::App& program, int& status);    // built with CONDYLE_PICTURES only
 

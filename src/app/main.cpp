@@ -25,6 +25,7 @@ void setup(CLI::App& program, int& status) {
   setup_sweep(program, status);
   setup_compare(program, status);
   setup_laxity(program, status);
+  setup_simulate(program, status);
 #ifdef CONDYLE_PICTURES
   setup_render(program, status);
   setup_plot(program, status);

@@ -31,7 +31,8 @@ std::string caption(const Scenery& scenery) {
         fmt::format("  ·  flexion {:g}°",
                     std::round(scenery.pose.joint.flexion * 1800 / std::numbers::pi) / 10 + 0.0);
   }
-  if (!swept.flexion && scenery.run.scene.sweep)
+  const bool varies = scenery.run.scene.sweep || scenery.run.scene.simulation;
+  if (!swept.flexion && varies)
     text += "  ·  " + swept.title + " " + with_unit(swept, scenery.pose.value);
   return text;
 }

@@ -37,6 +37,7 @@ SweptQuantity quantity_of(const ConditionDescription& condition) {
 }  // namespace
 
 SweptQuantity swept_quantity(const Scene& scene) {
+  if (scene.simulation) return {"Time", "s", 1};
   if (!scene.sweep || scene.sweep->index < 0) return {"Pose", "", 1};
   const auto index = static_cast<std::size_t>(scene.sweep->index);
   if (scene.sweep->varies_load) {

@@ -11,6 +11,7 @@
 #include "compare/laxity.h"
 #include "equilibrium/pose_result.h"
 #include "mesh/triangle_mesh.h"
+#include "network/simulate.h"
 #include "scene/fit_surfaces.h"
 #include "scene/scene.h"
 #include "surface/patch.h"
@@ -37,6 +38,7 @@ struct Run {
   std::optional<Comparison> comparison = {};  ///< of `condyle compare`
   std::optional<LaxityResult> laxity = {};    ///< of `condyle laxity`
   std::vector<std::string> start = {};  ///< of a fit: what start_warnings found
+  std::optional<Simulation> simulation = {};  ///< of `condyle simulate`; written, not read back
 };
 
 /// Writes to a temporary file beside `path` and renames it: never a half-written file. Throws

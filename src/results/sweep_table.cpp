@@ -37,6 +37,9 @@ SweepTable::SweepTable(const Scene& scene) {
     flexion_is_swept = !scene.sweep->varies_load &&
                        scene.conditions[static_cast<std::size_t>(scene.sweep->index)].kind ==
                            ConditionKind::kFlexion;
+  } else if (scene.simulation) {
+    unit = {"s", 1};
+    swept_name = "time";
   }
   swept_unit_ = unit.factor;
   cells_.push_back(

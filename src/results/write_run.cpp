@@ -11,6 +11,7 @@
 #include "results/output_file.h"
 #include "results/run_file.h"
 #include "results/run_layout.h"
+#include "results/simulation_group.h"
 #include "results/sweep_group.h"
 #include "scene/sweep_range.h"
 
@@ -63,7 +64,7 @@ void write_head(const Hdf5Group& root, const Scene& scene) {
 
 void write_status(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) {
   const std::size_t n = poses.size();
-  const Unit unit = scene.sweep ? border_sweep_unit(scene) : Unit{"1", 1};
+  const Unit unit = scene.sweep ? border_sweep_unit(scene) : Unit{scene.simulation ? "s" : "1", 1};
   sweep.write("value", numbers(poses, [&](const PoseResult& p) { return p.value / unit.factor; }),
               {n}, unit.name);
   sweep.write("status",
@@ -322,6 +323,7 @@ void write_all(const Hdf5Group& root, const Run& run) {
   const Hdf5Group bodies = root.create("bodies");
   for (const BodyMesh& body : run.bodies) write_body(bodies.create(body.name), body.mesh);
   if (run.comparison) write_comparison(root, run.scene, *run.comparison);
+  if (run.simulation) write_simulation(root.create("simulate"), run.scene, *run.simulation);
   if (run.laxity) write_laxity(root.create("laxity"), run.scene, *run.laxity);
 }
 

@@ -145,6 +145,11 @@ void describe_motion(const Scene& scene, Out out) {
                    values.front() / unit.factor, values.back() / unit.factor, unit.name,
                    values.size());
   }
+  if (scene.simulation) {
+    const SimulationDescription& simulation = *scene.simulation;
+    fmt::format_to(out, "simulate   {:.6g} s, {:.6g} frames per second, restitution {:.3g}\n",
+                   simulation.time, simulation.rate, simulation.restitution);
+  }
   if (!scene.laxity) return;
   fmt::format_to(out, "laxity     at");
   for (const double flexion : scene.laxity->flexions)

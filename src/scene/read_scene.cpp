@@ -51,6 +51,7 @@ Scene parse(const std::string& text, const std::filesystem::path& file, bool mes
   read_loads(root, scene);
   read_sweep(root, scene);
   read_laxity(root, scene);
+  read_simulation(root, scene);
   root.finish();
   return scene;
 }

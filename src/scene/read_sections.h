@@ -23,6 +23,7 @@ void read_conditions(const Section& root, Scene& scene);
 void read_loads(const Section& root, Scene& scene);
 void read_sweep(const Section& root, Scene& scene);
 void read_laxity(const Section& root, Scene& scene);
+void read_simulation(const Section& root, Scene& scene);
 
 // Shared by them:
 

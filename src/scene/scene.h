@@ -162,6 +162,36 @@ struct LaxityDescription {
   std::vector<int> cut;          ///< ligaments; empty: only the knee as it is
 };
 
+/// A load whose scale is a function of time.
+struct DriveDescription {
+  enum class Shape { kPulse, kDecayingSine, kTable };
+  int load = -1;
+  Shape shape = Shape::kPulse;
+  double start = 0, duration = 0;      ///< [s]; before `start` nothing
+  double frequency = 0, decay = 0;     ///< decaying sine: [1/s], and e^(-decay t)
+  std::vector<double> times, factors;  ///< table: [s], [-]; straight in between
+};
+
+/// A damper between the two bodies, along a line.
+struct DamperDescription {
+  std::string name;
+  std::array<Attachment, 2> ends;
+  double coefficient = 0;  ///< [N s/mm]
+};
+
+struct SimulationDescription {
+  double time = 1, rate = 100;                        ///< [s], frames per second
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< ground frame [mm/s²]
+  std::optional<double> flexion;                      ///< held there at the start [rad]
+  double flexion_velocity = 0;                        ///< [rad/s]
+  double restitution = 0;                             ///< 0 to 1
+  double tolerance = 1e-9;
+  double viscous_time = 0;  ///< τ of all ligaments: f(L) + τ f'(L) dL/dt [s]
+  std::vector<int> hold;    ///< conditions that stay while the rest is released
+  std::vector<DriveDescription> drives;
+  std::vector<DamperDescription> dampers;
+};
+
 struct Scene {
   std::string title;
   std::string text;            ///< the whole file, for the result file
@@ -178,6 +208,7 @@ struct Scene {
   std::vector<LoadDescription> loads;
   std::optional<SweepDescription> sweep;
   std::optional<LaxityDescription> laxity;
+  std::optional<SimulationDescription> simulation;
 
   [[nodiscard]] int fixed_body() const {
     for (std::size_t i = 0; i < bodies.size(); ++i)

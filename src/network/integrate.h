@@ -1,0 +1,65 @@
+#pragma once
+
+/// The motion of a network in time, by CVODE: backward differentiation with projection onto the
+/// constraints where there are any, Adams' method where there are none. Contacts open where their
+/// force vanishes and close, with an impact, where their gap does; both are located by root
+/// finding.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "network/network_equations.h"
+
+namespace condyle {
+
+struct IntegrationOptions {
+  double end = 1;            ///< [s]
+  double interval = 0.01;    ///< of stored frames [s]
+  double tolerance = 1e-9;   ///< relative, and absolute for quantities scaled to a knee
+  double restitution = 0;    ///< 0 to 1, of the velocity along the normal
+  double least_rebound = 1;  ///< a contact that would rebound more slowly stays closed [mm/s]
+  std::vector<double> breaks = {};  ///< times at which a driver jumps [s]
+  long most_steps = 200000;         ///< from one frame to the next
+};
+
+struct MotionFrame {
+  NetworkState state;
+  std::vector<double> contact_force, contact_gap;              ///< [N], [mm]
+  std::vector<Eigen::Vector3d> contact_point, contact_normal;  ///< ground frame [mm]
+  std::vector<LineState> lines;
+  std::vector<double> condition_multiplier;  ///< σ [N] or [N mm]
+  EnergySum energy;
+  double dissipated = 0, driver_work = 0;  ///< since the start [N mm]; impacts dissipate too
+  /// Constant along a motion.
+  [[nodiscard]] double balance() const { return energy.stored() + dissipated - driver_work; }
+};
+
+struct ContactEvent {
+  double t = 0;
+  int contact = 0;
+  bool closing = false;
+  double speed = 0;  ///< at which the gap closed [mm/s]
+};
+
+struct Motion {
+  bool completed = false;
+  std::string reason;  ///< where it is not completed: time and cause
+  std::vector<MotionFrame> frames;
+  std::vector<ContactEvent> events;
+  long steps = 0, evaluations = 0;  ///< of the integrator
+  /// Largest departure of the balance from its start, and the largest energy that was met [N mm].
+  double largest_imbalance = 0, energy_scale = 0;
+};
+
+/// From `start`, whose closed contacts must touch. Throws InputError for an inconsistent network, a
+/// body without mass, or a start that violates its constraints; what fails later is told in the
+/// result.
+[[nodiscard]] Motion integrate(const Network& network,
+                               NetworkState start,
+                               const IntegrationOptions& options);
+
+/// Puts a state onto its constraints, pose and twists. False where that does not settle.
+bool project(NetworkEquations& equations, NetworkState& state);
+
+}  // namespace condyle

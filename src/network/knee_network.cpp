@@ -1,0 +1,65 @@
+#include "network/knee_network.h"
+
+#include "equilibrium/contact_search.h"
+
+namespace condyle {
+namespace {
+
+void add_ligaments(const Model& model, Network& network) {
+  for (std::size_t i = 0; i < model.elements.size(); ++i) {
+    const LineElement& element = model.elements[i];
+    const std::string& name = model.element_names[i];
+    LineComponent line;
+    line.name = name;
+    line.from = add_port(network, name + ": fixed end", kGround, element.x_C);
+    line.to = add_port(network, name + ": moving end", 0, element.s_D);
+    line.law = element.law;
+    network.lines.push_back(line);
+  }
+}
+
+}  // namespace
+
+KneeNetwork make_knee_network(const Model& model, const std::optional<MassProperties>& mass) {
+  KneeNetwork knee;
+  Network& network = knee.network;
+  network.bodies = {{"moving bone", mass, mass ? mass->center : Eigen::Vector3d(0, 0, 0), false}};
+  add_ligaments(model, network);
+  for (std::size_t i = 0; i < model.loads.size(); ++i)
+    network.forces.push_back({model.load_names[i], 0, model.loads[i], {}});
+  for (std::size_t i = 0; i < model.pairs.size(); ++i) {
+    const ContactPair& pair = model.pairs[i];
+    if (pair.mode == ContactMode::kOpen) continue;
+    network.contacts.push_back(
+        {pair.name, 0, pair.on_B, pair.on_A, pair.mode == ContactMode::kAuto});
+    knee.places.push_back(static_cast<int>(i));
+  }
+  for (std::size_t i = 0; i < model.conditions.size(); ++i)
+    network.conditions.push_back({model.condition_names[i], 0, model.conditions[i], {}});
+  return knee;
+}
+
+NetworkState state_at_rest(const Model& model,
+                           const KneeNetwork& knee,
+                           const EquilibriumState& equilibrium) {
+  NetworkState state;
+  state.bodies = {{equilibrium.X, {0, 0, 0}, {0, 0, 0}}};
+  state.contacts.resize(knee.places.size());
+  for (std::size_t i = 0; i < knee.places.size(); ++i) {
+    ContactPlaces& places = state.contacts[i];
+    for (const ClosedContact& contact : equilibrium.contacts)
+      if (contact.pair == knee.places[i]) places = {contact.on_B, contact.on_A, true};
+    if (places.closed) continue;
+    const ContactPair& pair = model.pairs[knee.places[i]];
+    constexpr double kReach = 50;  // [mm]
+    std::vector<GapMinimum> minima;
+    ContactSearch(pair).find_nearest(equilibrium.X, kReach, minima);
+    if (!minima.empty())
+      places = {minima.front().on_B, minima.front().on_A, false};
+    else
+      places.on_ground = pair.on_B->seed(equilibrium.X.p);
+  }
+  return state;
+}
+
+}  // namespace condyle

@@ -1,0 +1,29 @@
+#pragma once
+
+/// The knee of the equilibrium solver as a network: the moving bone is a body whose ports are the
+/// insertions, contact points and load points, the femur is the ground. The one place of this room
+/// that knows the solver's model.
+
+#include "equilibrium/model.h"
+#include "equilibrium/newton.h"
+#include "network/network.h"
+
+namespace condyle {
+
+/// `mass` may be absent where only statics is asked. The reference port is the mass centre, or the
+/// origin O_A where there is no mass. Contacts that the model leaves out are left out; `places`
+/// says which of Model::pairs each contact of the network is.
+struct KneeNetwork {
+  Network network;
+  std::vector<int> places;
+};
+[[nodiscard]] KneeNetwork make_knee_network(const Model& model,
+                                            const std::optional<MassProperties>& mass);
+
+/// The state of rest at a pose of the solver: its closed contacts closed. Open ones start from the
+/// nearest places that the solver's search finds.
+[[nodiscard]] NetworkState state_at_rest(const Model& model,
+                                         const KneeNetwork& knee,
+                                         const EquilibriumState& equilibrium);
+
+}  // namespace condyle

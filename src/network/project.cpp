@@ -1,0 +1,49 @@
+#include <Eigen/Geometry>
+
+#include "math/rotation.h"
+#include "network/integrate.h"
+
+namespace condyle {
+namespace {
+
+void move(const Network& network, const Eigen::VectorXd& step, NetworkState& state) {
+  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+    const Vector6 d = step.segment<6>(static_cast<Eigen::Index>(6 * b));
+    RigidTransform& X = state.bodies[b].X;
+    const Eigen::Vector3d reference = X * network.bodies[b].reference + d.head<3>();
+    X.R = orthonormalized(exp_rotation(d.tail<3>()) * X.R);
+    X.p = reference - X.R * network.bodies[b].reference;
+  }
+}
+
+double largest_value(const NetworkEquations& equations) {
+  double largest = 0;
+  for (const ConstraintRow& row : equations.rows())
+    largest = std::max(largest, std::abs(row.value));
+  return largest;
+}
+
+}  // namespace
+
+bool project(NetworkEquations& equations, NetworkState& state) {
+  constexpr double kSettled = 1e-12;  // [mm], [rad]; a step from there is exact to round-off
+  constexpr int kMostSteps = 10;
+  double last = INFINITY;
+  for (int step = 0;; ++step) {
+    if (!equations.assemble(state)) return false;
+    const double value = largest_value(equations);
+    if (value <= kSettled || (value >= last && last < 1e-9)) break;
+    if (step == kMostSteps) return false;
+    last = value;
+    move(equations.network(), equations.position_correction(), state);
+  }
+  const Eigen::VectorXd change = equations.velocity_correction();
+  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+    const auto row = static_cast<Eigen::Index>(6 * b);
+    state.bodies[b].v += change.segment<3>(row);
+    state.bodies[b].omega += change.segment<3>(row + 3);
+  }
+  return change.allFinite();
+}
+
+}  // namespace condyle

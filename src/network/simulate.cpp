@@ -1,0 +1,236 @@
+#include "network/simulate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "elements/contact.h"
+#include "equilibrium/build_model.h"
+#include "equilibrium/equilibrium_solver.h"
+#include "input_error.h"
+#include "network/drive.h"
+#include "network/knee_network.h"
+
+namespace condyle {
+namespace {
+
+[[noreturn]] void fail(const Scene& scene, const std::string& message) {
+  throw InputError(scene.file.string() + ": [simulate]: " + message);
+}
+
+KinematicCondition flexion_condition(const Model& model, double value) {
+  KinematicCondition condition;
+  condition.kind = ConditionKind::kFlexion;
+  condition.frames = *model.joint;
+  condition.value = value;
+  return condition;
+}
+
+/// The model as it is held before the release: with its weight, the loads as they are at the start,
+/// and the flexion prescribed; returns which condition that is, or -1.
+int hold_for_start(const Scene& scene, const MassProperties& mass, Model& model) {
+  const SimulationDescription& simulation = *scene.simulation;
+  Load weight;
+  weight.vector = mass.mass * simulation.gravity;
+  weight.at = mass.center;
+  model.loads.push_back(weight);
+  model.load_names.emplace_back("weight");
+  for (std::size_t i = 0; i < scene.loads.size(); ++i)
+    model.loads[i].scale = load_scale_at(simulation.drives, static_cast<int>(i), 0);
+  if (!simulation.flexion) return -1;
+  for (std::size_t i = 0; i < model.conditions.size(); ++i)
+    if (model.conditions[i].kind == ConditionKind::kFlexion) return static_cast<int>(i);
+  model.conditions.push_back(flexion_condition(model, 0));
+  model.condition_names.emplace_back("flexion at the start");
+  return static_cast<int>(model.conditions.size()) - 1;
+}
+
+/// Equilibrium at the start: first where the scene's start pose is, then where it is wanted.
+EquilibriumState find_start(const Scene& scene, const MassProperties& mass, const Model& model) {
+  Model held = model;
+  const int flexion = hold_for_start(scene, mass, held);
+  if (flexion >= 0)
+    held.conditions[flexion].value = joint_coordinates(*model.joint, model.start).flexion;
+  EquilibriumSolver solver(std::move(held));
+  PoseResult pose = solver.solve();
+  if (flexion >= 0) {
+    solver.model().conditions[flexion].value = *scene.simulation->flexion;
+    pose = solver.solve();
+  }
+  if (!pose.converged())
+    fail(scene, "the knee has no position of equilibrium to start from: " +
+                    (pose.reason.empty() ? std::string(name(pose.status)) : pose.reason));
+  return solver.state();
+}
+
+/// What is released is left out; loads get their course in time, ligaments their viscosity.
+void complete(const Scene& scene, KneeNetwork& knee) {
+  const SimulationDescription& simulation = *scene.simulation;
+  Network& network = knee.network;
+  network.gravity = simulation.gravity;
+  std::vector<ConditionComponent> held;
+  for (const int i : simulation.hold) {
+    held.push_back(network.conditions[i]);
+    if (held.back().condition.kind == ConditionKind::kFlexion && simulation.flexion)
+      held.back().condition.value = *simulation.flexion;
+  }
+  network.conditions = std::move(held);
+  for (std::size_t i = 0; i < network.forces.size(); ++i)
+    network.forces[i].scale = [drives = simulation.drives, i](double t) {
+      return load_scale_at(drives, static_cast<int>(i), t);
+    };
+  for (LineComponent& line : network.lines) line.viscous_time = simulation.viscous_time;
+  for (const DamperDescription& damper : simulation.dampers) {
+    const bool first_fixed = damper.ends[0].body == scene.fixed_body();
+    LineComponent line;
+    line.name = damper.name;
+    line.from = add_port(network, damper.name + ": fixed end", kGround,
+                         damper.ends[first_fixed ? 0 : 1].at);
+    line.to =
+        add_port(network, damper.name + ": moving end", 0, damper.ends[first_fixed ? 1 : 0].at);
+    line.damping = damper.coefficient;
+    network.lines.push_back(line);
+  }
+}
+
+/// The motion of least energy that has the wanted flexion velocity and keeps the contacts.
+void set_velocity(const Scene& scene, const Model& model, Network network, NetworkState& state) {
+  const double velocity = scene.simulation->flexion_velocity;
+  if (velocity == 0) return;
+  network.conditions.push_back(
+      {"flexion velocity", 0, flexion_condition(model, *scene.simulation->flexion), {}});
+  NetworkEquations equations(network);
+  if (!equations.assemble(state)) fail(scene, "a contact has no place at the start");
+  Eigen::VectorXd after = Eigen::VectorXd::Zero(equations.jacobian().rows()), impulse;
+  after[after.size() - 1] = velocity;
+  const Eigen::VectorXd twist = equations.impact(after, impulse);
+  state.bodies[0].v = twist.head<3>();
+  state.bodies[0].omega = twist.tail<3>();
+}
+
+void describe_contact(const ContactPair& pair,
+                      const ContactPlaces& places,
+                      double force,
+                      const RigidTransform& X,
+                      ContactResult& result) {
+  const ContactLinearization at =
+      linearize_contact(*pair.on_B, places.on_ground, *pair.on_A, places.on_body, X);
+  ContactPointResult point;
+  point.force = force;
+  point.point_ground = at.B.c;
+  point.point_moving = at.A.c;
+  point.normal_ground = at.B.n;
+  point.gap = at.gap();
+  point.relative_curvature = at.relative_curvature;
+  point.edge_distance = edge_distance(pair, places.on_ground, places.on_body);
+  result.closed = places.closed;
+  result.force = force;
+  result.resultant_ground = at.B.c;
+  result.points = {point};
+}
+
+class FrameTeller {
+ public:
+  FrameTeller(const Scene& scene, const Model& model, const KneeNetwork& knee)
+      : scene_(scene), model_(model), knee_(knee) {}
+
+  PoseResult tell(const MotionFrame& frame) const {
+    PoseResult pose;
+    pose.value = frame.state.t;
+    pose.status = PoseStatus::kConverged;
+    pose.X_BA = frame.state.bodies[0].X;
+    if (model_.joint) pose.joint = joint_coordinates(*model_.joint, pose.X_BA);
+    add_contacts(frame, pose);
+    for (std::size_t i = 0; i < model_.elements.size(); ++i) {
+      const double length = frame.lines[i].length, slack = slack_length(model_.elements[i].law);
+      pose.ligaments.push_back({length, slack > 0 ? length / slack - 1 : 0, frame.lines[i].force});
+    }
+    for (std::size_t i = 0; i < model_.conditions.size(); ++i) {
+      const std::vector<int>& hold = scene_.simulation->hold;
+      const auto held = std::find(hold.begin(), hold.end(), static_cast<int>(i));
+      const double multiplier =
+          held == hold.end()
+              ? 0
+              : frame.condition_multiplier[static_cast<std::size_t>(held - hold.begin())];
+      pose.conditions.push_back({evaluate(model_.conditions[i], pose.X_BA).coordinate, multiplier});
+    }
+    return pose;
+  }
+
+ private:
+  void add_contacts(const MotionFrame& frame, PoseResult& pose) const {
+    pose.contacts.resize(model_.pairs.size());
+    for (std::size_t i = 0; i < knee_.places.size(); ++i) {
+      const int pair = knee_.places[i];
+      ContactResult& contact = pose.contacts[pair];
+      describe_contact(model_.pairs[pair], frame.state.contacts[i], frame.contact_force[i],
+                       pose.X_BA, contact);
+      if (contact.closed && contact.points[0].edge_distance < 0) {
+        pose.status = PoseStatus::kLeftPatch;
+        pose.reason = fmt::format("contact \"{}\" lies {:.2g} mm beyond the edge of its surface",
+                                  model_.pairs[pair].name, -contact.points[0].edge_distance);
+      }
+    }
+  }
+
+  const Scene& scene_;
+  const Model& model_;
+  const KneeNetwork& knee_;
+};
+
+void require_single_points(const Scene& scene, const Model& model, const EquilibriumState& start) {
+  std::vector<int> points(model.pairs.size());
+  for (const ClosedContact& contact : start.contacts) {
+    if (++points[contact.pair] > 1)
+      fail(scene,
+           fmt::format("contact \"{}\" touches in more than one point at the start, expected "
+                       "one: a motion follows one point of each contact",
+                       model.pairs[contact.pair].name));
+  }
+}
+
+}  // namespace
+
+MassProperties moving_mass(const Scene& scene) {
+  const BodyDescription& body = scene.bodies[scene.moving_body()];
+  const std::string what = fmt::format("{}: [[body]] \"{}\"", scene.file.string(), body.name);
+  if (body.mass) return {*body.mass, *body.center, *body.inertia};
+  if (!body.density)
+    throw InputError(what +
+                     ": has no mass, expected density, or mass, center and inertia, for "
+                     "simulate");
+  if (!body.mesh) throw InputError(what + ": density, expected a mesh beside it");
+  return mass_of_solid(load_body_mesh(body), *body.density, what);
+}
+
+Simulation simulate(const Scene& scene, const std::vector<FittedSurface>& surfaces) {
+  Simulation result;
+  result.mass = moving_mass(scene);
+  const Model model = build_model(scene, surfaces);
+  const EquilibriumState start = find_start(scene, result.mass, model);
+  require_single_points(scene, model, start);
+  KneeNetwork knee = make_knee_network(model, result.mass);
+  complete(scene, knee);
+  NetworkState state = state_at_rest(model, knee, start);
+  set_velocity(scene, model, knee.network, state);
+
+  const SimulationDescription& simulation = *scene.simulation;
+  IntegrationOptions options;
+  options.end = simulation.time;
+  options.interval = 1 / simulation.rate;
+  options.tolerance = simulation.tolerance;
+  options.restitution = simulation.restitution;
+  options.breaks = drive_breaks(simulation.drives);
+  const auto begin = std::chrono::steady_clock::now();
+  result.motion = integrate(knee.network, state, options);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.contact_of = knee.places;
+  const FrameTeller teller(scene, model, knee);
+  for (const MotionFrame& frame : result.motion.frames) result.poses.push_back(teller.tell(frame));
+  return result;
+}
+
+}  // namespace condyle

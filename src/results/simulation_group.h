@@ -1,0 +1,12 @@
+#pragma once
+
+/// What a result file holds of a motion beyond its poses: /simulate (docs/results.md).
+
+#include "network/simulate.h"
+#include "results/hdf5_file.h"
+
+namespace condyle {
+
+void write_simulation(const Hdf5Group& group, const Scene& scene, const Simulation& simulation);
+
+}  // namespace condyle

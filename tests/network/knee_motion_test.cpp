@@ -1,0 +1,129 @@
+/// A knee with mass: two contacts, eight ligaments.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "equilibrium/equilibrium_solver.h"
+#include "network/drive.h"
+#include "network/integrate.h"
+#include "network/knee_network.h"
+#include "support/quadric_knee.h"
+
+namespace condyle {
+namespace {
+
+/// Shank and foot, hanging along -z of the tibia.
+MassProperties leg() {
+  MassProperties mass;
+  mass.mass = 4e-3;
+  mass.center = {0, 0, -200};
+  mass.inertia = Eigen::Vector3d(100, 100, 8).asDiagonal();
+  return mass;
+}
+
+EquilibriumState equilibrium(double load_scale) {
+  Model model = test::quadric_knee();
+  model.loads[0].scale = load_scale;
+  EquilibriumSolver solver(model);
+  EXPECT_TRUE(solver.solve().converged());
+  return solver.state();
+}
+
+// Compressed by half as much again and let go, with viscous ligaments, it comes to rest where the
+// engine says it is in equilibrium.
+TEST(KneeMotion, ComesToRestAtTheEnginesPose) {
+  const Model model = test::quadric_knee();
+  KneeNetwork knee = make_knee_network(model, leg());
+  for (LineComponent& line : knee.network.lines) line.viscous_time = 0.05;
+  IntegrationOptions options;
+  options.end = 6;
+  options.interval = 0.1;
+  const Motion motion =
+      integrate(knee.network, state_at_rest(model, knee, equilibrium(1.5)), options);
+  ASSERT_TRUE(motion.completed) << motion.reason;
+  const RigidTransform& X = motion.frames.back().state.bodies[0].X;
+  const EquilibriumState rest = equilibrium(1);
+  EXPECT_GT((motion.frames.front().state.bodies[0].X.p - rest.X.p).norm(), 1e-3);
+  EXPECT_LT((X.p - rest.X.p).norm(), 1e-6);
+  EXPECT_LT((X.R - rest.X.R).norm(), 1e-6 / model.length);
+  EXPECT_LT(motion.largest_imbalance, 1e-6 * motion.energy_scale);
+}
+
+// Undamped and with the flexion free, the energy stays what it was.
+TEST(KneeMotion, KeepsItsEnergyWhileItSwings) {
+  const Model model = test::quadric_knee();
+  KneeNetwork knee = make_knee_network(model, leg());
+  knee.network.conditions.clear();
+  knee.network.gravity = {0, -9810, 0};
+  IntegrationOptions options;
+  options.end = 0.2;
+  options.interval = 0.01;
+  options.tolerance = 1e-11;
+  const Motion motion =
+      integrate(knee.network, state_at_rest(model, knee, equilibrium(1)), options);
+  ASSERT_TRUE(motion.completed) << motion.reason;
+  EXPECT_GT(motion.energy_scale, 100);
+  EXPECT_LT(motion.largest_imbalance, 1e-7 * motion.energy_scale);
+  NetworkEquations equations(knee.network);
+  for (const MotionFrame& frame : motion.frames) {
+    NetworkState state = frame.state;
+    ASSERT_TRUE(equations.assemble(state) && equations.solve());
+    EdgeVariables x, y;
+    equations.edge_variables(x, y);
+    const TellegenSum power = tellegen_sum(x, y);
+    double weights = 4e-3 * 9810 * state.bodies[0].v.norm();
+    EXPECT_LE(std::abs(power.sum), 1e-12 * (power.scale + weights)) << frame.state.t;
+  }
+}
+
+// A pulse of 3 ms in a second of rest is not stepped over: m v = F d.
+TEST(KneeMotion, AShortPulseIsSeen) {
+  Network network;
+  network.bodies = {{"leg", leg(), leg().center, false}};
+  Load push;
+  push.vector = {100, 0, 0};
+  push.at = leg().center;
+  DriveDescription pulse;
+  pulse.load = 0;
+  pulse.start = 0.5;
+  pulse.duration = 0.003;
+  const std::vector<DriveDescription> drives = {pulse};
+  network.forces = {{"push", 0, push, [&](double t) { return load_scale_at(drives, 0, t); }}};
+  NetworkState state;
+  state.bodies.resize(1);
+  IntegrationOptions options;
+  options.end = options.interval = 1;
+  options.breaks = drive_breaks(drives);
+  const Motion motion = integrate(network, state, options);
+  ASSERT_TRUE(motion.completed) << motion.reason;
+  const double v = 100 * 0.003 / 4e-3;
+  const BodyState& body = motion.frames.back().state.bodies[0];
+  EXPECT_NEAR(body.v.x(), v, 1e-6 * v);
+  EXPECT_NEAR(body.X.p.x(), v * (0.5 - 0.0015), 1e-6 * v);
+  EXPECT_NEAR(motion.frames.back().driver_work, 4e-3 * v * v / 2, 1e-5);
+}
+
+TEST(KneeMotion, DrivesHaveTheirCourse) {
+  DriveDescription sine;
+  sine.load = 1;
+  sine.shape = DriveDescription::Shape::kDecayingSine;
+  sine.start = 0.1;
+  sine.frequency = 5;
+  sine.decay = 3;
+  DriveDescription table;
+  table.load = 2;
+  table.shape = DriveDescription::Shape::kTable;
+  table.times = {0, 1, 3};
+  table.factors = {2, 4, 0};
+  const std::vector<DriveDescription> drives = {sine, table};
+  EXPECT_EQ(load_scale_at(drives, 0, 5), 1);  // has none
+  EXPECT_EQ(load_scale_at(drives, 1, 0.05), 0);
+  EXPECT_NEAR(load_scale_at(drives, 1, 0.15), std::exp(-0.15), 1e-14);
+  EXPECT_EQ(load_scale_at(drives, 2, -1), 2);
+  EXPECT_EQ(load_scale_at(drives, 2, 2), 2);
+  EXPECT_EQ(load_scale_at(drives, 2, 9), 0);
+}
+
+}  // namespace
+}  // namespace condyle

@@ -1,0 +1,99 @@
+#include "app/run_program.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "results/hdf5_file.h"
+#include "results/run_file.h"
+#include "scene/read_scene.h"
+
+namespace condyle::test {
+namespace {
+
+const std::string kMass =
+    "mass = 4\ncenter = [0, -100, 0]\n"
+    "inertia = [[20000, 0, 0], [0, 5000, 0], [0, 0, 20000]]\n";
+
+/// The ball on its plateau, the leg below it let go at 10 degrees.
+std::string released(const std::string& more = "") {
+  std::string text =
+      with(kSmallScene, "start.rotation = [0, 0, 0]\n", "start.rotation = [0, 0, 0]\n" + kMass);
+  text = text.substr(0, text.find("[sweep]"));
+  return text + "[simulate]\ntime = 0.1\nrate = 50\ngravity = [0, -9810, 0]\nflexion = 10\n" + more;
+}
+
+class SimulateCommand : public CommandLine {};
+
+TEST_F(SimulateCommand, FollowsAMotionAndWritesIt) {
+  write("swing.toml", released());
+  const Outcome outcome = run("simulate swing.toml -o swing.h5");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("Balance kept to"), std::string::npos) << outcome.out;
+  const Hdf5Reader reader(at("swing.h5"));
+  const Hdf5Group simulation = reader.root().open("simulate");
+  const std::vector<double> time = simulation.read("time", {6});
+  EXPECT_NEAR(time.back(), 0.1, 1e-12);
+  const std::vector<double> balance = simulation.open("energy").read("balance", {6});
+  for (const double b : balance) EXPECT_NEAR(b, balance.front(), 1e-7);
+  const condyle::Run run_file = read_run(at("swing.h5"));  // what render and plot read
+  ASSERT_EQ(run_file.sweep.poses.size(), 6U);
+  EXPECT_NEAR(run_file.sweep.poses.front().joint.flexion, 10 * M_PI / 180, 1e-9);
+  EXPECT_NEAR(run_file.sweep.poses.back().value, 0.1, 1e-12);
+}
+
+/// A scene of the project, from 20 degrees; returns its angles of flexion.
+std::vector<double> flexions_of(const std::filesystem::path& file) {
+  std::vector<double> flexions;
+  for (const PoseResult& pose : read_run(file).sweep.poses)
+    flexions.push_back(pose.joint.flexion * 180 / M_PI);
+  return flexions;
+}
+
+// Hanging at 55 degrees and let go at 20, the shank swings to about 90 less what it loses, in a
+// second and a bit; the compression along it brings the middle down a few degrees.
+TEST_F(SimulateCommand, ThePhantomsShankSwings) {
+  const Outcome outcome =
+      run("simulate '" CONDYLE_SOURCE_DIR "/data/phantom/pendulum.toml' -o swing.h5");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::vector<double> flexions = flexions_of(at("swing.h5"));
+  ASSERT_EQ(flexions.size(), 201U);
+  EXPECT_NEAR(flexions.front(), 20, 1e-6);
+  EXPECT_NEAR(*std::max_element(flexions.begin(), flexions.end()), 82, 8);
+  const auto back = std::min_element(flexions.begin() + 60, flexions.begin() + 160);
+  EXPECT_NEAR(*back, 22, 3);
+  EXPECT_NEAR(static_cast<double>(back - flexions.begin()) / 100, 1.2, 0.1);
+}
+
+TEST_F(SimulateCommand, ABlowOpensAndClosesTheCompartments) {
+  const Outcome outcome =
+      run("simulate '" CONDYLE_SOURCE_DIR "/data/phantom/blow.toml' -o blow.h5");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Hdf5Reader reader(at("blow.h5"));
+  const Hdf5Group simulation = reader.root().open("simulate");
+  const std::size_t n = simulation.open("events").read("closing").values.size();
+  EXPECT_GE(n, 2U);
+  EXPECT_GT(flexions_of(at("blow.h5")).back(), 30);
+  const std::vector<double> work = simulation.open("energy").read("driver_work").values;
+  EXPECT_GT(work.back(), 0.5);  // [J]
+}
+
+TEST_F(SimulateCommand, BadInputIsNamed) {
+  write("swing.toml", with(released(), kMass, ""));
+  expect_bad_input(run("simulate swing.toml -o swing.h5"),
+                   "swing.toml: [[body]] \"tibia\": has no mass, expected density, or mass, center "
+                   "and inertia, for simulate");
+  write("swing.toml", with(released(), "time = 0.1", "time = -1"));
+  const Outcome negative = run("simulate swing.toml -o swing.h5");
+  EXPECT_EQ(negative.code, 1);
+  EXPECT_NE(negative.err.find("time = -1"), std::string::npos) << negative.err;
+  write("swing.toml",
+        released("drive = [{ load = \"nobody\", shape = \"pulse\", duration = 1 }]\n"));
+  const Outcome drive = run("simulate swing.toml -o swing.h5");
+  EXPECT_EQ(drive.code, 1);
+  EXPECT_NE(drive.err.find("nobody"), std::string::npos) << drive.err;
+  const Outcome none = run("simulate knee.toml -o swing.h5");
+  expect_bad_input(none, "knee.toml: [simulate] is missing, expected time, rate and gravity");
+}
+
+}  // namespace
+}  // namespace condyle::test

@@ -1,0 +1,92 @@
+/// With the inertia left out, the network is the engine.
+
+#include <gtest/gtest.h>
+
+#include "equilibrium/equilibrium_solver.h"
+#include "math/rotation.h"
+#include "network/knee_network.h"
+#include "network/network_equations.h"
+#include "support/quadric_knee.h"
+#include "support/random.h"
+
+namespace condyle {
+namespace {
+
+/// w - Jᵀ μ of the network about O_A, the contact forces and multipliers being the engine's.
+Vector6 network_balance(const Model& model, const EquilibriumState& state) {
+  const KneeNetwork knee = make_knee_network(model, {});
+  NetworkEquations equations(knee.network);
+  NetworkState at = state_at_rest(model, knee, state);
+  EXPECT_TRUE(equations.assemble(at));
+  Eigen::VectorXd mu(static_cast<Eigen::Index>(equations.rows().size()));
+  for (std::size_t k = 0; k < equations.rows().size(); ++k) {
+    const ConstraintRow& row = equations.rows()[k];
+    double& value = mu[static_cast<Eigen::Index>(k)];
+    if (row.condition >= 0) value = state.sigma[row.condition];
+    for (const ClosedContact& contact : state.contacts)
+      if (row.contact >= 0 && knee.places[row.contact] == contact.pair) value = -contact.p;
+  }
+  return equations.wrenches() - equations.jacobian().transpose() * mu;
+}
+
+/// Two contacts of eight ligaments at random poses near extension, forces and multipliers random.
+TEST(Statics, NetworkWithoutInertiaHasTheEnginesResidual) {
+  test::Random random(31);
+  const Model model = test::quadric_knee();
+  EquilibriumSolver solver(model);
+  ASSERT_TRUE(solver.solve().converged());
+  const EquilibriumState rest = solver.state();
+  ASSERT_EQ(rest.contacts.size(), 2U);
+  for (int trial = 0; trial < 20; ++trial) {
+    EquilibriumState state = rest;
+    state.X.R = exp_rotation(random.vector(0.1)) * state.X.R;
+    state.X.p += random.vector(2);
+    for (ClosedContact& contact : state.contacts) contact.p = random.between(0, 400);
+    state.sigma[0] = random.between(-2e4, 2e4);
+    // Both look at the contact points of this pose.
+    const KneeNetwork knee = make_knee_network(model, {});
+    const NetworkEquations equations(knee.network);
+    NetworkState at = state_at_rest(model, knee, state);
+    ASSERT_TRUE(equations.settle_contacts(at));
+    for (std::size_t i = 0; i < 2; ++i)
+      for (ClosedContact& contact : state.contacts)
+        if (contact.pair == knee.places[i]) {
+          contact.on_B = at.contacts[i].on_ground;
+          contact.on_A = at.contacts[i].on_body;
+        }
+    NewtonSystem system(model);
+    ASSERT_TRUE(system.assemble(state));
+    const Vector6 balance = network_balance(model, state);
+    const double scale = system.force_scale(), L = model.length;
+    EXPECT_LT((balance.head<3>() - system.wrench().f).norm(), 1e-12 * scale);
+    EXPECT_LT((balance.tail<3>() - system.wrench().m).norm(), 1e-12 * scale * L);
+    EXPECT_GT(system.out_of_balance(), 1);
+  }
+}
+
+// At the engine's pose both vanish.
+TEST(Statics, TheEnginesPoseIsAPositionOfRestOfTheNetwork) {
+  const Model model = test::quadric_knee();
+  EquilibriumSolver solver(model);
+  const PoseResult pose = solver.solve();
+  ASSERT_TRUE(pose.converged());
+  const Vector6 balance = network_balance(model, solver.state());
+  EXPECT_LT(balance.head<3>().norm(), 1e-9);
+  EXPECT_LT(balance.tail<3>().norm(), 1e-9 * model.length);
+
+  // With mass, and no gravity, it has no acceleration and the multipliers are the engine's.
+  MassProperties mass;
+  mass.mass = 4e-3;
+  mass.center = {0, 0, -180};
+  mass.inertia = Eigen::Vector3d(50, 50, 8).asDiagonal();
+  const KneeNetwork knee = make_knee_network(model, mass);
+  NetworkEquations equations(knee.network);
+  NetworkState state = state_at_rest(model, knee, solver.state());
+  ASSERT_TRUE(equations.assemble(state) && equations.solve());
+  EXPECT_LT(equations.accelerations().norm(), 1e-5);  // 1e-9 N on 4e-6 N s²/mm
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(equations.contact_force(i), pose.contacts[knee.places[i]].force, 1e-8);
+}
+
+}  // namespace
+}  // namespace condyle
