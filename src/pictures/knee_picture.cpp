@@ -147,7 +147,8 @@ std::vector<Item> KneePictures::State::items(View view, const PoseResult& pose) 
     items.push_back(shape.item);
     items.back().X_PM = X_P[static_cast<std::size_t>(shape.body)];
   }
-  for (const int mesh : {path, reference_path, ligaments}) items.push_back({mesh, {}, Layer::kSolid, 0.12, true});
+  for (const int mesh : {path, reference_path, ligaments})
+    items.push_back({mesh, {}, Layer::kSolid, 0.12, true});
   for (const int mesh : {contacts, arrows}) items.push_back({mesh, {}, Layer::kMark, 0.12, true});
   return items;
 }

@@ -37,7 +37,7 @@ struct Run {
   std::vector<BodyMesh> bodies;
   std::optional<Comparison> comparison = {};  ///< of `condyle compare`
   std::optional<LaxityResult> laxity = {};    ///< of `condyle laxity`
-  std::vector<std::string> start = {};  ///< of a fit: what start_warnings found
+  std::vector<std::string> start = {};        ///< of a fit: what start_warnings found
   std::optional<Simulation> simulation = {};  ///< of `condyle simulate`; written, not read back
 };
 

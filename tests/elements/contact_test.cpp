@@ -88,7 +88,8 @@ TEST(Contact, StaysFiniteWhereTheCurvatureVanishes) {
   const auto ball = make_sphere({0, 0, 0}, 20, true);
   const ContactLinearization conforming =
       linearize_contact(*socket, {0, 0, -20}, *ball, {0, 0, -20}, RigidTransform());
-  EXPECT_TRUE(conforming.D1().allFinite() && conforming.D2().allFinite() && conforming.D0().allFinite());
+  EXPECT_TRUE(conforming.D1().allFinite() && conforming.D2().allFinite() &&
+              conforming.D0().allFinite());
   EXPECT_NEAR(conforming.relative_curvature[0], 0, 1e-15);
   const auto plane = make_plane({0, 0, 0}, {0, 0, 1});
   const auto roll = make_cylinder({0, 0, 0}, {1, 0, 0}, 10, true);

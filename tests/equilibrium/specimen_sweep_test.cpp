@@ -126,9 +126,9 @@ INSTANTIATE_TEST_SUITE_P(Knees,
                                          Knee{"oai_pymskt", ""}));
 
 // Closed slabs with the staircase of voxels: all 75 poses are wanted, with smoothing = "auto" 20,
-// 23 and 21 of 25 were met under 50, 100 and 300 N. In early flexion a contact slides over the steps to
-// the rim of the medial plateau; the scene's own 3 mm on the plateaus keep all 75 (SpecimenFits
-// above).
+// 23 and 21 of 25 were met under 50, 100 and 300 N. In early flexion a contact slides over the
+// steps to the rim of the medial plateau; the scene's own 3 mm on the plateaus keep all 75
+// (SpecimenFits above).
 TEST(SpecimenSweeps, OfAStaircaseOfVoxelsConvergeBeyondEarlyFlexionWithoutBeingToldTheSmoothing) {
   if (!fs::exists(kSpecimens / "oai_pymskt")) GTEST_SKIP() << "no specimens here";
   Scene scene = specimen("oai_pymskt", 100);
