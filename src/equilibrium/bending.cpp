@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "surface/point_tree.h"
 
@@ -47,10 +48,10 @@ std::vector<std::array<int, 8>> nearest_neighbours(const std::vector<Eigen::Vect
   return neighbours;
 }
 
-/// Its own points, so that it stays where a search moves.
+/// With its points, so that it stays where a search moves.
 struct Bending::Tree {
-  explicit Tree(const std::vector<Eigen::Vector3d>& of)
-      : points(of), cloud{points}, search(3, cloud) {}
+  explicit Tree(std::vector<Eigen::Vector3d> of)
+      : points(std::move(of)), cloud{points}, search(3, cloud) {}
   std::vector<Eigen::Vector3d> points;
   PointCloud cloud;
   PointTree search;
@@ -77,16 +78,19 @@ Bending::Radii Bending::shells(double spacing, double greatest) {
 
 Bending::Bending(const Surface& surface, double spacing, const Radii& radii)
     : radii_(radii), even_(surface.bends_evenly()) {
+  std::vector<Eigen::Vector3d> points;
   for (const Place& place : surface.samples(spacing)) {
     samples_.push_back(surface.evaluate(place));
-    points_.push_back(samples_.back().c);
+    points.push_back(samples_.back().c);
     normals_.push_back(samples_.back().n);
   }
-  if (!points_.empty()) tree_ = std::make_shared<const Tree>(points_);
-  neighbours_ = nearest_neighbours(points_, 3 * spacing);
+  neighbours_ = nearest_neighbours(points, 3 * spacing);
+  if (!points.empty()) tree_ = std::make_shared<const Tree>(std::move(points));
   shells_.resize(samples_.size());
   for (Shells& shells : shells_) shells.within[0] = -1;
 }
+
+const std::vector<Eigen::Vector3d>& Bending::points() const { return tree_->points; }
 
 void Bending::measure(std::size_t sample) {
   const SurfacePoint& at = samples_[sample];
@@ -94,12 +98,13 @@ void Bending::measure(std::size_t sample) {
   const BendingMeter meter(at.c, at.n, at.K);
   Shells& shells = shells_[sample];
   shells.of.fill({-kInfinity, -kInfinity});
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const double square = (points_[i] - at.c).squaredNorm();
+  const std::vector<Eigen::Vector3d>& points = this->points();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double square = (points[i] - at.c).squaredNorm();
     int level = 0;
     while (level < kLevels && square > radii_[level] * radii_[level]) ++level;
     if (level == kLevels || i == sample) continue;
-    const Rise rise = meter.at(points_[i], normals_[i], least);
+    const Rise rise = meter.at(points[i], normals_[i], least);
     Rise& greatest = shells.of[level];
     greatest.over_quadric = std::max(greatest.over_quadric, rise.over_quadric);
     greatest.over_plane = std::max(greatest.over_plane, rise.over_plane);
@@ -115,13 +120,14 @@ void Bending::measure(std::size_t sample) {
 
 int Bending::nearest(const Eigen::Vector3d& point, int start) const {
   if (samples_.empty()) return -1;
+  const std::vector<Eigen::Vector3d>& points = this->points();
   int best = std::max(start, 0);
-  double square = (points_[best] - point).squaredNorm();
+  double square = (points[best] - point).squaredNorm();
   for (bool moved = true; moved;) {
     moved = false;
     for (const int other : neighbours_[best]) {
       if (other < 0) break;
-      const double d = (points_[other] - point).squaredNorm();
+      const double d = (points[other] - point).squaredNorm();
       if (d >= square) continue;
       best = other;
       square = d;

@@ -54,13 +54,14 @@ class Bending {
     std::array<double, kLevels> within;  ///< up to and with each shell; the first < 0: not measured
   };
   struct Tree;
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& points() const;
   void measure(std::size_t sample);
 
   Radii radii_;
   bool even_;
   std::vector<SurfacePoint> samples_;
   std::shared_ptr<const Tree> tree_;
-  std::vector<Eigen::Vector3d> points_, normals_;
+  std::vector<Eigen::Vector3d> normals_;
   std::vector<std::array<int, 8>> neighbours_;
   std::vector<Shells> shells_;
 };

@@ -48,40 +48,45 @@ double affordable_spacing(const Surface& surface, double wanted) {
   return wanted;
 }
 
-/// Is A the surface to be sampled? A surface without bounds has no samples.
-bool is_cheaper_to_cover(const Surface& on_A, const Surface& on_B, double spacing) {
-  const std::size_t n_A = on_A.samples(spacing).size(), n_B = on_B.samples(spacing).size();
-  return n_A > 0 && (n_B == 0 || n_A <= n_B);
-}
-
 /// Behind a surface that ends somewhere is not yet inside.
 bool has_edge(const Surface& surface) {
   const Place somewhere = surface.seed(Eigen::Vector3d::Zero());
   return std::isfinite(surface.edge_distance(somewhere));
 }
 
-/// No two of the places are farther apart [mm].
-double extent(const Surface& surface, const std::vector<Place>& places) {
-  Eigen::AlignedBox3d box;
-  for (const Place& place : places) box.extend(surface.evaluate(place).c);
-  return places.empty() ? 0 : box.diagonal().norm();
-}
-
 }  // namespace
 
+/// Covers the surface that takes fewer samples; one without bounds has none.
+ContactSearch::Cover ContactSearch::cover(const Surface& on_B, const Surface& on_A, double wanted) {
+  Cover cover;
+  cover.spacing = std::max(affordable_spacing(on_B, wanted), affordable_spacing(on_A, wanted));
+  std::vector<Place> places_A = on_A.samples(cover.spacing), places_B = on_B.samples(cover.spacing);
+  cover.on_A = !places_A.empty() && (places_B.empty() || places_A.size() <= places_B.size());
+  cover.places = std::move(cover.on_A ? places_A : places_B);
+  Eigen::AlignedBox3d box;
+  for (const Place& place : cover.places) {
+    cover.points.push_back((cover.on_A ? on_A : on_B).evaluate(place));
+    box.extend(cover.points.back().c);
+  }
+  if (!cover.places.empty()) cover.extent = box.diagonal().norm();
+  return cover;
+}
+
 ContactSearch::ContactSearch(const ContactPair& pair, double spacing)
+    : ContactSearch(pair, cover(*pair.on_B, *pair.on_A, spacing)) {}
+
+ContactSearch::ContactSearch(const ContactPair& pair, Cover cover)
     : on_B_(pair.on_B.get()),
       on_A_(pair.on_A.get()),
-      spacing_(std::max(affordable_spacing(*on_B_, spacing), affordable_spacing(*on_A_, spacing))),
+      spacing_(cover.spacing),
       lines_(have_straight_lines(*on_B_, *on_A_, spacing_)),
-      sampled_on_A_(is_cheaper_to_cover(*on_A_, *on_B_, spacing_)),
-      places_((sampled_on_A_ ? *on_A_ : *on_B_).samples(spacing_)),
-      shells_(Bending::shells(kBendingSpacing * spacing_, extent(sampled(), places_))),
+      sampled_on_A_(cover.on_A),
+      places_(std::move(cover.places)),
+      deepest_(has_edge(other()) ? kDeepest * spacing_ : kInfinity),
+      shells_(Bending::shells(kBendingSpacing * spacing_, cover.extent)),
       bending_B_(*on_B_, kBendingSpacing * spacing_, shells_),
       bending_A_(*on_A_, kBendingSpacing * spacing_, shells_) {
-  deepest_ = has_edge(other()) ? kDeepest * spacing_ : kInfinity;
-  for (const Place& place : places_) {
-    const SurfacePoint point = sampled().evaluate(place);
+  for (const SurfacePoint& point : cover.points) {
     points_.push_back(point.c);
     normals_.push_back(point.n);
     curvatures_.push_back(point.K);

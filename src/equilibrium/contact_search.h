@@ -85,6 +85,17 @@ class ContactSearch {
     Eigen::Vector3d center;  ///< on the sampled surface, in its body's frame
     double radius;           ///< [mm]
   };
+  /// The samples of a pair, and what follows from them.
+  struct Cover {
+    double spacing = 0;  ///< that can be afforded [mm]
+    bool on_A = false;
+    std::vector<Place> places;
+    std::vector<SurfacePoint> points;
+    double extent = 0;  ///< no two are farther apart [mm]
+  };
+  [[nodiscard]] static Cover cover(const Surface& on_B, const Surface& on_A, double wanted);
+  ContactSearch(const ContactPair& pair, Cover cover);
+
   void find_within(const RigidTransform& X_BA,
                    double reach,
                    std::vector<GapMinimum>& minima,
@@ -112,7 +123,7 @@ class ContactSearch {
   bool lines_;  ///< the surfaces may touch along a line (line_contact.h)
   bool sampled_on_A_;
   std::vector<Place> places_;  ///< samples on the sampled surface
-  double deepest_ = 0;         ///< overlap that is still taken for one [mm]
+  double deepest_;             ///< overlap that is still taken for one [mm]
   Bending::Radii shells_;
   Bending bending_B_, bending_A_;
   std::vector<Eigen::Vector3d> points_;      ///< their points, in the frame of their body

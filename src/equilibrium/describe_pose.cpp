@@ -24,22 +24,6 @@ void describe_elements(const Model& model,
     result.conditions.push_back({system.conditions()[i].coordinate, state.sigma[i]});
 }
 
-ContactPointResult describe_point(const ContactLinearization& at,
-                                  double force,
-                                  double edge,
-                                  double edge_margin) {
-  ContactPointResult point;
-  point.force = force;
-  point.point_ground = at.B.c;
-  point.point_moving = at.A.c;
-  point.normal_ground = at.B.n;
-  point.gap = at.gap();
-  point.relative_curvature = at.relative_curvature;
-  point.edge_distance = edge;
-  point.on_edge = edge < edge_margin;
-  return point;
-}
-
 std::optional<HertzEstimate> estimate_pressure(const ContactPair& pair,
                                                const ContactLinearization& at,
                                                double force,
@@ -87,7 +71,8 @@ void carry_by_ends(const ContactPair& pair,
     const ContactLinearization at =
         linearize_contact(*pair.on_B, ends[k].on_B, *pair.on_A, ends[k].on_A, X_BA);
     contact.points.push_back(
-        describe_point(at, force * (k == 0 ? 1 - share : share), ends[k].edge, 0));
+        describe_point(at, force * (k == 0 ? 1 - share : share), ends[k].edge));
+    contact.points.back().on_edge = ends[k].edge < 0;
   }
   if (pair.mode == ContactMode::kAuto && std::min(share, 1 - share) < kPull)
     set_status(result, tips_over(pair.name));
@@ -116,8 +101,8 @@ void describe_closed_point(const Model& model,
   ContactResult& contact = result.contacts[static_cast<std::size_t>(closed.pair)];
   contact.closed = true;
   // A line lies at edges by its nature.
-  contact.points.push_back(
-      describe_point(at, closed.p, edge, touch == Touch::kLine ? 0 : edge_margin));
+  contact.points.push_back(describe_point(at, closed.p, edge));
+  contact.points.back().on_edge = edge < (touch == Touch::kLine ? 0 : edge_margin);
   contact.points.back().hertz = estimate_pressure(pair, at, closed.p, state.X.R);
   if (touch == Touch::kLine) contact.shape = ContactShape::kLine;
   if (touch == Touch::kConforming) contact.shape = ContactShape::kConforming;
@@ -171,7 +156,8 @@ void describe_open(const ContactPair& pair,
   }
   const ContactLinearization at =
       linearize_contact(*pair.on_B, lowest.on_B, *pair.on_A, lowest.on_A, state.X);
-  contact.points.push_back(describe_point(at, 0, lowest.edge, options.edge_margin));
+  contact.points.push_back(describe_point(at, 0, lowest.edge));
+  contact.points.back().on_edge = lowest.edge < options.edge_margin;
   contact.resultant_ground = at.B.c;
 }
 
@@ -195,6 +181,18 @@ void clear(PoseResult& result) {
   result.lowest_stiffness = PoseResult().lowest_stiffness;
   result.softest_motion.setZero();
   result.joint_stiffness.reset();
+}
+
+ContactPointResult describe_point(const ContactLinearization& at, double force, double edge) {
+  ContactPointResult point;
+  point.force = force;
+  point.point_ground = at.B.c;
+  point.point_moving = at.A.c;
+  point.normal_ground = at.B.n;
+  point.gap = at.gap();
+  point.relative_curvature = at.relative_curvature;
+  point.edge_distance = edge;
+  return point;
 }
 
 void describe_pose(const Model& model,

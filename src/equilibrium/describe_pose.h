@@ -20,6 +20,12 @@ struct PoseDescriptionOptions {
 /// An empty result that keeps the memory of the one before.
 void clear(PoseResult& result);
 
+/// A point of contact with its force [N] and its distance from the nearest edge [mm]; whether that
+/// counts as on the edge is left to the caller.
+[[nodiscard]] ContactPointResult describe_point(const ContactLinearization& at,
+                                                double force,
+                                                double edge);
+
 /// Fills a cleared result whose status says converged from the state at which `system` was
 /// assembled. Lowers the status where a contact lies beyond its patch or a body is buried in the
 /// other. `minima` is room for the search.

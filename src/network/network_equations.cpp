@@ -10,12 +10,10 @@
 
 #include "elements/line_element.h"
 #include "input_error.h"
-#include "math/rotation.h"
+#include "network/settle_contacts.h"
 
 namespace condyle {
 namespace {
-
-constexpr double kFar = 1;  // gap [mm] beyond which an open contact is only followed
 
 Vector6 force_only(const Eigen::Vector3d& f) {
   Vector6 y = Vector6::Zero();
@@ -65,52 +63,6 @@ void NetworkEquations::require_mass() const {
       throw InputError("network: body \"" + body.name +
                        "\" has no mass, expected density, or mass, center and inertia");
   }
-}
-
-/// Newton on opposite normals and no tangential distance; it takes the surfaces to be near.
-bool NetworkEquations::settle_near(const ContactComponent& contact,
-                                   const RigidTransform& X,
-                                   ContactPlaces& places) const {
-  constexpr int kMostSteps = 20;
-  for (int step = 0;; ++step) {
-    ContactLinearization at = linearize_contact(*contact.on_ground, places.on_ground,
-                                                *contact.on_body, places.on_body, X);
-    const double gap = at.gap();
-    if (!places.closed && gap > kFar) return settle_far(contact, X, places);
-    at.g -= gap * at.B.n;  // only what lies in the tangent plane is slid
-    const double off = std::max({at.g.norm(), at.h.norm(), at.S0.norm()});
-    if (!std::isfinite(off) || step == kMostSteps) return false;
-    if (off < 1e-12) return true;
-    slide_contact(*contact.on_ground, places.on_ground, *contact.on_body, places.on_body, at, X,
-                  Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 10);
-    if (off < 1e-9) return true;  // the step just taken leaves the square of that
-  }
-}
-
-/// Closest points in turn: sure, and quick where the gap is wide. From moment to moment it gains.
-bool NetworkEquations::settle_far(const ContactComponent& contact,
-                                  const RigidTransform& X,
-                                  ContactPlaces& places) const {
-  for (int turn = 0; turn < 3; ++turn) {
-    const Eigen::Vector3d on_body = X * contact.on_body->evaluate_frame(places.on_body).c;
-    places.on_ground = contact.on_ground->closest(on_body, places.on_ground);
-    const Eigen::Vector3d on_ground = contact.on_ground->evaluate_frame(places.on_ground).c;
-    places.on_body = contact.on_body->closest(X.inverse() * on_ground, places.on_body);
-  }
-  return places.on_ground.allFinite() && places.on_body.allFinite();
-}
-
-bool NetworkEquations::settle_contacts(NetworkState& state) const {
-  for (std::size_t i = 0; i < network_.contacts.size(); ++i) {
-    const ContactComponent& contact = network_.contacts[i];
-    const RigidTransform& X = state.bodies[contact.body].X;
-    ContactPlaces places = state.contacts[i];
-    if (settle_near(contact, X, places))
-      state.contacts[i] = places;
-    else if (state.contacts[i].closed || !settle_far(contact, X, state.contacts[i]))
-      return false;
-  }
-  return true;
 }
 
 void NetworkEquations::place_vertices(const NetworkState& state) {
@@ -297,7 +249,7 @@ void NetworkEquations::fill_jacobian() {
 }
 
 bool NetworkEquations::assemble(NetworkState& state) {
-  if (!settle_contacts(state)) return false;
+  if (!settle_contacts(network_, state)) return false;
   poses_.clear();
   for (const BodyState& body : state.bodies) poses_.push_back(body.X);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {

@@ -57,10 +57,6 @@ class NetworkEquations {
   /// Throws InputError for a body without mass, which has a place in statics but not in dynamics.
   void require_mass() const;
 
-  /// Brings the places of all contacts to where the gap is smallest near them. False where that
-  /// does not settle.
-  bool settle_contacts(NetworkState& state) const;
-
   /// Kinematics, wrenches and constraint rows; settles the contacts. False where a contact is lost
   /// or a line has no length.
   bool assemble(NetworkState& state);
@@ -105,12 +101,6 @@ class NetworkEquations {
   void edge_variables(EdgeVariables& across, EdgeVariables& through) const;
 
  private:
-  bool settle_near(const ContactComponent& contact,
-                   const RigidTransform& X,
-                   ContactPlaces& places) const;
-  bool settle_far(const ContactComponent& contact,
-                  const RigidTransform& X,
-                  ContactPlaces& places) const;
   void place_vertices(const NetworkState& state);
   bool add_lines();
   void add_forces(const NetworkState& state);

@@ -9,6 +9,7 @@
 
 #include "elements/contact.h"
 #include "equilibrium/build_model.h"
+#include "equilibrium/describe_pose.h"
 #include "equilibrium/equilibrium_solver.h"
 #include "input_error.h"
 #include "network/drive.h"
@@ -118,18 +119,11 @@ void describe_contact(const ContactPair& pair,
                       ContactResult& result) {
   const ContactLinearization at =
       linearize_contact(*pair.on_B, places.on_ground, *pair.on_A, places.on_body, X);
-  ContactPointResult point;
-  point.force = force;
-  point.point_ground = at.B.c;
-  point.point_moving = at.A.c;
-  point.normal_ground = at.B.n;
-  point.gap = at.gap();
-  point.relative_curvature = at.relative_curvature;
-  point.edge_distance = edge_distance(pair, places.on_ground, places.on_body);
+  const double edge = edge_distance(pair, places.on_ground, places.on_body);
   result.closed = places.closed;
   result.force = force;
   result.resultant_ground = at.B.c;
-  result.points = {point};
+  result.points = {describe_point(at, force, edge)};
 }
 
 class FrameTeller {

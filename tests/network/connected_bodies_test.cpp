@@ -9,6 +9,7 @@
 #include "input_error.h"
 #include "math/rotation.h"
 #include "network/integrate.h"
+#include "network/integration_options.h"
 #include "support/random.h"
 
 namespace condyle {
@@ -22,14 +23,6 @@ MassProperties rod() {
   mass.center = {0, -180, 0};
   mass.inertia = Eigen::Vector3d(50, 8, 55).asDiagonal();
   return mass;
-}
-
-IntegrationOptions options(double end, double interval, double tolerance) {
-  IntegrationOptions o;
-  o.end = end;
-  o.interval = interval;
-  o.tolerance = tolerance;
-  return o;
 }
 
 ForceLaw spring(double stiffness, double slack) {

@@ -8,6 +8,7 @@
 
 #include "math/rotation.h"
 #include "network/integrate.h"
+#include "network/integration_options.h"
 #include "surface/exact_surfaces.h"
 
 namespace condyle {
@@ -37,14 +38,6 @@ struct Ball {
         network.contacts[0].on_body->seed(state.bodies[0].X.inverse() * point);
   }
 };
-
-IntegrationOptions options(double end, double interval, double tolerance) {
-  IntegrationOptions o;
-  o.end = end;
-  o.interval = interval;
-  o.tolerance = tolerance;
-  return o;
-}
 
 // From rest at θ0 a bead leaves the sphere where cos θ = 2/3 cos θ0, whatever the radii.
 TEST(ContactMotion, BeadLeavesTheSphereAtTwoThirds) {

@@ -7,6 +7,7 @@
 #include "input_error.h"
 #include "math/rotation.h"
 #include "network/integrate.h"
+#include "network/integration_options.h"
 #include "support/jacobi.h"
 #include "support/random.h"
 
@@ -31,14 +32,6 @@ NetworkState spinning(const Eigen::Vector3d& omega) {
   NetworkState state;
   state.bodies = {{{}, {0, 0, 0}, omega}};
   return state;
-}
-
-IntegrationOptions options(double end, double interval, double tolerance) {
-  IntegrationOptions o;
-  o.end = end;
-  o.interval = interval;
-  o.tolerance = tolerance;
-  return o;
 }
 
 /// Body-frame angular velocity for M² > 2 E I2 and ω2 = 0 at the start [Landau and Lifshitz 1976,

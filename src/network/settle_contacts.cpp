@@ -1,0 +1,57 @@
+#include "network/settle_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "elements/contact.h"
+
+namespace condyle {
+namespace {
+
+constexpr double kFar = 1;  // gap [mm] beyond which an open contact is only followed
+
+/// Closest points in turn: sure, and quick where the gap is wide. From moment to moment it gains.
+bool settle_far(const ContactComponent& contact, const RigidTransform& X, ContactPlaces& places) {
+  for (int turn = 0; turn < 3; ++turn) {
+    const Eigen::Vector3d on_body = X * contact.on_body->evaluate_frame(places.on_body).c;
+    places.on_ground = contact.on_ground->closest(on_body, places.on_ground);
+    const Eigen::Vector3d on_ground = contact.on_ground->evaluate_frame(places.on_ground).c;
+    places.on_body = contact.on_body->closest(X.inverse() * on_ground, places.on_body);
+  }
+  return places.on_ground.allFinite() && places.on_body.allFinite();
+}
+
+/// Newton on opposite normals and no tangential distance; it takes the surfaces to be near.
+bool settle_near(const ContactComponent& contact, const RigidTransform& X, ContactPlaces& places) {
+  constexpr int kMostSteps = 20;
+  for (int step = 0;; ++step) {
+    ContactLinearization at = linearize_contact(*contact.on_ground, places.on_ground,
+                                                *contact.on_body, places.on_body, X);
+    const double gap = at.gap();
+    if (!places.closed && gap > kFar) return settle_far(contact, X, places);
+    at.g -= gap * at.B.n;  // only what lies in the tangent plane is slid
+    const double off = std::max({at.g.norm(), at.h.norm(), at.S0.norm()});
+    if (!std::isfinite(off) || step == kMostSteps) return false;
+    if (off < 1e-12) return true;
+    slide_contact(*contact.on_ground, places.on_ground, *contact.on_body, places.on_body, at, X,
+                  Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 10);
+    if (off < 1e-9) return true;  // the step just taken leaves the square of that
+  }
+}
+
+}  // namespace
+
+bool settle_contacts(const Network& network, NetworkState& state) {
+  for (std::size_t i = 0; i < network.contacts.size(); ++i) {
+    const ContactComponent& contact = network.contacts[i];
+    const RigidTransform& X = state.bodies[contact.body].X;
+    ContactPlaces places = state.contacts[i];
+    if (settle_near(contact, X, places))
+      state.contacts[i] = places;
+    else if (state.contacts[i].closed || !settle_far(contact, X, state.contacts[i]))
+      return false;
+  }
+  return true;
+}
+
+}  // namespace condyle

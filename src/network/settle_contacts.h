@@ -1,0 +1,13 @@
+#pragma once
+
+/// The places of contacts at a given motion: where the gap is smallest near the places before.
+
+#include "network/network.h"
+
+namespace condyle {
+
+/// Brings the places of all contacts to where the gap is smallest near them. False where that does
+/// not settle.
+[[nodiscard]] bool settle_contacts(const Network& network, NetworkState& state);
+
+}  // namespace condyle
