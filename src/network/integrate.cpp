@@ -3,8 +3,7 @@
 #include <cvode/cvode.h>
 #include <fmt/format.h>
 #include <nvector/nvector_serial.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include <Eigen/Geometry>
 
@@ -46,7 +45,7 @@ SUNContext make_context() {
 }
 void free_context(SUNContext context) { SUNContext_Free(&context); }
 void free_memory(void* memory) { CVodeFree(&memory); }
-void free_solver(SUNLinearSolver solver) { SUNLinSolFree(solver); }
+void free_solver(SUNNonlinearSolver solver) { SUNNonlinSolFree(solver); }
 void say_nothing(int, const char*, const char*, char*, void*) {}
 
 bool is_constrained(const Network& network) {
@@ -69,8 +68,7 @@ class Integrator {
         context_(make_context(), free_context),
         y_(N_VNew_Serial(size_, context_), N_VDestroy),
         tolerances_(N_VNew_Serial(size_, context_), N_VDestroy),
-        matrix_(SUNDenseMatrix(size_, size_, context_), SUNMatDestroy),
-        solver_(SUNLinSol_Dense(y_, matrix_, context_), free_solver),
+        solver_(SUNNonlinSol_FixedPoint(y_, 0, context_), free_solver),
         memory_(CVodeCreate(constrained_ ? CV_BDF : CV_ADAMS, context_), free_memory) {}
 
   Motion run() {
@@ -123,7 +121,7 @@ class Integrator {
     CVodeInit(memory_, rate, state_.t, y_);
     CVodeSVtolerances(memory_, options_.tolerance, tolerances_);
     CVodeSetUserData(memory_, this);
-    CVodeSetLinearSolver(memory_, solver_, matrix_);
+    CVodeSetNonlinearSolver(memory_, solver_);
     CVodeSetMaxNumSteps(memory_, options_.most_steps);
     if (constrained_) {
       CVodeSetProjFn(memory_, projection);
@@ -376,8 +374,7 @@ class Integrator {
   Motion motion_;
   Owned<SUNContext, void (*)(SUNContext)> context_;
   Owned<N_Vector, void (*)(N_Vector)> y_, tolerances_;
-  Owned<SUNMatrix, void (*)(SUNMatrix)> matrix_;
-  Owned<SUNLinearSolver, void (*)(SUNLinearSolver)> solver_;
+  Owned<SUNNonlinearSolver, void (*)(SUNNonlinearSolver)> solver_;
   Owned<void*, void (*)(void*)> memory_;
 };
 

@@ -230,35 +230,33 @@ void NetworkEquations::collect_wrenches() {
   }
 }
 
-Eigen::VectorXd NetworkEquations::row_of(const ConstraintRow& row) const {
-  Eigen::VectorXd J = Eigen::VectorXd::Zero(twists_.size());
+/// Calls add(body, block) for each body that the row moves.
+template <typename Add>
+void NetworkEquations::carry_row(const ConstraintRow& row, Add add) const {
   const auto carry = [&](int vertex, double sign) {
     const int body = graph_.vertices[vertex].body;
-    if (body >= 0)
-      J.segment<6>(6 * body) += sign * wrench_at_reference(row.direction, arms_[vertex]);
+    if (body >= 0) add(body, sign * wrench_at_reference(row.direction, arms_[vertex]));
   };
   carry(row.vertex_to, 1);
   carry(row.vertex_from, -1);
-  return J;
 }
 
 void NetworkEquations::fill_jacobian() {
-  J_.resize(static_cast<Eigen::Index>(rows_.size()), twists_.size());
-  for (std::size_t k = 0; k < rows_.size(); ++k)
-    J_.row(static_cast<Eigen::Index>(k)) = row_of(rows_[k]);
+  J_.setZero(static_cast<Eigen::Index>(rows_.size()), twists_.size());
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    auto row = J_.row(static_cast<Eigen::Index>(k));
+    carry_row(rows_[k], [&](int body, const Vector6& block) {
+      row.segment<6>(6 * body) += block.transpose();
+    });
+  }
 }
 
 bool NetworkEquations::assemble(NetworkState& state) {
-  if (!settle_contacts(network_, state)) return false;
+  if (!settle_contacts(network_, state, contacts_)) return false;
   poses_.clear();
   for (const BodyState& body : state.bodies) poses_.push_back(body.X);
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const ContactComponent& c = network_.contacts[i];
-    const ContactPlaces& places = state.contacts[i];
-    contacts_[i] = linearize_contact(*c.on_ground, places.on_ground, *c.on_body, places.on_body,
-                                     state.bodies[c.body].X);
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
     graph_.vertices[graph_.graph.edges[graph_.contact_edge[i]].to].at = contacts_[i].A.c;
-  }
   place_vertices(state);
   if (!add_lines()) return false;
   add_forces(state);
@@ -280,17 +278,20 @@ bool NetworkEquations::assemble(NetworkState& state) {
 
 void NetworkEquations::factor_inertia() {
   for (std::size_t b = 0; b < inertia_.size(); ++b) {
-    if (network_.bodies[b].mass)
+    const NetworkBody& body = network_.bodies[b];
+    if (!body.mass)
+      inverse_P_[b].setConstant(std::numeric_limits<double>::quiet_NaN());
+    else if (body.point_mass)
       inverse_P_[b] = inertia_[b].P.llt().solve(Matrix6::Identity());
     else
-      inverse_P_[b].setConstant(std::numeric_limits<double>::quiet_NaN());
+      inverse_P_[b] = condyle::inverse_inertia(*body.mass, poses_[b].R, inertia_[b].arm);
   }
   J_weighted_.resize(twists_.size(), J_.rows());
   for (std::size_t b = 0; b < inertia_.size(); ++b) {
     const auto row = static_cast<Eigen::Index>(6 * b);
-    J_weighted_.middleRows<6>(row).noalias() = inverse_P_[b] * J_.middleCols<6>(row).transpose();
+    J_weighted_.middleRows<6>(row) = inverse_P_[b].lazyProduct(J_.middleCols<6>(row).transpose());
   }
-  compliance_.noalias() = J_ * J_weighted_;
+  compliance_ = J_.lazyProduct(J_weighted_);  // a few rows: the blocked product costs more
 }
 
 Eigen::VectorXd NetworkEquations::inverse_inertia(const Eigen::VectorXd& w) const {
@@ -305,8 +306,13 @@ Eigen::VectorXd NetworkEquations::inverse_inertia(const Eigen::VectorXd& w) cons
 /// Solves J P⁻¹ Jᵀ μ = r, rows and columns scaled to one; dependent rows share their load.
 Eigen::VectorXd NetworkEquations::multipliers_for(const Eigen::VectorXd& right_side) const {
   if (right_side.size() == 0) return right_side;
+  constexpr double kNearlyDependent = 1e-5;
   const Eigen::VectorXd scale = compliance_.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * compliance_ * scale.asDiagonal();
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(scaled);
+  if (cholesky.info() == Eigen::Success &&
+      cholesky.matrixLLT().diagonal().minCoeff() > kNearlyDependent)
+    return scale.cwiseProduct(cholesky.solve(scale.cwiseProduct(right_side)));
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
   solver.setThreshold(1e-11);
   solver.compute(scaled);
@@ -371,7 +377,11 @@ double NetworkEquations::contact_force(std::size_t contact) const {
 
 double NetworkEquations::gap_acceleration(std::size_t contact) const {
   const ConstraintRow row = contact_row(contact);
-  return row_of(row).dot(accelerations_) + row.bias;
+  double acceleration = row.bias;
+  carry_row(row, [&](int body, const Vector6& block) {
+    acceleration += block.dot(accelerations_.segment<6>(6 * body));
+  });
+  return acceleration;
 }
 
 EnergySum NetworkEquations::energies() const {

@@ -113,7 +113,8 @@ class NetworkEquations {
   void collect_wrenches();
   void fill_jacobian();
   void factor_inertia();
-  [[nodiscard]] Eigen::VectorXd row_of(const ConstraintRow& row) const;
+  template <typename Add>
+  void carry_row(const ConstraintRow& row, Add add) const;
   [[nodiscard]] Eigen::VectorXd inverse_inertia(const Eigen::VectorXd& w) const;
   [[nodiscard]] Eigen::VectorXd multipliers_for(const Eigen::VectorXd& right_side) const;
   [[nodiscard]] Vector6 convective(int vertex) const;

@@ -26,16 +26,14 @@ double largest_value(const NetworkEquations& equations) {
 }  // namespace
 
 bool project(NetworkEquations& equations, NetworkState& state) {
-  constexpr double kSettled = 1e-12;  // [mm], [rad]; a step from there is exact to round-off
+  constexpr double kSettled = 1e-8;  // [mm], [rad]; a step from there is exact to round-off
   constexpr int kMostSteps = 10;
-  double last = INFINITY;
   for (int step = 0;; ++step) {
     if (!equations.assemble(state)) return false;
-    const double value = largest_value(equations);
-    if (value <= kSettled || (value >= last && last < 1e-9)) break;
     if (step == kMostSteps) return false;
-    last = value;
-    move(equations.network(), equations.position_correction(), state);
+    const double value = largest_value(equations);
+    if (value > 0) move(equations.network(), equations.position_correction(), state);
+    if (value < kSettled) break;
   }
   const Eigen::VectorXd change = equations.velocity_correction();
   for (std::size_t b = 0; b < state.bodies.size(); ++b) {

@@ -26,18 +26,6 @@ Matrix6 carrier(const Eigen::Vector3d& arm) {
   return K;
 }
 
-Vector6 wrench_at_reference(const Vector6& y, const Eigen::Vector3d& arm) {
-  Vector6 moved = y;
-  moved.tail<3>() += arm.cross(y.head<3>());
-  return moved;
-}
-
-Vector6 twist_at_port(const Vector6& x_0, const Eigen::Vector3d& arm) {
-  Vector6 moved = x_0;
-  moved.head<3>() += x_0.tail<3>().cross(arm);
-  return moved;
-}
-
 Eigen::MatrixXd hybrid_matrix(const std::vector<Eigen::Vector3d>& arms) {
   const auto k = static_cast<Eigen::Index>(arms.size());
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(6 * (k + 1), 6 * (k + 1));
@@ -63,6 +51,17 @@ InertiaTerms inertia_terms(const MassProperties& mass,
       omega.cross(terms.P.bottomRightCorner<3, 3>() * omega);
   terms.u << -m * gravity, -m * terms.arm.cross(gravity);
   return terms;
+}
+
+Matrix6 inverse_inertia(const MassProperties& mass,
+                        const Eigen::Matrix3d& R,
+                        const Eigen::Vector3d& arm) {
+  const Eigen::Matrix3d S = skew(arm);
+  const Eigen::Matrix3d J = turned(R, mass.inertia.llt().solve(Eigen::Matrix3d::Identity()));
+  Matrix6 inverse;
+  inverse << Eigen::Matrix3d::Identity() / mass.mass + S * J * S.transpose(), S * J,
+      J * S.transpose(), J;
+  return inverse;
 }
 
 Matrix6 inertia_rate(const MassProperties& mass,

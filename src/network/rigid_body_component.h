@@ -11,6 +11,7 @@
 /// in no power.
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <vector>
 
@@ -27,8 +28,16 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 [[nodiscard]] Matrix6 carrier(const Eigen::Vector3d& arm);
 
 /// K_j y and K_jᵀ x without the matrix.
-[[nodiscard]] Vector6 wrench_at_reference(const Vector6& y, const Eigen::Vector3d& arm);
-[[nodiscard]] Vector6 twist_at_port(const Vector6& x_0, const Eigen::Vector3d& arm);
+[[nodiscard]] inline Vector6 wrench_at_reference(const Vector6& y, const Eigen::Vector3d& arm) {
+  Vector6 moved = y;
+  moved.tail<3>() += arm.cross(y.head<3>());
+  return moved;
+}
+[[nodiscard]] inline Vector6 twist_at_port(const Vector6& x_0, const Eigen::Vector3d& arm) {
+  Vector6 moved = x_0;
+  moved.head<3>() += x_0.tail<3>().cross(arm);
+  return moved;
+}
 
 /// The matrix of the massless body with ports at these arms: (x_1 .. x_k, y_0) from
 /// (y_1 .. y_k, x_0).
@@ -47,6 +56,12 @@ struct InertiaTerms {
                                          const Eigen::Matrix3d& R,
                                          const Vector6& x_0,
                                          const Eigen::Vector3d& gravity);
+
+/// P⁻¹ for the mass centre at `arm` from the reference port (ground frame): no factorization of P,
+/// and no loss of digits where the port is far from the centre.
+[[nodiscard]] Matrix6 inverse_inertia(const MassProperties& mass,
+                                      const Eigen::Matrix3d& R,
+                                      const Eigen::Vector3d& arm);
 
 /// dP/dt: with it x_0.(Q - dP/dt x_0 / 2) = 0 [Tokad 1992, 48].
 [[nodiscard]] Matrix6 inertia_rate(const MassProperties& mass,

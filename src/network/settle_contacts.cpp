@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "elements/contact.h"
-
 namespace condyle {
 namespace {
 
@@ -21,35 +19,61 @@ bool settle_far(const ContactComponent& contact, const RigidTransform& X, Contac
   return places.on_ground.allFinite() && places.on_body.allFinite();
 }
 
+ContactLinearization linearize(const ContactComponent& contact,
+                               const RigidTransform& X,
+                               const ContactPlaces& places) {
+  return linearize_contact(*contact.on_ground, places.on_ground, *contact.on_body, places.on_body,
+                           X);
+}
+
 /// Newton on opposite normals and no tangential distance; it takes the surfaces to be near.
-bool settle_near(const ContactComponent& contact, const RigidTransform& X, ContactPlaces& places) {
+bool settle_near(const ContactComponent& contact,
+                 const RigidTransform& X,
+                 ContactPlaces& places,
+                 ContactLinearization& at) {
   constexpr int kMostSteps = 20;
+  constexpr double kSettled = 1e-12, kOneStepLeft = 1e-7;  // a step squares what is off
   for (int step = 0;; ++step) {
-    ContactLinearization at = linearize_contact(*contact.on_ground, places.on_ground,
-                                                *contact.on_body, places.on_body, X);
+    at = linearize(contact, X, places);
     const double gap = at.gap();
-    if (!places.closed && gap > kFar) return settle_far(contact, X, places);
+    if (!places.closed && gap > kFar) {
+      if (!settle_far(contact, X, places)) return false;
+      at = linearize(contact, X, places);
+      return true;
+    }
+    const Eigen::Vector3d apart = at.g;
     at.g -= gap * at.B.n;  // only what lies in the tangent plane is slid
     const double off = std::max({at.g.norm(), at.h.norm(), at.S0.norm()});
     if (!std::isfinite(off) || step == kMostSteps) return false;
-    if (off < 1e-12) return true;
+    if (off < kSettled) {
+      at.g = apart;
+      return true;
+    }
     slide_contact(*contact.on_ground, places.on_ground, *contact.on_body, places.on_body, at, X,
                   Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 10);
-    if (off < 1e-9) return true;  // the step just taken leaves the square of that
+    if (off < kOneStepLeft) {
+      at = linearize(contact, X, places);
+      return true;
+    }
   }
 }
 
 }  // namespace
 
-bool settle_contacts(const Network& network, NetworkState& state) {
+bool settle_contacts(const Network& network,
+                     NetworkState& state,
+                     std::vector<ContactLinearization>& settled) {
+  settled.resize(network.contacts.size());
   for (std::size_t i = 0; i < network.contacts.size(); ++i) {
     const ContactComponent& contact = network.contacts[i];
     const RigidTransform& X = state.bodies[contact.body].X;
     ContactPlaces places = state.contacts[i];
-    if (settle_near(contact, X, places))
+    if (settle_near(contact, X, places, settled[i])) {
       state.contacts[i] = places;
-    else if (state.contacts[i].closed || !settle_far(contact, X, state.contacts[i]))
-      return false;
+      continue;
+    }
+    if (state.contacts[i].closed || !settle_far(contact, X, state.contacts[i])) return false;
+    settled[i] = linearize(contact, X, state.contacts[i]);
   }
   return true;
 }

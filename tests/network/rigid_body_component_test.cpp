@@ -65,6 +65,18 @@ TEST(RigidBodyComponent, InertiaIsThatOfItsPointsAtAnyReferencePort) {
 }
 
 // At the mass centre: f = m dv/dt - m g, M = J dω/dt + ω x J ω [Tokad 1992, 42-45].
+TEST(RigidBodyComponent, InverseOfTheInertiaNeedsNoFactorization) {
+  test::Random random(5);
+  const MassProperties mass = mass_of_points(some_points());
+  for (int trial = 0; trial < 5; ++trial) {
+    const Eigen::Matrix3d R = random.rotation();
+    const InertiaTerms terms =
+        inertia_terms(mass, random.vector(300), R, Vector6::Zero(), Eigen::Vector3d::Zero());
+    const Matrix6 unit = inverse_inertia(mass, R, terms.arm) * terms.P;
+    EXPECT_LT((unit - Matrix6::Identity()).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
 TEST(RigidBodyComponent, AtTheMassCentreEulersEquationsRemain) {
   test::Random random(3);
   const MassProperties mass = mass_of_points(some_points());
