@@ -21,7 +21,7 @@ blow() {
   build/condyle simulate "$scene" -o "$run" >"out/blows/$1.txt" 2>&1 || status=$?
   printf '%-14s %8s %10s %10s %10s %8s  %s\n' "$1" "$(peak "$run" /sweep/joint/flexion)" \
     "$(peak "$run" /sweep/contacts/medial/force)" "$(peak "$run" /sweep/contacts/lateral/force)" \
-    "$(grep -c ' closes at ' "out/blows/$1.txt" || true)" "$status" "$(sed -n 's/^condyle: //p' "out/blows/$1.txt")"
+    "$(grep -c ' closes at ' "out/blows/$1.txt" || true)" "$status" "$(grep -o "condyle: .*" "out/blows/$1.txt" | grep -v axis: | tail -1)"
 }
 
 printf '%-14s %8s %10s %10s %10s %8s\n' 'blow' 'flexion' 'medial N' 'lateral N' 'impacts' 'exit'

@@ -42,17 +42,6 @@ void set_status(PoseResult& result, const Objection& objection) {
   result.reason = objection.reason;
 }
 
-void set_resultant(ContactResult& contact) {
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  contact.force = 0;
-  for (const ContactPointResult& point : contact.points) {
-    contact.force += point.force;
-    moment += point.force * point.point_ground;
-  }
-  contact.resultant_ground =
-      contact.force != 0 ? Eigen::Vector3d(moment / contact.force) : contact.points[0].point_ground;
-}
-
 /// A line carries at its ends, whichever two of its points were solved for: the lever rule shares
 /// out their resultant. The points of a line are the last ones of the contact.
 void carry_by_ends(const ContactPair& pair,
@@ -162,6 +151,17 @@ void describe_open(const ContactPair& pair,
 }
 
 }  // namespace
+
+void set_resultant(ContactResult& contact) {
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  contact.force = 0;
+  for (const ContactPointResult& point : contact.points) {
+    contact.force += point.force;
+    moment += point.force * point.point_ground;
+  }
+  contact.resultant_ground =
+      contact.force != 0 ? Eigen::Vector3d(moment / contact.force) : contact.points[0].point_ground;
+}
 
 void clear(PoseResult& result) {
   result.ligaments.clear();

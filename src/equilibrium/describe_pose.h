@@ -26,6 +26,9 @@ void clear(PoseResult& result);
                                                 double force,
                                                 double edge);
 
+/// Force and resultant of a closed contact from its points.
+void set_resultant(ContactResult& contact);
+
 /// Fills a cleared result whose status says converged from the state at which `system` was
 /// assembled. Lowers the status where a contact lies beyond its patch or a body is buried in the
 /// other. `minima` is room for the search.

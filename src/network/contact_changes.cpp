@@ -19,7 +19,7 @@ std::vector<int> touching(const Network& network,
                           const std::vector<int>& struck) {
   std::vector<int> list;
   for (std::size_t i = 0; i < network.contacts.size(); ++i) {
-    if (!network.contacts[i].opens) continue;
+    if (!network.contacts[i].opens || !state.contacts[i].followed) continue;
     const int index = static_cast<int>(i);
     if (state.contacts[i].closed || holds(struck, index) ||
         equations.contacts()[i].gap() < kTouching)

@@ -58,8 +58,12 @@ bool is_constrained(const Network& network) {
 /// One run of CVODE over the state's numbers.
 class Integrator {
  public:
-  Integrator(const Network& network, NetworkState start, const IntegrationOptions& options)
+  Integrator(const Network& network,
+             NetworkState start,
+             const IntegrationOptions& options,
+             ContactScout scout)
       : network_(network),
+        scout_(std::move(scout)),
         options_(options),
         equations_(network),
         state_(std::move(start)),
@@ -75,14 +79,17 @@ class Integrator {
     equations_.require_mass();
     check_start();
     dissipated_ += change_contacts(equations_, state_, {}, {}, options_, motion_.events);
+    if (scout_) scout_(state_);
     pack(state_, dissipated_, 0);
     set_up();
     store(state_.t);
     double t = state_.t;
     const auto frames = static_cast<long>(std::ceil(options_.end / options_.interval - 1e-9));
     motion_.completed = true;
-    for (long k = 1; k <= frames && motion_.completed; ++k)
-      advance(t, start_ + std::min(options_.end, static_cast<double>(k) * options_.interval));
+    for (long k = 1; k <= frames && motion_.completed; ++k) {
+      const double to = start_ + std::min(options_.end, static_cast<double>(k) * options_.interval);
+      if (scout_ ? advance_scouted(t, to, 0) : advance(t, to)) store(t);
+    }
     add_counts();
     return std::move(motion_);
   }
@@ -136,27 +143,68 @@ class Integrator {
     CVodeSetNoInactiveRootWarn(memory_);
   }
 
-  void advance(double& t, double to) {
+  /// What is needed to take a stretch of time back.
+  struct Moment {
+    double t;
+    std::vector<double> numbers;
+    NetworkState state;
+    std::size_t events;
+  };
+  Moment moment(double t) {
+    return {t, {numbers(), numbers() + size_}, state_, motion_.events.size()};
+  }
+  void go_back(const Moment& moment) {
+    add_counts();
+    std::copy(moment.numbers.begin(), moment.numbers.end(), numbers());
+    state_ = moment.state;
+    motion_.events.resize(moment.events);
+    motion_.completed = true;
+    motion_.reason.clear();
+    CVodeReInit(memory_, moment.t, y_);
+  }
+
+  /// Goes on in halves where the way led into an overlap that no contact saw, or where a contact
+  /// was lost.
+  bool advance_scouted(double& t, double to, int halvings) {
+    constexpr int kMostHalvings = 12;
+    constexpr double kTouch = 1e-5;  // [mm]: a contact that opened for nothing
+    const Moment before = moment(t);
+    if (advance(t, to)) {
+      unpack(numbers(), t);
+      if (!project(equations_, state_)) return give_up(t, "the constraints could not be met");
+      const ContactSighting sighting = scout_(state_);
+      if (sighting.unseen >= 0 && sighting.overlapping.empty()) return true;
+      if (sighting.unseen >= 0 && sighting.followed > -kTouch)
+        return handle_event(t, sighting.overlapping, {});
+      give_up(
+          t,
+          "the bodies overlap where no contact could be followed, as beyond the edge of a surface");
+    }
+    if (halvings == kMostHalvings) return false;
+    go_back(before);
+    t = before.t;
+    const double middle = t + (to - t) / 2;
+    return advance_scouted(t, middle, halvings + 1) && advance_scouted(t, to, halvings + 1);
+  }
+
+  bool advance(double& t, double to) {
     constexpr int kMostEvents = 1000;
-    for (int events = 0; t < to; ++events) {
+    for (int events = 0; t < to - 2 * kBeforeJump; ++events) {
       const double jump = next_jump(t), stop = std::min(to, jump - kBeforeJump);
       if (stop <= t) {  // just before a jump: go on behind it
         t = jump;
-        if (!handle_event(t, false)) return;
+        if (!handle_event(t, {}, {})) return false;
         continue;
       }
       CVodeSetStopTime(memory_, stop);
       const int flag = CVode(memory_, stop, y_, &t, CV_NORMAL);
       if (flag < 0 || events == kMostEvents) {
-        motion_.completed = false;
-        motion_.reason = fmt::format("at {:.6g} s: {}", t,
-                                     flag < 0 ? lost_contact().value_or(failure(flag))
-                                              : std::string("contacts open and close without end"));
-        return;
+        return give_up(t, flag < 0 ? lost_contact().value_or(failure(flag))
+                                   : std::string("contacts open and close without end"));
       }
-      if (flag == CV_ROOT_RETURN && !handle_event(t, true)) return;
+      if (flag == CV_ROOT_RETURN && !handle_root(t)) return false;
     }
-    store(t);
+    return true;
   }
 
   /// The next time after t at which a driver jumps, or never.
@@ -193,6 +241,7 @@ class Integrator {
       case CV_FIRST_RHSFUNC_ERR:
       case CV_REPTD_RHSFUNC_ERR:
       case CV_UNREC_RHSFUNC_ERR:
+      case CV_RTFUNC_FAIL:
         return "a contact left what is known of its surfaces, or a line has no length";
       case CV_PROJFUNC_FAIL:
       case CV_REPTD_PROJFUNC_ERR:
@@ -206,20 +255,26 @@ class Integrator {
     }
   }
 
-  /// Contacts change where a root was found, or may where a driver jumps.
-  bool handle_event(double t, bool at_root) {
+  bool give_up(double t, const std::string& reason) {
+    motion_.completed = false;
+    motion_.reason = fmt::format("at {:.6g} s: {}", t, reason);
+    return false;
+  }
+
+  bool handle_root(double t) {
     std::vector<int> found(watched_.size()), struck, released;
-    if (at_root) CVodeGetRootInfo(memory_, found.data());
-    unpack(numbers(), t);
+    CVodeGetRootInfo(memory_, found.data());
     for (std::size_t k = 0; k < found.size(); ++k) {
       if (found[k] == 0) continue;
       (state_.contacts[watched_[k]].closed ? released : struck).push_back(watched_[k]);
     }
-    if (!project(equations_, state_)) {
-      motion_.completed = false;
-      motion_.reason = fmt::format("at {:.6g} s: the constraints could not be met", t);
-      return false;
-    }
+    return handle_event(t, struck, released);
+  }
+
+  /// Contacts change where a root was found, or may where a driver jumps.
+  bool handle_event(double t, const std::vector<int>& struck, const std::vector<int>& released) {
+    unpack(numbers(), t);
+    if (!project(equations_, state_)) return give_up(t, "the constraints could not be met");
     const double lost =
         change_contacts(equations_, state_, struck, released, options_, motion_.events);
     const double* y = numbers();
@@ -295,8 +350,12 @@ class Integrator {
     if (!my.evaluate(NV_DATA_S(y), t)) return kRecoverable;
     for (std::size_t k = 0; k < my.watched_.size(); ++k) {
       const auto contact = static_cast<std::size_t>(my.watched_[k]);
-      g[k] = my.state_.contacts[contact].closed ? my.equations_.contact_force(contact)
-                                                : my.equations_.contacts()[contact].gap();
+      const ContactPlaces& places = my.state_.contacts[contact];
+      if (!places.followed)
+        g[k] = 1;
+      else
+        g[k] = places.closed ? my.equations_.contact_force(contact)
+                             : my.equations_.contacts()[contact].gap();
     }
     return 0;
   }
@@ -329,18 +388,19 @@ class Integrator {
   void store(double t) {
     unpack(numbers(), t);
     if (!project(equations_, state_) || !equations_.assemble(state_) || !equations_.solve()) {
-      motion_.completed = false;
-      motion_.reason = fmt::format("at {:.6g} s: the constraints could not be met", t);
+      give_up(t, "the constraints could not be met");
       return;
     }
     MotionFrame frame;
     frame.state = state_;
     for (std::size_t i = 0; i < network_.contacts.size(); ++i) {
       const ContactLinearization& contact = equations_.contacts()[i];
+      const bool known = state_.contacts[i].followed;
+      const Eigen::Vector3d nowhere = Eigen::Vector3d::Constant(NAN);
       frame.contact_force.push_back(equations_.contact_force(i));
-      frame.contact_gap.push_back(contact.gap());
-      frame.contact_point.push_back(contact.B.c);
-      frame.contact_normal.push_back(contact.B.n);
+      frame.contact_gap.push_back(known ? contact.gap() : INFINITY);
+      frame.contact_point.push_back(known ? contact.B.c : nowhere);
+      frame.contact_normal.push_back(known ? contact.B.n : nowhere);
     }
     frame.lines = equations_.lines();
     for (std::size_t k = 0; k < equations_.rows().size(); ++k)
@@ -364,6 +424,7 @@ class Integrator {
   }
 
   const Network& network_;
+  ContactScout scout_;
   IntegrationOptions options_;
   NetworkEquations equations_;
   NetworkState state_;
@@ -380,8 +441,11 @@ class Integrator {
 
 }  // namespace
 
-Motion integrate(const Network& network, NetworkState start, const IntegrationOptions& options) {
-  return Integrator(network, std::move(start), options).run();
+Motion integrate(const Network& network,
+                 NetworkState start,
+                 const IntegrationOptions& options,
+                 ContactScout scout) {
+  return Integrator(network, std::move(start), options, std::move(scout)).run();
 }
 
 }  // namespace condyle

@@ -6,6 +6,7 @@
 /// finding.
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -52,12 +53,25 @@ struct Motion {
   double largest_imbalance = 0, energy_scale = 0;
 };
 
+/// What a scout has seen.
+struct ContactSighting {
+  /// Smallest gap at places that no contact followed [mm].
+  double unseen = std::numeric_limits<double>::infinity();
+  double followed = unseen;           ///< and of the open contacts that overlap [mm]
+  std::vector<int> overlapping = {};  ///< these
+};
+/// Lets waiting contacts follow the places at which bodies have come near each other and that no
+/// contact follows yet.
+using ContactScout = std::function<ContactSighting(NetworkState&)>;
+
 /// From `start`, whose closed contacts must touch. Throws InputError for an inconsistent network, a
 /// body without mass, or a start that violates its constraints; what fails later is told in the
-/// result.
+/// result. The scout is asked at every frame; where it finds an overlap, the frame is repeated in
+/// halves until it finds the place before the bodies touch there.
 [[nodiscard]] Motion integrate(const Network& network,
                                NetworkState start,
-                               const IntegrationOptions& options);
+                               const IntegrationOptions& options,
+                               ContactScout scout = {});
 
 /// Puts a state onto its constraints, pose and twists. False where that does not settle.
 bool project(NetworkEquations& equations, NetworkState& state);

@@ -1,6 +1,9 @@
 #include "network/knee_network.h"
 
+#include <fmt/format.h>
+
 #include "equilibrium/contact_search.h"
+#include "input_error.h"
 
 namespace condyle {
 namespace {
@@ -18,6 +21,23 @@ void add_ligaments(const Model& model, Network& network) {
   }
 }
 
+/// The first contact of the pair that is not taken yet.
+void close_next(const Model& model,
+                const KneeNetwork& knee,
+                const ClosedContact& contact,
+                NetworkState& state) {
+  for (std::size_t i = 0; i < knee.places.size(); ++i) {
+    if (knee.places[i] != contact.pair || state.contacts[i].closed) continue;
+    state.contacts[i] = {contact.on_B, contact.on_A, true};
+    return;
+  }
+  throw InputError(
+      fmt::format("contact \"{}\" touches in more points at the start than a motion "
+                  "follows, expected at most {}",
+                  model.pairs[contact.pair].name,
+                  model.pairs[contact.pair].mode == ContactMode::kAuto ? kPointsPerPair : 1));
+}
+
 }  // namespace
 
 KneeNetwork make_knee_network(const Model& model, const std::optional<MassProperties>& mass) {
@@ -30,9 +50,11 @@ KneeNetwork make_knee_network(const Model& model, const std::optional<MassProper
   for (std::size_t i = 0; i < model.pairs.size(); ++i) {
     const ContactPair& pair = model.pairs[i];
     if (pair.mode == ContactMode::kOpen) continue;
-    network.contacts.push_back(
-        {pair.name, 0, pair.on_B, pair.on_A, pair.mode == ContactMode::kAuto});
-    knee.places.push_back(static_cast<int>(i));
+    const bool opens = pair.mode == ContactMode::kAuto;
+    for (int point = 0; point < (opens ? kPointsPerPair : 1); ++point) {
+      network.contacts.push_back({pair.name, 0, pair.on_B, pair.on_A, opens, opens});
+      knee.places.push_back(static_cast<int>(i));
+    }
   }
   for (std::size_t i = 0; i < model.conditions.size(); ++i)
     network.conditions.push_back({model.condition_names[i], 0, model.conditions[i], {}});
@@ -45,17 +67,20 @@ NetworkState state_at_rest(const Model& model,
   NetworkState state;
   state.bodies = {{equilibrium.X, {0, 0, 0}, {0, 0, 0}}};
   state.contacts.resize(knee.places.size());
+  for (const ClosedContact& contact : equilibrium.contacts) close_next(model, knee, contact, state);
   for (std::size_t i = 0; i < knee.places.size(); ++i) {
     ContactPlaces& places = state.contacts[i];
-    for (const ClosedContact& contact : equilibrium.contacts)
-      if (contact.pair == knee.places[i]) places = {contact.on_B, contact.on_A, true};
     if (places.closed) continue;
+    if (i > 0 && knee.places[i - 1] == knee.places[i]) {
+      places.followed = false;
+      continue;
+    }
     const ContactPair& pair = model.pairs[knee.places[i]];
     constexpr double kReach = 50;  // [mm]
     std::vector<GapMinimum> minima;
     ContactSearch(pair).find_nearest(equilibrium.X, kReach, minima);
     if (!minima.empty())
-      places = {minima.front().on_B, minima.front().on_A, false};
+      places = {minima.front().on_B, minima.front().on_A};
     else
       places.on_ground = pair.on_B->seed(equilibrium.X.p);
   }

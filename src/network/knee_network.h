@@ -12,7 +12,8 @@ namespace condyle {
 
 /// `mass` may be absent where only statics is asked. The reference port is the mass centre, or the
 /// origin O_A where there is no mass. Contacts that the model leaves out are left out; `places`
-/// says which of Model::pairs each contact of the network is.
+/// says which of Model::pairs each contact of the network is: a pair that can open has several
+/// contacts, for the points at which its surfaces may touch at once.
 struct KneeNetwork {
   Network network;
   std::vector<int> places;
@@ -20,8 +21,11 @@ struct KneeNetwork {
 [[nodiscard]] KneeNetwork make_knee_network(const Model& model,
                                             const std::optional<MassProperties>& mass);
 
-/// The state of rest at a pose of the solver: its closed contacts closed. Open ones start from the
-/// nearest places that the solver's search finds.
+inline constexpr int kPointsPerPair = 3;
+
+/// The state of rest at a pose of the solver: its closed contacts closed. Of a pair that is open
+/// the first contact starts from the nearest place that the solver's search finds; the others wait.
+/// Throws InputError for a pair that touches in more than kPointsPerPair points.
 [[nodiscard]] NetworkState state_at_rest(const Model& model,
                                          const KneeNetwork& knee,
                                          const EquilibriumState& equilibrium);

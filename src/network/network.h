@@ -75,6 +75,9 @@ struct ContactComponent {
   int body = 0;
   std::shared_ptr<const Surface> on_ground, on_body;
   bool opens = true;  ///< else it is held closed and may pull
+  /// Somebody looks where else the surfaces come near (ContactScout): one that loses its place
+  /// waits for a new one instead of ending the motion.
+  bool scouted = false;
 };
 
 /// A kinematic condition on a body, its value a function of time (absent: as it stands).
@@ -113,6 +116,7 @@ struct BodyState {
 struct ContactPlaces {
   Place on_ground = Place::Zero(), on_body = Place::Zero();
   bool closed = false;
+  bool followed = true;  ///< else it waits: the surfaces are not near each other anywhere new
 };
 
 struct NetworkState {

@@ -256,7 +256,8 @@ bool NetworkEquations::assemble(NetworkState& state) {
   poses_.clear();
   for (const BodyState& body : state.bodies) poses_.push_back(body.X);
   for (std::size_t i = 0; i < contacts_.size(); ++i)
-    graph_.vertices[graph_.graph.edges[graph_.contact_edge[i]].to].at = contacts_[i].A.c;
+    if (state.contacts[i].followed)
+      graph_.vertices[graph_.graph.edges[graph_.contact_edge[i]].to].at = contacts_[i].A.c;
   place_vertices(state);
   if (!add_lines()) return false;
   add_forces(state);

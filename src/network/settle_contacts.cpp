@@ -65,6 +65,7 @@ bool settle_contacts(const Network& network,
                      std::vector<ContactLinearization>& settled) {
   settled.resize(network.contacts.size());
   for (std::size_t i = 0; i < network.contacts.size(); ++i) {
+    if (!state.contacts[i].followed) continue;
     const ContactComponent& contact = network.contacts[i];
     const RigidTransform& X = state.bodies[contact.body].X;
     ContactPlaces places = state.contacts[i];
@@ -72,8 +73,13 @@ bool settle_contacts(const Network& network,
       state.contacts[i] = places;
       continue;
     }
-    if (state.contacts[i].closed || !settle_far(contact, X, state.contacts[i])) return false;
-    settled[i] = linearize(contact, X, state.contacts[i]);
+    if (state.contacts[i].closed) return false;
+    if (contact.scouted)
+      state.contacts[i].followed = false;
+    else if (!settle_far(contact, X, state.contacts[i]))
+      return false;
+    else
+      settled[i] = linearize(contact, X, state.contacts[i]);
   }
   return true;
 }

@@ -8,7 +8,7 @@
 namespace condyle {
 
 /// Brings the places of all contacts to where the gap is smallest near them, and gives the contacts
-/// linearised there, one each. False where that does not settle.
+/// linearised there, one each; of one that waits nothing is said. False where that does not settle.
 [[nodiscard]] bool settle_contacts(const Network& network,
                                    NetworkState& state,
                                    std::vector<ContactLinearization>& settled);

@@ -12,6 +12,7 @@
 #include "equilibrium/describe_pose.h"
 #include "equilibrium/equilibrium_solver.h"
 #include "input_error.h"
+#include "network/contact_scout.h"
 #include "network/drive.h"
 #include "network/knee_network.h"
 
@@ -112,18 +113,16 @@ void set_velocity(const Scene& scene, const Model& model, Network network, Netwo
   state.bodies[0].omega = twist.tail<3>();
 }
 
-void describe_contact(const ContactPair& pair,
-                      const ContactPlaces& places,
-                      double force,
-                      const RigidTransform& X,
-                      ContactResult& result) {
+/// Points of one pair, as the frame has them.
+void add_point(const ContactPair& pair,
+               const ContactPlaces& places,
+               double force,
+               const RigidTransform& X,
+               ContactResult& result) {
   const ContactLinearization at =
       linearize_contact(*pair.on_B, places.on_ground, *pair.on_A, places.on_body, X);
   const double edge = edge_distance(pair, places.on_ground, places.on_body);
-  result.closed = places.closed;
-  result.force = force;
-  result.resultant_ground = at.B.c;
-  result.points = {describe_point(at, force, edge)};
+  result.points.push_back(describe_point(at, force, edge));
 }
 
 class FrameTeller {
@@ -155,36 +154,47 @@ class FrameTeller {
   }
 
  private:
+  /// Closed points of each pair, or the nearest one.
   void add_contacts(const MotionFrame& frame, PoseResult& pose) const {
     pose.contacts.resize(model_.pairs.size());
     for (std::size_t i = 0; i < knee_.places.size(); ++i) {
+      if (!frame.state.contacts[i].closed) continue;
       const int pair = knee_.places[i];
       ContactResult& contact = pose.contacts[pair];
-      describe_contact(model_.pairs[pair], frame.state.contacts[i], frame.contact_force[i],
-                       pose.X_BA, contact);
-      if (contact.closed && contact.points[0].edge_distance < 0) {
-        pose.status = PoseStatus::kLeftPatch;
-        pose.reason = fmt::format("contact \"{}\" lies {:.2g} mm beyond the edge of its surface",
-                                  model_.pairs[pair].name, -contact.points[0].edge_distance);
-      }
+      contact.closed = true;
+      add_point(model_.pairs[pair], frame.state.contacts[i], frame.contact_force[i], pose.X_BA,
+                contact);
+      check_edge(pair, contact.points.back(), pose);
     }
+    for (ContactResult& contact : pose.contacts)
+      if (contact.closed) set_resultant(contact);
+    for (std::size_t p = 0; p < pose.contacts.size(); ++p)
+      if (!pose.contacts[p].closed) add_nearest(frame, static_cast<int>(p), pose);
+  }
+
+  void add_nearest(const MotionFrame& frame, int pair, PoseResult& pose) const {
+    int nearest = -1;
+    for (std::size_t i = 0; i < knee_.places.size(); ++i)
+      if (knee_.places[i] == pair && frame.state.contacts[i].followed &&
+          (nearest < 0 || frame.contact_gap[i] < frame.contact_gap[nearest]))
+        nearest = static_cast<int>(i);
+    if (nearest < 0) return;
+    ContactResult& contact = pose.contacts[pair];
+    add_point(model_.pairs[pair], frame.state.contacts[nearest], 0, pose.X_BA, contact);
+    contact.resultant_ground = contact.points[0].point_ground;
+  }
+
+  void check_edge(int pair, const ContactPointResult& point, PoseResult& pose) const {
+    if (point.edge_distance >= 0) return;
+    pose.status = PoseStatus::kLeftPatch;
+    pose.reason = fmt::format("contact \"{}\" lies {:.2g} mm beyond the edge of its surface",
+                              model_.pairs[pair].name, -point.edge_distance);
   }
 
   const Scene& scene_;
   const Model& model_;
   const KneeNetwork& knee_;
 };
-
-void require_single_points(const Scene& scene, const Model& model, const EquilibriumState& start) {
-  std::vector<int> points(model.pairs.size());
-  for (const ClosedContact& contact : start.contacts) {
-    if (++points[contact.pair] > 1)
-      fail(scene,
-           fmt::format("contact \"{}\" touches in more than one point at the start, expected "
-                       "one: a motion follows one point of each contact",
-                       model.pairs[contact.pair].name));
-  }
-}
 
 }  // namespace
 
@@ -205,7 +215,6 @@ Simulation simulate(const Scene& scene, const std::vector<FittedSurface>& surfac
   result.mass = moving_mass(scene);
   const Model model = build_model(scene, surfaces);
   const EquilibriumState start = find_start(scene, result.mass, model);
-  require_single_points(scene, model, start);
   KneeNetwork knee = make_knee_network(model, result.mass);
   complete(scene, knee);
   NetworkState state = state_at_rest(model, knee, start);
@@ -219,7 +228,7 @@ Simulation simulate(const Scene& scene, const std::vector<FittedSurface>& surfac
   options.restitution = simulation.restitution;
   options.breaks = drive_breaks(simulation.drives);
   const auto begin = std::chrono::steady_clock::now();
-  result.motion = integrate(knee.network, state, options);
+  result.motion = integrate(knee.network, state, options, PairScout(model, knee));
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.contact_of = knee.places;
   const FrameTeller teller(scene, model, knee);

@@ -1,0 +1,82 @@
+#include "network/contact_scout.h"
+
+#include <algorithm>
+
+namespace condyle {
+namespace {
+
+constexpr double kNear = 3;         // gap [mm] below which a place is followed
+constexpr double kSamePlace = 0.5;  // [mm]
+constexpr double kDouble = 1e-3;    // [mm]
+constexpr double kOverlap = 1e-6;   // [mm] of an open contact
+constexpr double kBuried = 0.05;    // [mm] where there is no single lowest point
+
+}  // namespace
+
+PairScout::PairScout(const Model& model, const KneeNetwork& knee) : model_(model), knee_(knee) {
+  for (const ContactPair& pair : model.pairs) searches_.emplace_back(pair);
+}
+
+ContactSighting PairScout::operator()(NetworkState& state) {
+  ContactSighting sighting;
+  for (std::size_t p = 0; p < model_.pairs.size(); ++p) {
+    if (model_.pairs[p].mode != ContactMode::kAuto || !searches_[p].has_samples()) continue;
+    scout_pair(static_cast<int>(p), state, sighting);
+  }
+  return sighting;
+}
+
+void PairScout::scout_pair(int pair, NetworkState& state, ContactSighting& sighting) {
+  drop_doubles(pair, state);
+  searches_[pair].find(state.bodies[0].X, kNear, minima_, kSamePlace);
+  for (const GapMinimum& minimum : minima_) {
+    if (minimum.edge < 0) continue;
+    const int follower = follower_of(pair, minimum, state);
+    if (follower >= 0) {
+      if (state.contacts[follower].closed || minimum.gap > -kOverlap) continue;
+      sighting.followed = std::min(sighting.followed, minimum.gap);
+      sighting.overlapping.push_back(follower);
+      continue;
+    }
+    if (!minimum.refined && minimum.gap > -kBuried) continue;
+    sighting.unseen = std::min(sighting.unseen, minimum.gap);
+    const int waiting = waiting_contact(pair, state);
+    if (minimum.refined && waiting >= 0) state.contacts[waiting] = {minimum.on_B, minimum.on_A};
+  }
+}
+
+Eigen::Vector3d PairScout::point_of(int contact, const NetworkState& state) const {
+  const ContactPair& pair = model_.pairs[knee_.places[contact]];
+  return pair.on_B->evaluate_frame(state.contacts[contact].on_ground).c;
+}
+
+int PairScout::follower_of(int pair, const GapMinimum& minimum, const NetworkState& state) const {
+  for (int i = 0; i < static_cast<int>(knee_.places.size()); ++i)
+    if (knee_.places[i] == pair && state.contacts[i].followed &&
+        (point_of(i, state) - minimum.point_B).norm() < kSamePlace)
+      return i;
+  return -1;
+}
+
+int PairScout::waiting_contact(int pair, const NetworkState& state) const {
+  for (int i = 0; i < static_cast<int>(knee_.places.size()); ++i)
+    if (knee_.places[i] == pair && !state.contacts[i].followed) return i;
+  return -1;
+}
+
+/// Two minima that have become one need one contact, a closed one where there is one.
+void PairScout::drop_doubles(int pair, NetworkState& state) const {
+  const int count = static_cast<int>(knee_.places.size());
+  for (int i = 0; i < count; ++i) {
+    for (int k = i + 1; k < count; ++k) {
+      ContactPlaces &first = state.contacts[i], &second = state.contacts[k];
+      if (knee_.places[i] != pair || knee_.places[k] != pair) continue;
+      if (!first.followed || !second.followed) continue;
+      if ((point_of(i, state) - point_of(k, state)).norm() > kDouble) continue;
+      ContactPlaces& dropped = second.closed && !first.closed ? first : second;
+      dropped.closed = dropped.followed = false;
+    }
+  }
+}
+
+}  // namespace condyle

@@ -1,0 +1,34 @@
+#pragma once
+
+/// Looks for new places of contact while a knee moves, with the search of the equilibrium room.
+
+#include "equilibrium/contact_search.h"
+#include "network/integrate.h"
+#include "network/knee_network.h"
+
+namespace condyle {
+
+class PairScout {
+ public:
+  /// Keeps references.
+  PairScout(const Model& model, const KneeNetwork& knee);
+
+  /// As ContactScout says.
+  ContactSighting operator()(NetworkState& state);
+
+ private:
+  void scout_pair(int pair, NetworkState& state, ContactSighting& sighting);
+  [[nodiscard]] int follower_of(int pair,
+                                const GapMinimum& minimum,
+                                const NetworkState& state) const;
+  [[nodiscard]] int waiting_contact(int pair, const NetworkState& state) const;
+  void drop_doubles(int pair, NetworkState& state) const;
+  [[nodiscard]] Eigen::Vector3d point_of(int contact, const NetworkState& state) const;
+
+  const Model& model_;
+  const KneeNetwork& knee_;
+  std::vector<ContactSearch> searches_;  ///< one for each of Model::pairs
+  std::vector<GapMinimum> minima_;
+};
+
+}  // namespace condyle
