@@ -95,7 +95,7 @@ std::string view_words(const Scenery& scenery) {
 
 std::string in_words(const Scenery& scenery, const ContactMark& mark) {
   std::string words = newtons(mark.force);
-  if (scenery.hertz && mark.hertz) words += fmt::format(", {:.2g} MPa", mark.hertz->peak_pressure);
+  if (scenery.hertz && mark.hertz) words += fmt::format(", {:.1f} MPa", mark.hertz->peak_pressure);
   return words;
 }
 
@@ -153,7 +153,7 @@ PageLayout page_layout(int width, int height) {
 
 PageLayout panel_layout(int width, int height) {
   const double s = std::min(width / 1200.0, height / 900.0);
-  const double margin = 0.03 * std::min(width, height);
+  const double margin = 0.075 * std::min(width, height);
   return {width, height, s, {margin, margin, width - margin, height - margin}};
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "pictures/color_map.h"
 #include "scene/fit_surfaces.h"
@@ -13,18 +12,24 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kFade = 1;      // [mm]
 constexpr double kAside = 0.05;  // [mm] of a nearest point beside the normal: the search stopped
 
-/// From p to a surface in its own frame, along its normal; NaN beyond its known part.
-double distance_to(const Surface& surface, const Vector3d& p, const Vector3d& n) {
+/// From p to a surface in its own frame, along its normal.
+GapMap::Gap distance_to(const Surface& surface, const Vector3d& p, const Vector3d& n) {
   const Place place = surface.closest(p, surface.seed(p));
-  if (!(surface.edge_distance(place) >= 0)) return kUnknown;
   const SurfacePoint at = surface.evaluate_frame(place);
-  if (at.n.dot(n) > 0) return kUnknown;  // it looks away: another side of the bone
+  if (at.n.dot(n) > 0) return {};  // it looks away: another side of the bone
   const double along = at.n.dot(p - at.c);
   const double aside = (p - at.c - along * at.n).norm();
-  return aside > kAside + 0.02 * std::abs(along) ? kUnknown : along;
+  if (aside > kAside + 0.02 * std::abs(along)) return {};
+  return {along, surface.edge_distance(place)};
+}
+
+Rgb mixed(Rgb a, Rgb b, double share) {
+  for (std::size_t i = 0; i < 3; ++i)
+    a[i] = static_cast<std::uint8_t>(std::lround(a[i] + share * (b[i] - a[i])));
+  return a;
 }
 
 }  // namespace
@@ -41,14 +46,14 @@ GapMap::GapMap(const Run& run) : run_(run), surfaces_(run.scene.surfaces.size())
   }
 }
 
-double GapMap::gap(std::size_t surface,
-                   const Vector3d& p,
-                   const Vector3d& n,
-                   const std::vector<RigidTransform>& X_P) const {
+GapMap::Gap GapMap::gap(std::size_t surface,
+                        const Vector3d& p,
+                        const Vector3d& n,
+                        const std::vector<RigidTransform>& X_P) const {
   const auto pose_of = [&](std::size_t s) {
     return X_P[static_cast<std::size_t>(run_.scene.surfaces[s].body)];
   };
-  double least = kUnknown;
+  Gap least;
   for (const ContactDescription& contact : run_.scene.contacts) {
     const auto a = static_cast<std::size_t>(contact.surfaces[0]),
                b = static_cast<std::size_t>(contact.surfaces[1]);
@@ -56,8 +61,8 @@ double GapMap::gap(std::size_t surface,
     const std::size_t other = surface == a ? b : a;
     if (other >= surfaces_.size() || !surfaces_[other]) continue;
     const RigidTransform X = pose_of(other).inverse() * pose_of(surface);
-    const double gap = distance_to(*surfaces_[other], X * p, X.R * n);
-    if (!(least <= gap) && std::isfinite(gap)) least = gap;
+    const Gap here = distance_to(*surfaces_[other], X * p, X.R * n);
+    if (here.inside >= 0 && (least.inside < 0 || here.width < least.width)) least = here;
   }
   return least;
 }
@@ -71,10 +76,11 @@ void GapMap::paint(ShadedMesh& mesh,
     const Vector3d p = vertex.position.cast<double>();
     Vector3d n = vertex.normal.cast<double>();
     if (exact) n = surfaces_[surface]->evaluate_frame(surfaces_[surface]->place_of(p)).n;
-    const double here = gap(surface, p, n, X_P);
-    vertex.color = std::isfinite(here)
-                       ? bytes({map_color(ColorMap::kGap, here / kGapLimit), beyond.through})
-                       : bytes(beyond);
+    const Gap here = gap(surface, p, n, X_P);
+    const double share = std::clamp(here.inside / kFade, 0.0, 1.0);
+    vertex.color =
+        bytes({mixed(beyond.color, map_color(ColorMap::kGap, here.width / kGapLimit), share),
+               beyond.through});
   }
 }
 

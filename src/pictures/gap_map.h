@@ -20,15 +20,19 @@ class GapMap {
   /// `run` must outlive the map.
   explicit GapMap(const Run& run);
 
-  /// Signed gap [mm] from the point p with the unit normal n of a surface of the scene, in the
-  /// frame of its body; negative where the surfaces overlap. NaN where nothing known lies opposite.
-  [[nodiscard]] double gap(std::size_t surface,
-                           const Eigen::Vector3d& p,
-                           const Eigen::Vector3d& n,
-                           const std::vector<RigidTransform>& X_P) const;
+  struct Gap {
+    double width = 0;    ///< negative where the surfaces overlap [mm]
+    double inside = -1;  ///< of the opposite point to the edge of what is known; < 0: nothing known
+  };
+  /// From the point p with the unit normal n of a surface of the scene, in the frame of its body.
+  [[nodiscard]] Gap gap(std::size_t surface,
+                        const Eigen::Vector3d& p,
+                        const Eigen::Vector3d& n,
+                        const std::vector<RigidTransform>& X_P) const;
 
   /// Puts the colours of the gap on the vertices of a mesh of that surface; `beyond` where the gap
-  /// is not known. X_P are poses of the bodies as they stand.
+  /// is not known, fading into it over the last millimetre. X_P are poses of the bodies as they
+  /// stand.
   void paint(ShadedMesh& mesh,
              std::size_t surface,
              const std::vector<RigidTransform>& X_P,

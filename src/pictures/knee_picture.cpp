@@ -172,9 +172,10 @@ std::vector<Vector3d> KneePictures::State::points_in_view(const PoseResult& pose
 
 Camera KneePictures::State::frame_all(View view) {
   std::vector<const PoseResult*> poses;
-  for (const PoseResult& pose : run.sweep.poses)
+  for (const PoseResult& pose : run.sweep.poses) {
     if (pose.converged()) poses.push_back(&pose);
-  if (view == View::kPlateau && !poses.empty()) poses.resize(1);  // the tibia stands still
+    if (view == View::kPlateau && !poses.empty()) break;  // the tibia stands still
+  }
   const std::size_t stride = 1 + poses.size() / kFramePoses;
   std::vector<Vector3d> points;
   const auto add = [&](const PoseResult& pose) {
