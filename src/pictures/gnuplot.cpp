@@ -91,8 +91,9 @@ std::string terminal(PlotFormat format, int height) {
       return fmt::format("svg size {},{} font 'DejaVu Sans,13'", kWidth, height);
     case PlotFormat::kPdf:
       // The same page, set smaller: letters of 7 points on a width of two columns.
-      return fmt::format("pdfcairo size {}in,{:.4f}in font 'DejaVu Sans,7' fontscale 1", kPdfWidth,
-                         kPdfWidth * height / kWidth);
+      return fmt::format(
+          "pdfcairo size {}in,{:.4f}in font 'DejaVu Sans,7' fontscale 0.75 pointscale 0.6",
+          kPdfWidth, kPdfWidth * height / kWidth);
   }
   return "";
 }
@@ -158,6 +159,11 @@ std::string run_legend(const Chart& chart, const Panel& panel, bool with_runs) {
   return commands;
 }
 
+std::string y_range(const Panel& panel) {
+  if (panel.from_zero) return "[0:*]";
+  return panel.floor ? fmt::format("[{:g}<*:*]", *panel.floor) : "[*:*]";
+}
+
 std::string panel_script(const Chart& chart, std::size_t index, int height) {
   const Panel& panel = chart.panels[index];
   const double top =
@@ -169,7 +175,7 @@ std::string panel_script(const Chart& chart, std::size_t index, int height) {
       "set key at screen {:.5f}, screen {:.5f} left top Left reverse vertical samplen 2.4 spacing "
       "1.25 textcolor '#303840'\n",
       right_end(chart) + 0.015, top);
-  script += panel.from_zero ? "set yrange [0:*]\n" : "set yrange [*:*]\n";
+  script += "set yrange " + y_range(panel) + "\n";
   script += last ? "set format x '%g'\n" : "set format x ''\n";
   script += "set ylabel " + quoted(panel.y_label) + " textcolor '#303840'\n";
   script += "set xlabel " + quoted(last ? chart.x_label : "") + " textcolor '#303840'\n";

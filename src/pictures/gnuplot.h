@@ -4,6 +4,7 @@
 /// data; here it becomes a gnuplot script, which gnuplot reads from a pipe.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct Panel {
   std::string y_label;
   std::vector<Curve> curves;
   bool from_zero = false;  ///< the axis begins at 0: for quantities that are never negative
+  std::optional<double> floor = {};  ///< the axis does not reach below: what is there is cut off
 };
 
 /// Panels one above the other over the same abscissa, legends to their right.

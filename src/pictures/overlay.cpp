@@ -19,7 +19,7 @@ T* find(std::vector<T>& list, const Same& same) {
 void add_panel(Chart& chart, const Panel& panel, int style) {
   Panel* whole = find(chart.panels, [&](const Panel& p) { return p.y_label == panel.y_label; });
   if (!whole) {
-    chart.panels.push_back({panel.y_label, {}, panel.from_zero});
+    chart.panels.push_back({panel.y_label, {}, panel.from_zero, panel.floor});
     whole = &chart.panels.back();
   }
   for (Curve curve : panel.curves) {
@@ -38,7 +38,7 @@ std::vector<Panel> divided(const Panel& panel) {
   std::vector<Panel> parts;
   for (Curve curve : panel.curves) {
     const auto part = static_cast<std::size_t>(curve.color) / kMostColors;
-    while (parts.size() <= part) parts.push_back({panel.y_label, {}, panel.from_zero});
+    while (parts.size() <= part) parts.push_back({panel.y_label, {}, panel.from_zero, panel.floor});
     curve.color %= static_cast<int>(kMostColors);
     parts[part].curves.push_back(std::move(curve));
   }

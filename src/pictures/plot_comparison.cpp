@@ -65,7 +65,7 @@ std::vector<Panel> divided(const Panel& panel) {
   std::vector<Panel> parts;
   const std::size_t most = 2 * kMostPerPanel;
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
-    if (i % most == 0) parts.push_back({panel.y_label, {}, panel.from_zero});
+    if (i % most == 0) parts.push_back({panel.y_label, {}, panel.from_zero, panel.floor});
     parts.back().curves.push_back(panel.curves[i]);
     parts.back().curves.back().color = static_cast<int>(i % most / 2);
   }

@@ -1,11 +1,14 @@
 #include "pictures/run_charts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "pictures/knee_shapes.h"
 #include "pictures/ligament_groups.h"
@@ -17,6 +20,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kLeastStrain = -10;  // [%]: how slack a slack ligament is says little
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 using OfPose = std::function<double(const PoseResult&)>;
@@ -80,6 +84,21 @@ Curve place_curve(const Run& run, std::size_t contact, const Vector3d& axis) {
     const auto place = place_on_tibia(run.scene, pose.contacts[contact]);
     return place ? axis.dot(*place - run.scene.joint->tibia.origin) : kUnknown;
   });
+}
+
+/// The balance is far smaller than its parts: in a unit that suits it.
+Panel balance_panel(Curve curve) {
+  double largest = 0;
+  for (const double y : curve.y) largest = std::max(largest, std::abs(y));
+  double per_joule = 1;
+  const char* unit = "J";
+  for (const auto& [factor, smaller] : {std::pair{1e3, "mJ"}, {1e6, "µJ"}, {1e9, "nJ"}}) {
+    if (largest * per_joule >= 1 || largest == 0) break;
+    per_joule = factor;
+    unit = smaller;
+  }
+  for (double& y : curve.y) y *= per_joule;
+  return {fmt::format("Balance [{}]", unit), {std::move(curve)}};
 }
 
 }  // namespace
@@ -162,7 +181,7 @@ Chart ligament_strain_chart(const Run& run) {
                                    [](const auto& group) { return group.members.size() > 1; });
   Chart chart =
       chart_of(run, strands ? "ligament strains (greatest of the strands)" : "ligament strains");
-  Panel panel{"Ligament strain [%]", {}};
+  Panel panel{"Ligament strain [%]", {}, false, kLeastStrain};
   for (const LigamentBundle& group : groups) {
     Curve curve = curve_of(run, group.name, [&](const PoseResult& pose) {
       return 100 * greatest_strain(run.scene, pose, group.members);
@@ -206,13 +225,13 @@ Chart energy_chart(const Run& run) {
     }
     return joules;
   };
-  Panel parts{"Energy since the start [J]", {}}, balance{"Balance since the start [J]", {}};
+  Panel parts{"Energy since the start [J]", {}};
   parts.curves = {curve("kinetic", [](const auto& f) { return f.energy.kinetic; }),
                   curve("gravity", [](const auto& f) { return f.energy.gravity; }),
                   curve("ligaments", [](const auto& f) { return f.energy.elastic; }),
                   curve("dissipated", [](const auto& f) { return f.dissipated; }),
                   curve("work of loads", [](const auto& f) { return f.driver_work; })};
-  balance.curves = {curve("", [](const auto& f) { return f.balance(); })};
+  const Panel balance = balance_panel(curve("", [](const auto& f) { return f.balance(); }));
   chart.panels = {parts, balance};
   return chart;
 }
