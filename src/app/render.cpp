@@ -187,7 +187,13 @@ void draw_strips(const Job& job) {
   const Output output(job.command, job.views.size());
   for (const View view : job.views) {
     const std::filesystem::path file = output.path(fmt::format("{}_strip", name(view)));
-    write_png(file, draw_strip(job.run, view, job.poses, job.options));
+    PictureOptions options = job.options;
+    if (job.command.size.empty()) {
+      const PictureOptions page = strip_size(view, job.poses.size());
+      options.width = page.width;
+      options.height = page.height;
+    }
+    write_png(file, draw_strip(job.run, view, job.poses, options));
     report(file);
   }
 }
@@ -204,8 +210,8 @@ void draw_movies(const Job& job) {
   }
 }
 
-PictureOptions options_of(const RenderCommand& command, std::size_t poses) {
-  PictureOptions options = command.strip ? strip_size(poses) : PictureOptions{};
+PictureOptions options_of(const RenderCommand& command) {
+  PictureOptions options;
   if (command.movie) options.width = 800, options.height = 600;
   if (!command.size.empty()) options = parse_size(command.size);
   options.proximity = command.proximity;
@@ -228,7 +234,7 @@ int run_render(const RenderCommand& command) {
       command.movie ? movie_poses(command, run, swept) : chosen_poses(command, run, swept);
   const int status = keep_converged(run, swept, poses);
   if (poses.empty()) return kSomePoseFailed;
-  const Job job{command, run, swept, views, poses, options_of(command, poses.size())};
+  const Job job{command, run, swept, views, poses, options_of(command)};
   if (command.movie)
     draw_movies(job);
   else if (command.strip)

@@ -51,17 +51,23 @@ bool overlap(const Frame& a, const Frame& b) {
   return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 }
 
-/// A place beside `at` for a word of the given width that is clear of the words before: right or
-/// left of it, or a little above or below.
-Vector2d free_place(const Pen& pen, const Vector2d& at, double width, std::vector<Frame>& taken) {
-  const double gap = 11 * pen.s, line = 17 * pen.s;
+/// A place beside `at` for a word of the given width that is clear of the words before and on the
+/// page: right or left of it, or a little above or below.
+Vector2d free_place(const Pen& pen,
+                    const Vector2d& at,
+                    double width,
+                    double page_width,
+                    std::vector<Frame>& taken) {
+  const double gap = 11 * pen.s, line = 17 * pen.s, edge = 4 * pen.s;
   Frame place{};
-  for (const double drop : {0.0, line, -line, 2 * line, -2 * line}) {
-    for (const double left : {at.x() + gap, at.x() - gap - width}) {
+  for (const double drop : {0.0, line, -line, 2 * line, -2 * line, 3 * line, -3 * line}) {
+    for (double left : {at.x() + gap, at.x() - gap - width}) {
+      // Beside the point all of it must fit; above or below it may be moved.
+      if (drop != 0) left = std::clamp(left, edge, std::max(edge, page_width - edge - width));
       place = {left, at.y() + drop - 0.5 * line, left + width, at.y() + drop + 0.5 * line};
       const bool free = std::none_of(taken.begin(), taken.end(),
                                      [&](const Frame& other) { return overlap(place, other); });
-      if (!free) continue;
+      if (!free || place.left < edge || place.right > page_width - edge) continue;
       taken.push_back(place);
       return {place.left, place.bottom - 3.5 * pen.s};
     }
@@ -127,7 +133,7 @@ void draw_title(const Pen& pen, int width, const std::string& title, const std::
   pen.canvas.text({30 * pen.s, 72 * pen.s}, cut(pen, below, room, quiet), quiet);
 }
 
-void draw_contact_forces(const Pen& pen, const Scenery& scenery) {
+void draw_contact_forces(const Pen& pen, int page_width, const Scenery& scenery) {
   std::vector<Frame> taken;
   for (const ContactMark& mark : scenery.marks) {
     if (!(mark.force > 0)) continue;
@@ -138,7 +144,7 @@ void draw_contact_forces(const Pen& pen, const Scenery& scenery) {
     style.halo = std::max(1, pen.size(2.2) - 5);
     const std::string words = in_words(scenery, mark);
     const double width = pen.canvas.text_width(words, style);
-    pen.canvas.text(free_place(pen, at, width, taken), words, style);
+    pen.canvas.text(free_place(pen, at, width, page_width, taken), words, style);
   }
 }
 
@@ -161,7 +167,7 @@ void annotate(Image& image, const PageLayout& page, const Scenery& scenery) {
   Canvas canvas(image);
   const Pen pen{canvas, page.scale};
   draw_ligament_labels(pen, page, scenery);
-  draw_contact_forces(pen, scenery);
+  draw_contact_forces(pen, page.width, scenery);
   draw_title(pen, page.width, scenery.run.scene.title, caption(scenery));
   draw_bars(pen, page, scenery);
   draw_directions(pen, page, scenery);

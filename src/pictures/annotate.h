@@ -39,7 +39,7 @@ struct Scenery {
 /// Title and, in quiet ink below it, another line; cut where they would leave the page.
 void draw_title(const Pen& pen, int width, const std::string& title, const std::string& below);
 /// Forces beside their arrows; peak pressures where ellipses are drawn.
-void draw_contact_forces(const Pen& pen, const Scenery& scenery);
+void draw_contact_forces(const Pen& pen, int page_width, const Scenery& scenery);
 /// Are force arrows drawn in this picture?
 [[nodiscard]] bool shows_arrows(const Scenery& scenery);
 

@@ -63,7 +63,7 @@ double right_end(const Chart& chart) {
     for (const Curve& curve : panel.curves) longest = std::max(longest, letters(curve.title));
   for (const std::string& run : chart.runs) longest = std::max(longest, letters(run));
   if (longest == 0) return 0.97;
-  const double legend = 80 + kLetter * static_cast<double>(std::min(longest, kLongestName + 1));
+  const double legend = 100 + kLetter * static_cast<double>(std::min(longest, kLongestName + 1));
   return 1 - legend / kWidth;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 // In units of a page 800 high.
 constexpr double kHeight = 800, kHead = 92, kValueLine = 30, kFoot = 112, kBars = 120;
-constexpr int kPanelWidth = 340, kPageHeight = 640, kWidest = 8000;  // [pixel]
+constexpr int kPanelWidth = 340, kWidePanel = 500, kPageHeight = 640, kWidest = 8000;  // [pixel]
 
 void paste(const Image& panel, Image& page, int left, int top) {
   for (int y = 0; y < panel.height; ++y)
@@ -35,10 +35,12 @@ void draw_page_words(const Pen& pen, const PageLayout& page, const Scenery& scen
 
 }  // namespace
 
-PictureOptions strip_size(std::size_t poses) {
+PictureOptions strip_size(View view, std::size_t poses) {
+  const bool wide = view == View::kPlateau || view == View::kCondyles;
+  const int panel = wide ? kWidePanel : kPanelWidth;
   PictureOptions options;
   const double bars = kBars * kPageHeight / kHeight;
-  options.width = std::min(kWidest, static_cast<int>(bars) + kPanelWidth * static_cast<int>(poses));
+  options.width = std::min(kWidest, static_cast<int>(bars) + panel * static_cast<int>(poses));
   options.width = std::max(options.width, 2 * kPanelWidth + static_cast<int>(bars));
   options.height = kPageHeight;
   return options;
@@ -65,7 +67,7 @@ Image draw_strip(const Run& run,
     const std::size_t pose = poses[static_cast<std::size_t>(i)];
     Image image = pictures.draw(view, pose);
     Canvas on_panel(image);
-    draw_contact_forces({on_panel, s}, pictures.scenery(view, pose));
+    draw_contact_forces({on_panel, s}, panel.width, pictures.scenery(view, pose));
     paste(image, page, i * panel.width, top);
     TextStyle value = pen.style(19, kInk, Align::kCenter);
     value.bold = true;

@@ -8,8 +8,8 @@
 
 namespace condyle {
 
-/// A page that gives n poses room.
-[[nodiscard]] PictureOptions strip_size(std::size_t poses);
+/// A page that gives n poses room: more width for plateau and condyles than for the upright views.
+[[nodiscard]] PictureOptions strip_size(View view, std::size_t poses);
 
 /// `options.width` and `height` are those of the whole page. `poses` must have converged and not be
 /// empty. Throws as KneePictures does.

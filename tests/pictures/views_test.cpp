@@ -138,7 +138,7 @@ TEST(Views, ALineContactIsALineBetweenItsEnds) {
 
 TEST(Views, AStripHoldsThePosesSideBySide) {
   const auto run = block_run();
-  const PictureOptions size = strip_size(3);
+  const PictureOptions size = strip_size(View::kAnterior, 3);
   const Image strip = draw_strip(run, View::kAnterior, {0, 1, 2}, size);
   EXPECT_EQ(strip.width, size.width);
   EXPECT_EQ(strip.height, size.height);
