@@ -19,7 +19,10 @@ double tick_step(double range) {
 
 }  // namespace
 
-void draw_color_bar(const Pen& pen, const ColorBar& bar, const Frame& place) {
+void draw_color_bar(const Pen& pen, const ColorBar& bar, const Frame& wanted) {
+  // On whole pixels: two halves of a pixel laid over each other would let the paper through.
+  const Frame place{std::round(wanted.left), std::round(wanted.top), std::round(wanted.right),
+                    std::round(wanted.bottom)};
   const double height = place.bottom - place.top;
   const int rows = static_cast<int>(std::lround(height));
   for (int i = 0; i < rows; ++i) {

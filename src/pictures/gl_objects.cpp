@@ -97,6 +97,8 @@ void MeshBuffer::fill(const ShadedMesh& mesh) {
                static_cast<GLsizeiptr>(mesh.triangles.size() * sizeof mesh.triangles[0]),
                mesh.triangles.data(), GL_STATIC_DRAW);
   count_ = static_cast<GLsizei>(3 * mesh.triangles.size());
+  box_.setEmpty();
+  for (const ShadedVertex& vertex : mesh.vertices) box_.extend(vertex.position);
 }
 
 void MeshBuffer::draw() const {

@@ -9,6 +9,8 @@
 #include <GL/glext.h>
 #include <GL/osmesa.h>
 
+#include <Eigen/Geometry>
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -52,11 +54,14 @@ class MeshBuffer {
   MeshBuffer(const MeshBuffer&) = delete;
   MeshBuffer& operator=(const MeshBuffer&) = delete;
   void fill(const ShadedMesh& mesh);
+  /// Around all vertices; empty where there are none.
+  [[nodiscard]] const Eigen::AlignedBox3f& box() const { return box_; }
   void draw() const;
 
  private:
   GLuint array_ = 0, vertices_ = 0, indices_ = 0;
   GLsizei count_ = 0;
+  Eigen::AlignedBox3f box_;
 };
 
 /// A place to draw into: one colour image and, if asked, depth.

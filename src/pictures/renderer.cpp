@@ -53,6 +53,7 @@ struct Renderer::State {
             const Camera& camera,
             const std::vector<Item>& items,
             Layer layer) const;
+  void limit_to(const Camera& camera, const std::vector<Item>& items) const;
   void find_light(const Camera& camera, const std::vector<Item>& items) const;
   void draw_page(const Camera& camera, const std::vector<Item>& items) const;
   [[nodiscard]] Image read_back() const;
@@ -86,6 +87,33 @@ void Renderer::State::draw(const ShaderProgram& program,
   }
 }
 
+/// Restricts the passes over the page at half size to where something is drawn, and a rim that
+/// smoothing looks at.
+void Renderer::State::limit_to(const Camera& camera, const std::vector<Item>& items) const {
+  Eigen::AlignedBox2d covered;
+  for (const Item& item : items) {
+    const Eigen::AlignedBox3f& box = meshes[static_cast<std::size_t>(item.mesh)]->box();
+    if (box.isEmpty() || item.layer == Layer::kMark) continue;
+    for (int corner = 0; corner < 8; ++corner) {
+      const auto which = static_cast<Eigen::AlignedBox3f::CornerType>(corner);
+      covered.extend(camera.project(item.X_PM * box.corner(which).cast<double>()).head<2>().eval());
+    }
+  }
+  if (covered.isEmpty()) covered.extend(Eigen::Vector2d(0, 0));
+  constexpr double kRim = 4;  // [pixel] at half size
+  const double high = surfaces.height();
+  const Eigen::Vector2d low = 0.5 * covered.min(), top = 0.5 * covered.max();
+  const auto within = [](double x, double end) {
+    return static_cast<GLint>(std::clamp(x, 0.0, end));
+  };
+  const GLint left = within(low.x() - kRim, surfaces.width()),
+              right = within(top.x() + kRim + 1, surfaces.width()),
+              bottom = within(high - top.y() - kRim, high),
+              upper = within(high - low.y() + kRim + 1, high);
+  glScissor(left, bottom, std::max(1, right - left), std::max(1, upper - bottom));
+  glEnable(GL_SCISSOR_TEST);
+}
+
 /// Ambient occlusion of the nearest surface, solid or bone.
 void Renderer::State::find_light(const Camera& camera, const std::vector<Item>& items) const {
   const auto mm_per_pixel = static_cast<float>(camera.mm_per_pixel * width / surfaces.width());
@@ -98,6 +126,7 @@ void Renderer::State::find_light(const Camera& camera, const std::vector<Item>& 
   for (const Layer layer : {Layer::kSolid, Layer::kBone}) draw(geometry, camera, items, layer);
 
   glDisable(GL_DEPTH_TEST);
+  limit_to(camera, items);
   glBindVertexArray(no_vertices);
   surfaces.bind_texture(0);
   noisy.bind();
@@ -113,6 +142,7 @@ void Renderer::State::find_light(const Camera& camera, const std::vector<Item>& 
   glUniform1i(smooth.uniform("noisy"), 1);
   glUniform1f(smooth.uniform("mm_per_pixel"), mm_per_pixel);
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_SCISSOR_TEST);
 }
 
 void Renderer::State::draw_page(const Camera& camera, const std::vector<Item>& items) const {

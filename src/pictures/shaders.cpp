@@ -113,6 +113,7 @@ out vec4 color;
 const vec3 kKey = vec3(-0.48, 0.62, 0.62);
 const vec3 kFill = vec3(0.77, 0.10, 0.63);
 const vec3 kRim = vec3(0.25, 0.55, -0.80);
+const vec3 kPower = vec3(0.9483, 0.0986, -0.0469);
 void main() {
   vec3 n = normalize(gl_FrontFacing ? n_V : -n_V);
   float open = texture(occlusion, gl_FragCoord.xy / page).r;
@@ -124,12 +125,21 @@ void main() {
   vec3 light = around + vec3(0.62, 0.60, 0.565) * key * mix(0.55, 1.0, open) + vec3(0.13, 0.14, 0.17) * fill * open;
   vec3 lit = paint.rgb * light + 0.18 * rim * open;
   vec3 half_way = normalize(kKey + vec3(0.0, 0.0, 1.0));
-  lit += gloss * pow(max(0.0, dot(n, half_way)), 40.0) * open;
+  float shine = max(0.0, dot(n, half_way));
+  shine *= shine;        // to the power of 40, by squares
+  shine *= shine;
+  shine *= shine;
+  float fourth = shine * shine;
+  lit += gloss * fourth * fourth * shine * open;
   // A darker edge sets pale bone off from the white page.
   lit *= mix(0.62, 1.0, smoothstep(0.0, 0.45, facing));
   vec2 inward = min(gl_FragCoord.xy, page - gl_FragCoord.xy);
   float ink = smoothstep(0.1, 1.0, min(inward.x, inward.y) / fade);
-  color = vec4(mix(vec3(1.0), pow(min(lit, vec3(1.0)), vec3(1.0 / 2.2)), ink), paint.a);
+  // x to the power of 1/2.2 within 0.004, by square roots: several times cheaper than pow.
+  vec3 half_power = sqrt(clamp(lit, vec3(0.0), vec3(1.0)));
+  vec3 quarter = sqrt(half_power);
+  vec3 encoded = half_power * kPower.x + quarter * kPower.y + half_power * half_power * kPower.z;
+  color = vec4(mix(vec3(1.0), encoded, ink), paint.a);
 })";
 
 }  // namespace condyle::shaders

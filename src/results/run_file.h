@@ -38,7 +38,7 @@ struct Run {
   std::optional<Comparison> comparison = {};  ///< of `condyle compare`
   std::optional<LaxityResult> laxity = {};    ///< of `condyle laxity`
   std::vector<std::string> start = {};        ///< of a fit: what start_warnings found
-  std::optional<Simulation> simulation = {};  ///< of `condyle simulate`; written, not read back
+  std::optional<Simulation> simulation = {};  ///< of `condyle simulate`; read back without poses
 };
 
 /// Writes to a temporary file beside `path` and renames it: never a half-written file. Throws

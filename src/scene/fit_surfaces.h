@@ -39,6 +39,9 @@ struct FittedSurface {
   TriangleMesh region = {};         ///< patches only: the part of the mesh that was fitted
 };
 
+/// A described surface of any kind but a patch.
+[[nodiscard]] std::unique_ptr<Surface> make_exact_surface(const SurfaceDescription& surface);
+
 /// One entry per Scene::surfaces. Throws InputError for meshes that cannot be used.
 [[nodiscard]] std::vector<FittedSurface> fit_surfaces(const Scene& scene);
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -58,7 +59,7 @@ TEST(PlotRun, WritesPicturesOfEveryChart) {
   run.scene.title = "O'Brien's knee `date` \"x\" \\ $HOME_ {a}^2";
   run.sweep.poses[1].status = PoseStatus::kDiverged;
   const auto files = plot_run(run, fresh_folder(), {PlotFormat::kPng, PlotFormat::kSvg});
-  ASSERT_EQ(files.size(), 6u);
+  ASSERT_EQ(files.size(), 12u);  // six charts: no energy without a motion, no stability
   for (const auto& file : files) {
     if (file.extension() != ".png") continue;
     const Image image = read_png(file);
@@ -75,11 +76,115 @@ TEST(PlotRun, ARunWithoutAnyValueStillPlots) {
   if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   auto run = block_run();
   for (PoseResult& pose : run.sweep.poses) pose.status = PoseStatus::kDiverged;
-  EXPECT_EQ(plot_run(run, fresh_folder(), {PlotFormat::kPng}).size(), 3u);
+  EXPECT_EQ(plot_run(run, fresh_folder(), {PlotFormat::kPng}).size(), 3u)
+      << "joint coordinates and forces, with empty axes";
 }
 
 TEST(PlotRun, AFolderThatDoesNotExistIsNamed) {
   EXPECT_THROW((void)plot_run(block_run(), "no/such/folder", {PlotFormat::kPng}), InputError);
+}
+
+TEST(PlotRun, PlacesOfContactAreThoseOfTheTibia) {
+  // The medial contact of the blocks goes back by 4 mm a pose, at 15 mm to the medial side.
+  for (const double side : {1.0, -1.0}) {
+    auto run = block_run(side);
+    run.scene.joint->tibia.origin = {1, 0, 0};
+    run.sweep.poses[2].contacts[0].closed = false;
+    const Chart chart = contact_place_chart(run);
+    const Curve &forward = chart.panels.at(0).curves.at(0),
+                &outward = chart.panels.at(1).curves.at(0);
+    EXPECT_DOUBLE_EQ(forward.y[1], -4 - 1);
+    EXPECT_DOUBLE_EQ(outward.y[1], -15) << "lateral is positive on either side";
+    EXPECT_TRUE(std::isnan(forward.y[2])) << "an open contact has no place";
+  }
+}
+
+TEST(PlotRun, OfTheStrandsTheGreatestStrainCounts) {
+  auto run = block_run();
+  run.sweep.poses[0].ligaments[1].strain = 0.03;
+  const Chart chart = ligament_strain_chart(run);
+  EXPECT_DOUBLE_EQ(chart.panels.at(0).curves.at(1).y[0], 3);   // %
+  EXPECT_DOUBLE_EQ(chart.panels.at(0).curves.at(1).y[1], -5);  // both strands
+}
+
+TEST(PlotRun, ASweptLoadIsShownByItsSize) {
+  auto run = block_run();
+  LoadDescription load;
+  load.name = "drawer";
+  load.vector = {0, 3, 4};
+  run.scene.loads = {load};
+  run.scene.sweep = SweepDescription{true, 0, "drawer.scale", {}};
+  const Chart chart = contact_force_chart(run);
+  EXPECT_EQ(chart.x_label, "drawer [N]");
+  EXPECT_DOUBLE_EQ(chart.panels.at(0).curves.at(0).x[2], 5);  // scale 1 of a load of 5 N
+}
+
+TEST(PlotRun, EnergiesAreThoseSinceTheStart) {
+  auto run = block_run();
+  EXPECT_TRUE(energy_chart(run).panels.empty());
+  run.simulation.emplace();
+  run.simulation->motion.frames.resize(2);
+  MotionFrame &first = run.simulation->motion.frames[0], &last = run.simulation->motion.frames[1];
+  first.energy.gravity = 5000;
+  last.state.t = 0.1;
+  last.energy.gravity = 3000;
+  last.energy.kinetic = 1999;  // N mm; 1 of 2000 is lost
+  const Chart chart = energy_chart(run);
+  EXPECT_DOUBLE_EQ(chart.panels.at(0).curves.at(1).y[1], -2);  // J
+  EXPECT_EQ(chart.panels.at(1).y_label, "Balance [mJ]");
+  EXPECT_NEAR(chart.panels.at(1).curves.at(0).y[1], -1, 1e-12);
+}
+
+TEST(PlotRun, RunsOverEachOtherShareColoursAndDifferInLines) {
+  auto a = block_run(), b = block_run();
+  b.scene.contacts[0].name = "middle";
+  const auto charts = overlay({{"first", &a}, {"second", &b}});
+  const auto forces = std::find_if(charts.begin(), charts.end(), [](const auto& chart) {
+    return chart.name == "contact_forces";
+  });
+  ASSERT_NE(forces, charts.end());
+  const std::vector<Curve>& curves = forces->chart.panels.at(0).curves;
+  ASSERT_EQ(curves.size(), 4u);  // medial, lateral, middle, lateral
+  EXPECT_EQ(curves[1].color, curves[3].color) << "lateral of both runs";
+  EXPECT_NE(curves[1].style, curves[3].style);
+  EXPECT_NE(curves[2].color, curves[0].color);
+  EXPECT_EQ(forces->chart.runs, (std::vector<std::string>{"first", "second"}));
+  const std::string script = gnuplot_script(forces->chart, "file.png", PlotFormat::kPng);
+  EXPECT_NE(script.find("title 'first'"), std::string::npos);
+  const std::size_t once = script.find("title 'lateral'");
+  EXPECT_NE(once, std::string::npos);
+  EXPECT_EQ(script.find("title 'lateral'", once + 1), std::string::npos);
+}
+
+TEST(PlotRun, ManyCurvesOfSeveralRunsAreDividedSoThatNoColourStandsForTwo) {
+  auto run = block_run();
+  run.scene.contacts.resize(11);
+  for (std::size_t i = 0; i < 11; ++i) run.scene.contacts[i].name = std::string(i + 1, 'c');
+  for (PoseResult& pose : run.sweep.poses) pose.contacts.resize(11);
+  const auto charts = overlay({{"first", &run}, {"second", &run}});
+  EXPECT_EQ(charts.at(1).chart.panels.size(), 2u);
+  for (const Panel& panel : charts.at(1).chart.panels)
+    for (const Curve& curve : panel.curves) EXPECT_LT(curve.color, 8);
+}
+
+TEST(PlotRun, RunsOverDifferentQuantitiesAreRefused) {
+  auto angle = block_run(), load = block_run();
+  load.scene.sweep->varies_load = true;
+  load.scene.loads.resize(1);
+  EXPECT_THROW((void)overlay({{"a", &angle}, {"b", &load}}), InputError);
+  auto nothing = block_run();
+  nothing.sweep.poses.clear();
+  EXPECT_THROW((void)overlay({{"a", &angle}, {"b", &nothing}}), InputError);
+}
+
+TEST(PlotRun, WritesPdf) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  const auto files = plot_run(block_run(), fresh_folder(), {PlotFormat::kPdf});
+  ASSERT_FALSE(files.empty());
+  std::stringstream pdf;
+  pdf << std::ifstream(files[0], std::ios::binary).rdbuf();
+  EXPECT_EQ(pdf.str().substr(0, 5), "%PDF-");
+  EXPECT_GT(pdf.str().size(), 3000u);
 }
 
 TEST(RunProgram, AMissingProgramIsSaid) {
@@ -99,7 +204,7 @@ TEST(RunProgram, CollectsWhatTheProgramComplainsOf) {
 }
 
 TEST(PlotRun, ACurveMayBeDashedInTheColourOfAnother) {
-  Chart chart{"title", "x", {{"y", {}}}};
+  Chart chart{"title", "what", "x", {{"y", {}}}};
   chart.panels[0].curves = {{"first", {0, 1}, {0, 1}, 3, false}, {"", {0, 1}, {1, 2}, 3, true}};
   const std::string script = gnuplot_script(chart, "file.png", PlotFormat::kPng);
   const std::size_t first = script.find("linecolor '#CC79A7' dashtype 1");
