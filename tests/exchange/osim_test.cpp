@@ -117,7 +117,6 @@ class BrokenModel : public testing::Test {
 };
 
 TEST_F(BrokenModel, IsNamedWithWhatIsMissing) {
-  using test::with;
   expect_error("<OpenSimDocument Version=\"40000\">\n<Model>\n</Modl>",
                ":3: Start-end tags mismatch, expected an OpenSim model (XML)");
   expect_error("<other/>", ": holds no Model, expected an OpenSim model");
