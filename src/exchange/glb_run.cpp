@@ -253,7 +253,9 @@ class GlbRun {
 std::string glb_of_poses(const Run& run,
                          const std::vector<ShownPose>& shown,
                          const ShapeOptions& options) {
-  return glb_bytes(GlbRun(run, shown).document(options));
+  ShapeOptions shapes = options;
+  shapes.drop_covered = true;
+  return glb_bytes(GlbRun(run, shown).document(shapes));
 }
 
 std::string glb_of_run(const Run& run, const std::string& file, const ShapeOptions& options) {
