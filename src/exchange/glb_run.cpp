@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "exchange/glb_file.h"
+#include "exchange/glb_solids.h"
 #include "results/run_layout.h"
 
 namespace condyle {
@@ -39,56 +38,6 @@ GlbMesh glb_mesh(const RunShape& shape) {
                               static_cast<std::uint32_t>(t[2])});
   }
   return mesh;
-}
-
-/// Turned about y: a profile of rings (radius, height, normal's share outwards and upwards).
-struct Ring {
-  double radius, height, outward, upward;
-};
-GlbMesh turned(const std::string& name, int material, const std::vector<Ring>& rings) {
-  constexpr std::uint32_t kSides = 16;
-  GlbMesh mesh;
-  mesh.name = name;
-  mesh.material = material;
-  for (const Ring& ring : rings) {
-    for (std::uint32_t i = 0; i < kSides; ++i) {
-      const double angle = 2 * std::numbers::pi * i / kSides, c = std::cos(angle),
-                   s = std::sin(angle);
-      mesh.positions.push_back(
-          Vector3d(ring.radius * s, ring.height, ring.radius * c).cast<float>());
-      mesh.normals.push_back(
-          Vector3d(ring.outward * s, ring.upward, ring.outward * c).normalized().cast<float>());
-    }
-  }
-  for (std::uint32_t r = 0; r + 1 < rings.size(); ++r) {
-    for (std::uint32_t i = 0; i < kSides; ++i) {
-      const std::uint32_t a = r * kSides + i, b = r * kSides + (i + 1) % kSides;
-      mesh.triangles.push_back({a, b, b + kSides});
-      mesh.triangles.push_back({a, b + kSides, a + kSides});
-    }
-  }
-  return mesh;
-}
-
-/// From y = 0 to y = 1, with ends.
-GlbMesh unit_cylinder(double radius) {
-  return turned("ligament", kLigament,
-                {{0, 0, 0, -1},
-                 {radius, 0, 0, -1},
-                 {radius, 0, 1, 0},
-                 {radius, 1, 1, 0},
-                 {radius, 1, 0, 1},
-                 {0, 1, 0, 1}});
-}
-
-GlbMesh ball(double radius) {
-  std::vector<Ring> rings;
-  for (int i = 0; i <= 10; ++i) {
-    const double latitude = std::numbers::pi * (i / 10.0 - 0.5);
-    const double out = i == 0 || i == 10 ? 0 : std::cos(latitude), up = std::sin(latitude);
-    rings.push_back({radius * out, radius * up, out, up});
-  }
-  return turned("contact", kContact, rings);
 }
 
 /// Many strands of one ligament are drawn thinner [mm].
@@ -196,7 +145,8 @@ class GlbRun {
 
   void add_ligaments() {
     if (scene_.ligaments.empty()) return;
-    const int cylinder = add_mesh(unit_cylinder(kMetre * ligament_radius(scene_.ligaments.size())));
+    const int cylinder = add_mesh(
+        unit_cylinder("ligament", kLigament, kMetre * ligament_radius(scene_.ligaments.size())));
     for (std::size_t i = 0; i < scene_.ligaments.size(); ++i) {
       GlbNode node;
       node.name = "ligament " + scene_.ligaments[i].name;
@@ -229,7 +179,7 @@ class GlbRun {
 
   void add_contacts() {
     if (scene_.contacts.empty()) return;
-    const int sphere = add_mesh(ball(kMetre * kContactRadius));
+    const int sphere = add_mesh(ball("contact", kContact, kMetre * kContactRadius));
     for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
       GlbNode node;
       node.name = "contact " + scene_.contacts[i].name;

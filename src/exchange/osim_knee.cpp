@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "exchange/osim_frames.h"
+#include "exchange/osim_strands.h"
 #include "input_error.h"
 
 namespace condyle {
@@ -53,8 +53,7 @@ class KneeFinder {
     find_contacts();
     find_anatomy();
     find_bones();
-    for (const OsimLigament& ligament : model_.ligaments) add_ligament(ligament);
-    note_ligaments();
+    find_ligaments();
     note_rest();
     return std::move(knee_);
   }
@@ -62,10 +61,6 @@ class KneeFinder {
  private:
   [[noreturn]] void fail(const std::string& message) const {
     throw InputError(file_ + ": " + message);
-  }
-
-  [[nodiscard]] OsimPlace place_of(const OsimPathPoint& point, const OsimLigament& ligament) const {
-    return frames_.find(point.frame, "", "Blankevoort1991Ligament \"" + ligament.name + "\"");
   }
 
   [[nodiscard]] OsimPlace parent_of(const OsimJoint& joint) const {
@@ -80,8 +75,8 @@ class KneeFinder {
                 b = frames_.welded_to(child_of(joint).body);
     int count = 0;
     for (const OsimLigament& ligament : model_.ligaments) {
-      const std::string first = place_of(ligament.points.front(), ligament).body,
-                        last = place_of(ligament.points.back(), ligament).body;
+      const std::string first = place_of(frames_, ligament, ligament.points.front()).body,
+                        last = place_of(frames_, ligament, ligament.points.back()).body;
       if ((a.count(first) && b.count(last)) || (b.count(first) && a.count(last))) ++count;
     }
     return count;
@@ -266,66 +261,12 @@ class KneeFinder {
     }
   }
 
-  void add_ligament(const OsimLigament& ligament) {
-    std::vector<Vector3d> femur, tibia;  // points in the order of the path
-    int changes = 0;
-    bool plain = ligament.applies, starts_on_femur = true;
-    for (const OsimPathPoint& point : ligament.points) {
-      const OsimPlace place = place_of(point, ligament);
-      const bool on_femur = in_femur_.count(place.body) > 0;
-      plain = plain && point.type == "PathPoint" && (on_femur || in_tibia_.count(place.body));
-      if (!plain) break;
-      if (femur.empty() && tibia.empty())
-        starts_on_femur = on_femur;
-      else if (on_femur != last_on_femur_)
-        ++changes;
-      last_on_femur_ = on_femur;
-      (on_femur ? femur : tibia).push_back(in(on_femur ? in_femur_ : in_tibia_, place) * point.at);
-    }
-    if (!plain || changes != 1) {
-      left_out_.push_back(ligament.name);
-      return;
-    }
-    if (ligament.wraps) straightened_.push_back(ligament.name);
-    if (!starts_on_femur) {
-      std::reverse(femur.begin(), femur.end());
-      std::reverse(tibia.begin(), tibia.end());
-    }
-    add_strand(ligament, femur, tibia);
-  }
-
-  /// What of the path lies along one bone keeps its length. A strand without it has the same force
-  /// at every length where k, ε_t and l₀ are rescaled.
-  void add_strand(const OsimLigament& ligament,
-                  const std::vector<Vector3d>& femur,
-                  const std::vector<Vector3d>& tibia) {
-    double along = 0;
-    for (const auto* points : {&femur, &tibia})
-      for (std::size_t i = 1; i < points->size(); ++i)
-        along += ((*points)[i] - (*points)[i - 1]).norm();
-    const double free = ligament.slack_length - along;
-    if (!(free > 0)) {
-      left_out_.push_back(ligament.name);
-      return;
-    }
-    if (along > 0) shortened_.push_back(ligament.name);
-    const double part = free / ligament.slack_length;
-    knee_.ligaments.push_back({ligament.name, femur.back(), tibia.front(),
-                               ligament.stiffness * part, ligament.transition_strain / part, free});
-  }
-
-  void note(const std::string& what, const std::vector<std::string>& names) {
-    if (!names.empty())
-      knee_.notes.push_back(fmt::format("{} {}: {}", names.size(), what, fmt::join(names, ", ")));
-  }
-
-  void note_ligaments() {
+  void find_ligaments() {
+    OsimStrands strands = find_strands(model_, frames_, in_femur_, in_tibia_);
+    knee_.ligaments = std::move(strands.strands);
     if (knee_.ligaments.empty())
       fail(fmt::format("no ligament leads straight across {}", knee_.joint));
-    note("strands with a wrap object, taken as straight lines", straightened_);
-    note("strands with points along a bone, replaced by their free part", shortened_);
-    note("strands to other bones, over both bones twice, or without force", left_out_);
-    knee_.notes.emplace_back("damping of the ligaments");
+    for (std::string& note : strands.notes) knee_.notes.push_back(std::move(note));
   }
 
   void note_rest() {
@@ -334,7 +275,8 @@ class KneeFinder {
     std::vector<std::string> others;
     for (const std::string& body : model_.bodies)
       if (!in_femur_.count(body) && !in_tibia_.count(body)) others.push_back(body);
-    note("other bodies", others);
+    if (!others.empty())
+      knee_.notes.push_back("other bodies: " + fmt::format("{}", fmt::join(others, ", ")));
   }
 
   const OsimModel& model_;
@@ -342,9 +284,8 @@ class KneeFinder {
   const OsimOptions& options_;
   OsimFrames frames_;
   const OsimJoint* joint_ = nullptr;
-  bool reversed_ = false, last_on_femur_ = false;
+  bool reversed_ = false;
   Poses in_femur_, in_tibia_;  ///< bodies welded to either bone
-  std::vector<std::string> straightened_, shortened_, left_out_;
   OsimKnee knee_;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "exchange/osim_model.h"
+#include "exchange/osim_strands.h"
 #include "scene/scene.h"
 
 namespace condyle {
@@ -27,12 +28,6 @@ struct OsimBody {
 struct OsimPair {
   std::optional<Compartment> compartment;
   OsimMesh femur, tibia;
-};
-
-struct OsimStrand {
-  std::string name;
-  Eigen::Vector3d femur, tibia;  ///< ends in the frames of the two bodies [mm]
-  double stiffness = 0, transition_strain = 0, slack_length = 0;
 };
 
 struct OsimKnee {
