@@ -84,19 +84,22 @@ class KneeFinder {
 
   void choose_joint() {
     int most = 0;
+    const OsimJoint* rival = nullptr;  // spanned by as many
     std::vector<std::string> names;
     for (const OsimJoint& joint : model_.joints) {
       names.push_back(joint.name);
       if (joint.type == "WeldJoint") continue;
       if (!options_.joint.empty() && joint.name != options_.joint) continue;
       const int count = spanning_ligaments(joint);
-      if (count == most && count > 0) {
-        fail(fmt::format("as many ligaments span {} as {}, expected --joint to name one of them",
-                         joint.name, joint_->name));
-      }
+      if (count == most && count > 0) rival = &joint;
       if (count <= most) continue;
       most = count;
       joint_ = &joint;
+      rival = nullptr;
+    }
+    if (rival) {
+      fail(fmt::format("as many ligaments span {} as {}, expected --joint to name one of them",
+                       joint_->name, rival->name));
     }
     if (joint_) {
       knee_.joint = joint_->name;

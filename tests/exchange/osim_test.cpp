@@ -159,6 +159,42 @@ TEST_F(BrokenModel, NeedsAKneeWithLigamentsAndContacts) {
                "meshes of femur and tibia");
 }
 
+TEST(OsimImport, AsksWhichJointAndWhichSideIsMeant) {
+  const auto message = [](const OsimModel& model, const OsimOptions& options) -> std::string {
+    try {
+      return find_knee(model, "m.osim", options).joint;
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  OsimModel model = read_osim(kModel);
+  OsimOptions options;
+  options.joint = "hip_r";
+  EXPECT_EQ(message(model, options),
+            "m.osim: --joint hip_r: no ligament spans a joint of this name, expected one of "
+            "femur_femur_distal_r, knee_r, pf_r, tibia_tibia_proximal_r");
+  for (OsimJoint& joint : model.joints)
+    if (joint.name == "knee_r") joint.name = "knee";
+  for (std::string& body : model.bodies)
+    if (body == "femur_distal_r") body = "femur";
+  for (OsimJoint& joint : model.joints)
+    for (std::string* path : {&joint.parent, &joint.child})
+      if (*path == "/bodyset/femur_distal_r") *path = "/bodyset/femur";
+  for (OsimMesh& mesh : model.contact_meshes)
+    if (mesh.frame == "/bodyset/femur_distal_r") mesh.frame = "/bodyset/femur";
+  for (OsimLigament& ligament : model.ligaments)
+    for (OsimPathPoint& point : ligament.points)
+      if (point.frame == "/bodyset/femur_distal_r") point.frame = "/bodyset/femur";
+  EXPECT_EQ(message(model, {}),
+            "m.osim: joint knee: its name does not end in _r or _l, expected --side");
+  options = {};
+  options.side = Side::kLeft;
+  const OsimKnee left = find_knee(model, "m.osim", options);
+  // z points to the right, which is inwards in a left knee.
+  EXPECT_LT((left.femur.lateral + Eigen::Vector3d::UnitZ()).norm(), 1e-15);
+  EXPECT_LT((left.femur.anterior - Eigen::Vector3d::UnitX()).norm(), 1e-15);
+}
+
 // The very model that the specimen's scene was made of, where somebody has put it there.
 TEST(OsimImport, FindsTheLigamentsOfLenhart2015) {
   const fs::path folder = CONDYLE_SOURCE_DIR "/../shared/specimens/lenhart2015";
