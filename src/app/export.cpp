@@ -77,22 +77,14 @@ std::string file_ending(const ExportCommand& command) {
 int report_failures(const ExportCommand& command, const Run& run) {
   const ShownUnit unit = shown_unit(run.scene);
   int status = 0;
-  const auto shown = [&](const PoseResult& pose) { return unit.per_inside * pose.value; };
   std::vector<const PoseResult*> asked;
-  for (const PoseResult& pose : run.sweep.poses) asked.push_back(&pose);
-  if (!command.at.empty()) {
-    std::vector<const PoseResult*> nearest;
-    for (const double value : command.at) {
-      nearest.push_back(*std::min_element(
-          asked.begin(), asked.end(), [&](const PoseResult* a, const PoseResult* b) {
-            return std::abs(shown(*a) - value) < std::abs(shown(*b) - value);
-          }));
-    }
-    asked = nearest;
-  }
+  for (const double value : command.at)
+    asked.push_back(&run.sweep.poses[nearest_pose_of(run, command.run, value)]);
+  if (command.at.empty())
+    for (const PoseResult& pose : run.sweep.poses) asked.push_back(&pose);
   for (const PoseResult* pose : asked) {
     if (pose->converged()) continue;
-    fmt::print(stderr, "condyle: left out {:g} {}: {}\n", shown(*pose), unit.name,
+    fmt::print(stderr, "condyle: left out {:g} {}: {}\n", unit.per_inside * pose->value, unit.name,
                name(pose->status));
     status = kSomePoseFailed;
   }

@@ -67,35 +67,35 @@ std::vector<ShownPose> shown_poses(const Run& run, const std::string& file) {
   return shown;
 }
 
+std::size_t nearest_pose_of(const Run& run, const std::string& file, double value) {
+  const std::vector<PoseResult>& poses = run.sweep.poses;
+  const ShownUnit unit = shown_unit(run.scene);
+  double low = std::numeric_limits<double>::infinity(), high = -low, least = low;
+  std::size_t nearest = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const double shown = unit.per_inside * poses[i].value;
+    low = std::min(low, shown);
+    high = std::max(high, shown);
+    if (!(std::abs(shown - value) < least)) continue;
+    least = std::abs(shown - value);
+    nearest = i;
+  }
+  const double margin = 0.02 * (high - low) + 0.5;
+  if (value > low - margin && value < high + margin) return nearest;
+  throw InputError(
+      fmt::format("--at {:g}: {} holds {:g} to {:g} {}", value, file, low, high, unit.name));
+}
+
 std::vector<ShownPose> shown_poses_at(const Run& run,
                                       const std::string& file,
                                       const std::vector<double>& values) {
   const std::vector<ShownPose> all = shown_poses(run, file);
-  const ShownUnit unit = shown_unit(run.scene);
-  const auto shown = [&](const ShownPose& pose) {
-    return unit.per_inside * run.sweep.poses[pose.index].value;
-  };
-  double low = shown(all[0]), high = low;
-  for (const ShownPose& pose : all) {
-    low = std::min(low, shown(pose));
-    high = std::max(high, shown(pose));
-  }
-  const double margin = 0.02 * (high - low) + 0.5;
-  std::vector<bool> chosen(all.size());
-  for (const double value : values) {
-    if (!(value > low - margin && value < high + margin)) {
-      throw InputError(
-          fmt::format("--at {:g}: {} holds {:g} to {:g} {}", value, file, low, high, unit.name));
-    }
-    const auto nearest =
-        std::min_element(all.begin(), all.end(), [&](const ShownPose& a, const ShownPose& b) {
-          return std::abs(shown(a) - value) < std::abs(shown(b) - value);
-        });
-    chosen[static_cast<std::size_t>(nearest - all.begin())] = true;
-  }
+  std::vector<bool> chosen(run.sweep.poses.size());
+  for (const double value : values) chosen[nearest_pose_of(run, file, value)] = true;
   std::vector<ShownPose> poses;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (chosen[i]) poses.push_back(all[i]);
+  for (const ShownPose& pose : all)
+    if (chosen[pose.index]) poses.push_back(pose);
+  if (poses.empty()) throw InputError(file + ": no pose at the values of --at has converged");
   return poses;
 }
 

@@ -24,8 +24,12 @@ inline constexpr double kDegreesPerSecond = 10;
 /// InputError, naming `file`, where no pose has converged.
 [[nodiscard]] std::vector<ShownPose> shown_poses(const Run& run, const std::string& file);
 
-/// Those of the shown poses that are nearest to the values asked for (in the shown unit), each once
-/// and in the order of the run. Throws InputError where a value lies beyond the run.
+/// The pose nearest to a value in the shown unit, converged or not; the first of equals. Throws
+/// InputError where the value lies beyond the run.
+[[nodiscard]] std::size_t nearest_pose_of(const Run& run, const std::string& file, double value);
+
+/// The poses nearest to the values asked for, each once and in the order of the run. One that did
+/// not converge is left out; throws InputError where that leaves none.
 [[nodiscard]] std::vector<ShownPose> shown_poses_at(const Run& run,
                                                     const std::string& file,
                                                     const std::vector<double>& values);

@@ -42,6 +42,17 @@ TEST_F(Exchange, WritesTheFormatThatTheEndingNames) {
   }
 }
 
+TEST_F(Exchange, TakesNoOtherPoseForOneThatFailed) {
+  write_run(folder_ / "run.h5", made_up_run());  // at 0, 0.1 and 0.2 rad; the second failed
+  const Outcome outcome = run("export run.h5 -o a.csv --at 0,5.7");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.err, "condyle: left out 5.72958 deg: singular\n");
+  EXPECT_EQ(contents(folder_ / "a.csv").find("\n2,"), std::string::npos);
+  expect_bad_input(run("export run.h5 -o b.csv --at 5.7"),
+                   "run.h5: no pose at the values of --at has converged");
+  EXPECT_FALSE(fs::exists(folder_ / "b.csv"));
+}
+
 TEST_F(Exchange, NamesWhatItCannotWrite) {
   write_run(folder_ / "run.h5", made_up_run());
   expect_bad_input(run("export run.h5 -o a.fbx"),
