@@ -6,7 +6,7 @@ build_packages=(
   cmake g++ make pkg-config
   libeigen3-dev libassimp-dev libnanoflann-dev libhdf5-dev libtomlplusplus-dev libfmt-dev libcli11-dev
   libosmesa6-dev libpng-dev libfreetype-dev fonts-dejavu-core gnuplot-nox
-  libsundials-dev libgtest-dev libbenchmark-dev hdf5-tools
+  libsundials-dev libssl-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev hdf5-tools
 )
 
 missing_packages() {

@@ -30,6 +30,8 @@ void setup(CLI::App& program, int& status) {
   setup_render(program, status);
   setup_plot(program, status);
 #endif
+  setup_completion(program, status);
+  setup_manual(program, status);
 }
 
 /// CLI11 would only say that a command is missing.

@@ -83,8 +83,10 @@ class Integrator {
     double t = state_.t;
     const auto frames = static_cast<long>(std::ceil(options_.end / options_.interval - 1e-9));
     motion_.completed = true;
-    for (long k = 1; k <= frames && motion_.completed; ++k)
+    for (long k = 1; k <= frames && motion_.completed; ++k) {
       advance(t, start_ + std::min(options_.end, static_cast<double>(k) * options_.interval));
+      if (options_.on_frame) options_.on_frame(static_cast<int>(k), static_cast<int>(frames));
+    }
     add_counts();
     return std::move(motion_);
   }
