@@ -1,0 +1,112 @@
+#include "exchange/shown_poses.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "input_error.h"
+#include "results/run_layout.h"
+#include "scene/sweep_range.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kWholeSweep = 5;      // [s]
+constexpr double kShortestStep = 0.1;  // [s], where the swept value stays the same
+
+/// Change of the swept value from each shown pose to the next, together.
+double whole_change(const Run& run, const std::vector<ShownPose>& shown) {
+  double sum = 0;
+  for (std::size_t i = 1; i < shown.size(); ++i) {
+    sum +=
+        std::abs(run.sweep.poses[shown[i].index].value - run.sweep.poses[shown[i - 1].index].value);
+  }
+  return sum;
+}
+
+}  // namespace
+
+ShownUnit shown_unit(const Scene& scene) {
+  if (scene.simulation) return {"s", 1};
+  if (!scene.sweep) return {"1", 1};
+  const Unit unit = border_sweep_unit(scene);
+  return {unit.name, 1 / unit.factor};
+}
+
+std::vector<ShownPose> shown_poses(const Run& run, const std::string& file) {
+  const std::vector<PoseResult>& poses = run.sweep.poses;
+  std::vector<ShownPose> shown;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (poses[i].converged()) shown.push_back({i, poses[i].value});
+  }
+  if (shown.empty()) {
+    throw InputError(file +
+                     ": holds no pose that converged, expected the result of condyle sweep "
+                     "or simulate");
+  }
+  if (run.scene.simulation) return shown;
+  const ShownUnit unit = shown_unit(run.scene);
+  const double per_value = unit.name == "deg"
+                               ? unit.per_inside / kDegreesPerSecond
+                               : kWholeSweep / std::max(whole_change(run, shown), 1e-12);
+  double time = 0;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (i > 0) {
+      const double step =
+          per_value * std::abs(poses[shown[i].index].value - poses[shown[i - 1].index].value);
+      time += step > 1e-6 ? step : kShortestStep;
+    }
+    shown[i].time = time;
+  }
+  return shown;
+}
+
+RigidTransform body_pose(const Scene& scene, const PoseResult& pose, int body) {
+  return body == scene.moving_body() ? pose.X_BA : RigidTransform();
+}
+
+Vector3d insertion(const Scene& scene, const PoseResult& pose, const Attachment& end) {
+  return body_pose(scene, pose, end.body) * end.at;
+}
+
+const ContactPointResult* strongest_point(const ContactResult& contact) {
+  const auto strongest = std::max_element(
+      contact.points.begin(), contact.points.end(),
+      [](const ContactPointResult& a, const ContactPointResult& b) { return a.force < b.force; });
+  return strongest == contact.points.end() ? nullptr : &*strongest;
+}
+
+Eigen::Matrix3d upright(const Scene& scene) {
+  if (!scene.joint) return Eigen::Matrix3d::Identity();
+  const bool femur_fixed = scene.joint->femur.body == scene.fixed_body();
+  const AnatomicalFrame& frame = femur_fixed ? scene.joint->femur : scene.joint->tibia;
+  Eigen::Matrix3d R;
+  R.row(1) = frame.proximal.normalized();
+  R.row(2) = (frame.anterior - frame.anterior.dot(R.row(1)) * R.row(1).transpose()).normalized();
+  R.row(0) = R.row(1).cross(R.row(2));
+  return R;
+}
+
+Vector3d place_of_interest(const Run& run, int body) {
+  for (const PoseResult& pose : run.sweep.poses) {
+    if (!pose.converged()) continue;
+    for (const ContactResult& contact : pose.contacts) {
+      if (const ContactPointResult* point = strongest_point(contact))
+        return body == run.scene.moving_body() ? point->point_moving : point->point_ground;
+    }
+  }
+  return Vector3d::Zero();
+}
+
+int body_named(const Scene& scene, const std::string& name) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].name == name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+}  // namespace condyle
