@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "pictures/knee_picture.h"
+#include "pictures/plot_run.h"
+#include "pictures/png_file.h"
+#include "pictures/swept_quantity.h"
+#include "report/html.h"
+#include "report/sections.h"
+#include "results/digest.h"
+
+namespace condyle {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostAngles = 4;
+
+/// A folder that is gone with all it holds when the work is done.
+class PassingFolder {
+ public:
+  PassingFolder() {
+    std::string name = (fs::temp_directory_path() / "condyle-report-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw fs::filesystem_error("no folder for pictures", name,
+                                 std::error_code(errno, std::generic_category()));
+    path_ = name;
+  }
+  ~PassingFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  PassingFolder(const PassingFolder&) = delete;
+  PassingFolder& operator=(const PassingFolder&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::string contents(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Evenly over the converged poses, both ends among them.
+std::vector<std::size_t> chosen_poses(const SweepResult& sweep) {
+  std::vector<std::size_t> converged;
+  for (std::size_t i = 0; i < sweep.poses.size(); ++i)
+    if (sweep.poses[i].converged()) converged.push_back(i);
+  const std::size_t n = std::min(kMostAngles, converged.size());
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < n; ++k)
+    chosen.push_back(converged[n == 1 ? 0 : k * (converged.size() - 1) / (n - 1)]);
+  return chosen;
+}
+
+std::string figure(const std::string& source, const std::string& caption) {
+  return fmt::format(
+      "<figure><img src=\"data:image/png;base64,{}\" alt=\"{}\" "
+      "loading=\"lazy\"><figcaption>{}</figcaption>"
+      "</figure>\n",
+      source, escaped(caption), escaped(caption));
+}
+
+/// The same view of several poses, side by side where there is room.
+std::string strip(const Run& run, KneePictures& pictures, View view, const fs::path& folder) {
+  const SweptQuantity swept = swept_quantity(run.scene);
+  std::string out = fmt::format("<div class=\"strip\" data-view=\"{}\">\n", name(view));
+  for (const std::size_t pose : chosen_poses(run.sweep)) {
+    const fs::path file = folder / "picture.png";
+    write_png(file, pictures.draw(view, pose));
+    const std::string caption = fmt::format("{} view, {} {}", name(view), swept.title,
+                                            with_unit(swept, run.sweep.poses[pose].value));
+    out += figure(base64(contents(file)), caption);
+  }
+  return out + "</div>\n";
+}
+
+void replace_all(std::string& text, std::string_view from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+}
+
+/// As a part of a page: no prologue, no name spaces, and names of its own, as several plots share
+/// one page.
+std::string inlined(std::string svg, const std::string& prefix) {
+  const std::size_t begin = svg.find("<svg");
+  if (begin == std::string::npos) return "";
+  svg.erase(0, begin);
+  for (const char* quote : {"\"", "'"}) {
+    const std::string q = quote;
+    replace_all(svg, " id=" + q, " id=" + q + prefix);
+    replace_all(svg, "href=" + q + "#", "href=" + q + "#" + prefix);
+    for (const char* space : {" xmlns=", " xmlns:xlink="}) {
+      const std::size_t at = svg.find(space + q);
+      if (at == std::string::npos) continue;
+      const std::size_t end = svg.find(q, at + std::string(space).size() + 1);
+      svg.erase(at, end + 1 - at);
+    }
+  }
+  replace_all(svg, "url(#", "url(#" + prefix);
+  return svg;
+}
+
+}  // namespace
+
+std::string picture_section(const Run& run) {
+  if (run.sweep.count_converged() == 0 || (run.bodies.empty() && run.patches.empty())) return "";
+  const PassingFolder folder;
+  PictureOptions options;
+  options.width = 800;
+  options.height = 600;
+  KneePictures pictures(run, options);
+  std::string body;
+  for (const View view : {View::kMedial, View::kAnterior, View::kPlateau})
+    body += strip(run, pictures, view, folder.path());
+  return section("pictures", "Pictures", body);
+}
+
+std::string plot_section(const Run& run) {
+  if (run.sweep.count_converged() == 0 && !run.laxity) return "";
+  const PassingFolder folder;
+  std::string body;
+  int count = 0;
+  for (const fs::path& file : plot_run(run, folder.path(), {PlotFormat::kSvg})) {
+    body += "<figure class=\"plot\">" + inlined(contents(file), fmt::format("plot{}-", ++count)) +
+            "</figure>\n";
+  }
+  return section("plots", "Plots", body);
+}
+
+}  // namespace condyle
