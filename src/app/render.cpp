@@ -6,15 +6,19 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "app/commands.h"
 #include "input_error.h"
 #include "pictures/knee_picture.h"
+#include "pictures/movie.h"
 #include "pictures/picture_folder.h"
 #include "pictures/png_file.h"
+#include "pictures/strip.h"
 #include "pictures/swept_quantity.h"
+#include "results/output_file.h"
 #include "results/run_file.h"
 
 namespace condyle {
@@ -23,10 +27,12 @@ namespace {
 constexpr int kSomePoseFailed = 2;
 
 struct RenderCommand {
-  std::string run, folder;
-  std::vector<double> at;  // degrees, mm or a factor, as swept
+  std::string run, output;
+  std::vector<double> at;  // degrees, mm, s or a factor, as swept
   std::vector<std::string> views = {"anterior", "medial", "plateau"};
-  std::string size = "1200x900";
+  std::string size;
+  bool proximity = false, hertz = false, strip = false, movie = false;
+  int frames_per_second = 10;
 };
 
 PictureOptions parse_size(const std::string& text) {
@@ -67,7 +73,7 @@ std::vector<std::size_t> chosen_poses(const RenderCommand& command,
   if (run.sweep.poses.empty())
     throw InputError(command.run + ": holds no poses, expected the result of condyle sweep");
   const Range stored = stored_range(run, swept);
-  const double tolerance = 0.02 * (stored.high - stored.low) + 0.5;
+  const double tolerance = 0.02 * (stored.high - stored.low) + (swept.unit == "s" ? 0 : 0.5);
   std::vector<std::size_t> poses;
   for (const double place : command.at.empty() ? default_places(stored, swept) : command.at) {
     if (!(place > stored.low - tolerance && place < stored.high + tolerance)) {
@@ -80,41 +86,155 @@ std::vector<std::size_t> chosen_poses(const RenderCommand& command,
   return poses;
 }
 
-// anterior_060.png, plateau_m005.png, medial_037.5.png
-std::string file_name(View view, double shown) {
-  const double rounded = std::round(100 * shown) / 100;
+// Poses of a movie: all that converged, or those asked for.
+std::vector<std::size_t> movie_poses(const RenderCommand& command,
+                                     const Run& run,
+                                     const SweptQuantity& swept) {
+  if (!command.at.empty()) return chosen_poses(command, run, swept);
+  std::vector<std::size_t> poses(run.sweep.poses.size());
+  std::iota(poses.begin(), poses.end(), std::size_t{0});
+  return poses;
+}
+
+// Leaves out what did not converge, and says so.
+int keep_converged(const Run& run, const SweptQuantity& swept, std::vector<std::size_t>& poses) {
+  int status = 0;
+  std::erase_if(poses, [&](std::size_t pose) {
+    const PoseResult& result = run.sweep.poses[pose];
+    if (result.converged()) return false;
+    fmt::print(stderr, "condyle: no picture at {}: {}\n", with_unit(swept, result.value),
+               name(result.status));
+    status = kSomePoseFailed;
+    return true;
+  });
+  return status;
+}
+
+// anterior_060, plateau_m005, medial_037.5
+std::string file_stem(View view, double shown) {
+  const double rounded = std::round(1e4 * shown) / 1e4;
   const double magnitude = std::abs(rounded), whole = std::floor(magnitude);
   std::string fraction =
-      magnitude > whole ? fmt::format("{:g}", std::round(100 * (magnitude - whole)) / 100).substr(1)
+      magnitude > whole ? fmt::format("{:g}", std::round(1e4 * (magnitude - whole)) / 1e4).substr(1)
                         : "";
-  return fmt::format("{}_{}{:03.0f}{}.png", name(view), rounded < 0 ? "m" : "", whole, fraction);
+  return fmt::format("{}_{}{:03.0f}{}", name(view), rounded < 0 ? "m" : "", whole, fraction);
+}
+
+bool holds_pressures(const Run& run) {
+  for (const PoseResult& pose : run.sweep.poses)
+    for (const ContactResult& contact : pose.contacts)
+      for (const ContactPointResult& point : contact.points)
+        if (point.hertz) return true;
+  return false;
+}
+
+// Where pictures go: into a folder, or, where the name asks for it, one into a file.
+class Output {
+ public:
+  Output(const RenderCommand& command, std::size_t pictures) {
+    const std::filesystem::path path(command.output);
+    const std::string ending = path.extension().string();
+    if (ending == ".mp4" && !command.movie)
+      throw InputError(command.output + ": an MP4 is a movie: add --movie");
+    if (ending != ".png" && ending != ".mp4") {
+      folder_ = make_picture_folder(command.output);
+      return;
+    }
+    if (pictures != 1)
+      throw InputError(
+          fmt::format("{}: {} pictures do not go into one file, expected a folder, or "
+                      "one view and one value",
+                      command.output, pictures));
+    file_ = path;
+    check_output_file(file_);
+  }
+  [[nodiscard]] std::filesystem::path path(const std::string& stem) const {
+    return file_.empty() ? folder_ / (stem + ".png") : file_;
+  }
+
+ private:
+  std::filesystem::path folder_, file_;
+};
+
+void report(const std::filesystem::path& file) {
+  fmt::print("wrote {}\n", file.string());
+  std::fflush(stdout);
+}
+
+struct Job {
+  const RenderCommand& command;
+  const Run& run;
+  SweptQuantity swept;
+  std::vector<View> views;
+  std::vector<std::size_t> poses;
+  PictureOptions options;
+};
+
+void draw_singles(const Job& job) {
+  const Output output(job.command, job.views.size() * job.poses.size());
+  KneePictures pictures(job.run, job.options);
+  for (const std::size_t pose : job.poses) {
+    for (const View view : job.views) {
+      const double shown = job.swept.shown(job.run.sweep.poses[pose].value);
+      const std::filesystem::path file = output.path(file_stem(view, shown));
+      write_png(file, pictures.draw(view, pose));
+      report(file);
+    }
+  }
+}
+
+void draw_strips(const Job& job) {
+  const Output output(job.command, job.views.size());
+  for (const View view : job.views) {
+    const std::filesystem::path file = output.path(fmt::format("{}_strip", name(view)));
+    write_png(file, draw_strip(job.run, view, job.poses, job.options));
+    report(file);
+  }
+}
+
+void draw_movies(const Job& job) {
+  const Output output(job.command, job.views.size());
+  for (const View view : job.views) {
+    const std::filesystem::path file = output.path(fmt::format("{}_movie", name(view)));
+    Movie movie(file, job.command.frames_per_second);
+    KneePictures pictures(job.run, job.options);
+    for (const std::size_t pose : job.poses) movie.add(pictures.draw(view, pose));
+    movie.finish();
+    report(file);
+  }
+}
+
+PictureOptions options_of(const RenderCommand& command, std::size_t poses) {
+  PictureOptions options = command.strip ? strip_size(poses) : PictureOptions{};
+  if (command.movie) options.width = 800, options.height = 600;
+  if (!command.size.empty()) options = parse_size(command.size);
+  options.proximity = command.proximity;
+  options.hertz = command.hertz;
+  return options;
 }
 
 int run_render(const RenderCommand& command) {
-  const PictureOptions options = parse_size(command.size);
+  if (!command.size.empty()) (void)parse_size(command.size);
   std::vector<View> views;
   for (const std::string& text : command.views) views.push_back(view_from_name(text));
   const Run run = read_run(command.run);
+  if (command.hertz && !holds_pressures(run))
+    throw InputError(
+        "--hertz: " + command.run +
+        " holds no estimates of contact pressure, expected a scene with a surface that "
+        "has a modulus");
   const SweptQuantity swept = swept_quantity(run.scene);
-  const std::vector<std::size_t> poses = chosen_poses(command, run, swept);
-  const std::filesystem::path folder = make_picture_folder(command.folder);
-  KneePictures pictures(run, options);
-  int status = 0;
-  for (const std::size_t pose : poses) {
-    const PoseResult& result = run.sweep.poses[pose];
-    if (!result.converged()) {
-      fmt::print(stderr, "condyle: no picture at {}: {}\n", with_unit(swept, result.value),
-                 name(result.status));
-      status = kSomePoseFailed;
-      continue;
-    }
-    for (const View view : views) {
-      const std::filesystem::path file = folder / file_name(view, swept.shown(result.value));
-      write_png(file, pictures.draw(view, pose));
-      fmt::print("wrote {}\n", file.string());
-      std::fflush(stdout);
-    }
-  }
+  std::vector<std::size_t> poses =
+      command.movie ? movie_poses(command, run, swept) : chosen_poses(command, run, swept);
+  const int status = keep_converged(run, swept, poses);
+  if (poses.empty()) return kSomePoseFailed;
+  const Job job{command, run, swept, views, poses, options_of(command, poses.size())};
+  if (command.movie)
+    draw_movies(job);
+  else if (command.strip)
+    draw_strips(job);
+  else
+    draw_singles(job);
   return status;
 }
 
@@ -123,18 +243,32 @@ int run_render(const RenderCommand& command) {
 void setup_render(CLI::App& program, int& status) {
   const auto options = std::make_shared<RenderCommand>();
   CLI::App* command = program.add_subcommand("render", "Draw pictures of the poses of a run");
-  command->add_option("RUN", options->run, "result file of condyle sweep (HDF5)")->required();
-  command->add_option("-o,--output", options->folder, "folder for the pictures")->required();
+  command->add_option("RUN", options->run, "result file (HDF5)")->required();
+  command
+      ->add_option("-o,--output", options->output,
+                   "folder for the pictures; or a file, NAME.png or NAME.mp4, for a single one")
+      ->required();
   command
       ->add_option("--at", options->at,
                    "values of what was swept, such as 0,30,60 degrees; the nearest poses are drawn")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--view", options->views, "anterior, posterior, medial, lateral, plateau")
+  command
+      ->add_option("--view", options->views,
+                   "anterior, posterior, medial, lateral, plateau, condyles, exploded")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();
-  command->add_option("--size", options->size, "width and height in pixels")->capture_default_str();
+  command->add_option("--size", options->size, "width and height in pixels, else 1200x900");
+  command->add_flag("--proximity", options->proximity,
+                    "gap between the articular surfaces in colours");
+  command->add_flag("--hertz", options->hertz, "ellipses of contact pressure, to scale");
+  CLI::Option* strip = command->add_flag("--strip", options->strip, "all values side by side");
+  command->add_flag("--movie", options->movie, "a moving picture over all poses (or those of --at)")
+      ->excludes(strip);
+  command->add_option("--fps", options->frames_per_second, "poses per second of a movie")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
   command->footer(
       "Example: condyle render out/phantom.h5 -o out --at 0,60,120 --view anterior,plateau");
   command->callback([options, &status] { status = run_render(*options); });

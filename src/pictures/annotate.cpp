@@ -22,28 +22,6 @@ std::string newtons(double force) {
   return fmt::format("{:.{}f} N", force, force < 9.95 ? 1 : 0);
 }
 
-std::string caption(const Scenery& scenery) {
-  const SweptQuantity swept = swept_quantity(scenery.run.scene);
-  std::string text =
-      capitalized(name(scenery.view)) + (scenery.view == View::kPlateau ? " from above" : " view");
-  if (scenery.run.scene.joint) {
-    text +=
-        fmt::format("  ·  flexion {:g}°",
-                    std::round(scenery.pose.joint.flexion * 1800 / std::numbers::pi) / 10 + 0.0);
-  }
-  const bool varies = scenery.run.scene.sweep || scenery.run.scene.simulation;
-  if (!swept.flexion && varies)
-    text += "  ·  " + swept.title + " " + with_unit(swept, scenery.pose.value);
-  return text;
-}
-
-void draw_title(const Pen& pen, const Scenery& scenery) {
-  TextStyle title = pen.style(23);
-  title.bold = true;
-  pen.canvas.text({30 * pen.s, 44 * pen.s}, scenery.run.scene.title, title);
-  pen.canvas.text({30 * pen.s, 72 * pen.s}, caption(scenery), pen.style(17, kQuiet));
-}
-
 Vector2d on_page(const Scenery& scenery, const Vector3d& p) {
   return scenery.camera.project(p).head<2>();
 }
@@ -91,26 +69,92 @@ Vector2d free_place(const Pen& pen, const Vector2d& at, double width, std::vecto
   return {place.left, place.bottom};
 }
 
-void draw_contact_forces(const Pen& pen, const Scenery& scenery) {
-  std::vector<Frame> taken;
-  for (const ContactMark& mark : contact_marks(scenery.run.scene, scenery.pose)) {
-    if (!(mark.force > 0)) continue;
-    const Vector3d tip =
-        mark.point + mark.force * scenery.scales.arrow_mm_per_n * mark.toward_femur;
-    const Vector2d at = on_page(scenery, scenery.view == View::kPlateau ? mark.point : tip);
-    TextStyle style = pen.style(15, kInk, Align::kLeft);
-    style.bold = true;
-    style.halo = std::max(1, pen.size(2.2) - 5);
-    const double width = pen.canvas.text_width(newtons(mark.force), style);
-    pen.canvas.text(free_place(pen, at, width, taken), newtons(mark.force), style);
+/// The text, cut with an ellipsis where it would be wider than `width`.
+std::string cut(const Pen& pen, std::string text, double width, const TextStyle& style) {
+  if (pen.canvas.text_width(text, style) <= width) return text;
+  while (!text.empty() && pen.canvas.text_width(text + "…", style) > width) {
+    do text.pop_back();
+    while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U);
+    if (!text.empty() && (static_cast<unsigned char>(text.back()) & 0x80U) != 0) text.pop_back();
   }
+  return text + "…";
+}
+
+std::string view_words(const Scenery& scenery) {
+  switch (scenery.view) {
+    case View::kPlateau:
+      return "Plateau from above";
+    case View::kCondyles:
+      return "Condyles from below";
+    case View::kExploded:
+      return "Exploded view";
+    default:
+      return capitalized(name(scenery.view)) + " view";
+  }
+}
+
+std::string in_words(const Scenery& scenery, const ContactMark& mark) {
+  std::string words = newtons(mark.force);
+  if (scenery.hertz && mark.hertz) words += fmt::format(", {:.1f} MPa", mark.hertz->peak_pressure);
+  return words;
 }
 
 }  // namespace
 
+std::string caption(const Scenery& scenery, bool with_value) {
+  const SweptQuantity swept = swept_quantity(scenery.run.scene);
+  std::string text = view_words(scenery);
+  if (scenery.proximity) text += "  ·  gap between the surfaces";
+  if (!with_value) return text;
+  if (scenery.run.scene.joint)
+    text +=
+        fmt::format("  ·  flexion {:g}°",
+                    std::round(scenery.pose.joint.flexion * 1800 / std::numbers::pi) / 10 + 0.0);
+  const bool varies = scenery.run.scene.sweep || scenery.run.scene.simulation;
+  if (!swept.flexion && varies)
+    text += "  ·  " + swept.inside_a_line() + " " + with_unit(swept, scenery.pose.value);
+  return text;
+}
+
+void draw_title(const Pen& pen, int width, const std::string& title, const std::string& below) {
+  const double room = width - 60 * pen.s;
+  TextStyle style = pen.style(23);
+  style.bold = true;
+  style.halo = std::max(1, pen.size(2.2) - 5);
+  pen.canvas.text({30 * pen.s, 44 * pen.s}, cut(pen, title, room, style), style);
+  TextStyle quiet = pen.style(17, kQuiet);
+  quiet.halo = style.halo;
+  pen.canvas.text({30 * pen.s, 72 * pen.s}, cut(pen, below, room, quiet), quiet);
+}
+
+void draw_contact_forces(const Pen& pen, const Scenery& scenery) {
+  std::vector<Frame> taken;
+  for (const ContactMark& mark : scenery.marks) {
+    if (!(mark.force > 0)) continue;
+    const double length = shows_arrows(scenery) ? mark.force * scenery.scales.arrow_mm_per_n : 0;
+    const Vector2d at = on_page(scenery, mark.point + length * mark.toward_femur);
+    TextStyle style = pen.style(15, kInk, Align::kLeft);
+    style.bold = true;
+    style.halo = std::max(1, pen.size(2.2) - 5);
+    const std::string words = in_words(scenery, mark);
+    const double width = pen.canvas.text_width(words, style);
+    pen.canvas.text(free_place(pen, at, width, taken), words, style);
+  }
+}
+
+bool shows_arrows(const Scenery& scenery) {
+  return !scenery.staging.alone() && !scenery.staging.apart() && !scenery.marks.empty();
+}
+
 PageLayout page_layout(int width, int height) {
   const double s = std::min(width / 1200.0, height / 900.0);
   return {width, height, s, {150 * s, 100 * s, width - 235 * s, height - 110 * s}};
+}
+
+PageLayout panel_layout(int width, int height) {
+  const double s = std::min(width / 1200.0, height / 900.0);
+  const double margin = 0.075 * std::min(width, height);
+  return {width, height, s, {margin, margin, width - margin, height - margin}};
 }
 
 void annotate(Image& image, const PageLayout& page, const Scenery& scenery) {
@@ -118,14 +162,12 @@ void annotate(Image& image, const PageLayout& page, const Scenery& scenery) {
   const Pen pen{canvas, page.scale};
   draw_ligament_labels(pen, page, scenery);
   draw_contact_forces(pen, scenery);
-  draw_title(pen, scenery);
+  draw_title(pen, page.width, scenery.run.scene.title, caption(scenery));
   draw_bars(pen, page, scenery);
   draw_directions(pen, page, scenery);
   draw_scale_bar(pen, page, scenery);
-  if (scenery.run.comparison) draw_reference_key(pen, page);
-  const bool arrows =
-      scenery.view != View::kPlateau && !contact_marks(scenery.run.scene, scenery.pose).empty();
-  if (arrows) draw_force_scale(pen, page, scenery);
+  draw_keys(pen, page, scenery);
+  if (shows_arrows(scenery)) draw_force_scale(pen, page, scenery);
 }
 
 }  // namespace condyle

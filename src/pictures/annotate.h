@@ -4,8 +4,9 @@
 /// forces, colour bars, scale bar, length of force arrows, and the anatomical directions.
 
 #include "pictures/camera.h"
-#include "pictures/canvas.h"
 #include "pictures/knee_shapes.h"
+#include "pictures/pen.h"
+#include "pictures/staging.h"
 
 namespace condyle {
 
@@ -16,6 +17,8 @@ struct PageLayout {
   Frame drawing;  ///< where the knee is
 };
 [[nodiscard]] PageLayout page_layout(int width, int height);
+/// A knee without words around it, one of several on a page.
+[[nodiscard]] PageLayout panel_layout(int width, int height);
 
 /// What a picture shows.
 struct Scenery {
@@ -24,8 +27,21 @@ struct Scenery {
   View view;
   const Camera& camera;
   const PictureScales& scales;
-  const std::vector<bool>& seen_from_above;  ///< per ligament
+  const Staging& staging;
+  bool proximity = false, hertz = false;
+  std::vector<RigidTransform> X_P;      ///< of the bodies as the view shows them
+  std::vector<ContactMark> marks = {};  ///< on the bodies that are shown
+  std::vector<bool> seen = {};          ///< per ligament: of a view of one body
 };
+
+/// "Anterior view  ·  flexion 60°"; without `with_value` what all poses of the run share.
+[[nodiscard]] std::string caption(const Scenery& scenery, bool with_value = true);
+/// Title and, in quiet ink below it, another line; cut where they would leave the page.
+void draw_title(const Pen& pen, int width, const std::string& title, const std::string& below);
+/// Forces beside their arrows; peak pressures where ellipses are drawn.
+void draw_contact_forces(const Pen& pen, const Scenery& scenery);
+/// Are force arrows drawn in this picture?
+[[nodiscard]] bool shows_arrows(const Scenery& scenery);
 
 void annotate(Image& image, const PageLayout& page, const Scenery& scenery);
 

@@ -12,8 +12,9 @@
 namespace condyle {
 namespace {
 
-constexpr std::array<const char*, kViewCount> kNames = {"anterior", "posterior", "medial",
-                                                        "lateral", "plateau"};
+constexpr std::array<const char*, kViewCount> kNames = {
+    "anterior", "posterior", "medial", "lateral", "plateau", "condyles", "exploded"};
+constexpr double kElevation = 28 * M_PI / 180, kAzimuth = 20 * M_PI / 180;  // of the exploded view
 
 /// The directions as a camera needs them: exactly perpendicular.
 Eigen::Matrix3d rows_from(const Eigen::Vector3d& forward, const Eigen::Vector3d& up) {
@@ -57,6 +58,13 @@ Eigen::Matrix3d view_rotation(View view, const Anatomy& anatomy) {
       return rows_from(-anatomy.lateral, anatomy.proximal);
     case View::kPlateau:
       return rows_from(-anatomy.proximal, anatomy.anterior);
+    case View::kCondyles:
+      return rows_from(anatomy.proximal, anatomy.anterior);
+    case View::kExploded:
+      return rows_from(-std::cos(kElevation) * (std::cos(kAzimuth) * anatomy.anterior +
+                                                std::sin(kAzimuth) * anatomy.lateral) -
+                           std::sin(kElevation) * anatomy.proximal,
+                       anatomy.proximal);
   }
   return Eigen::Matrix3d::Identity();
 }

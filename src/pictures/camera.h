@@ -12,8 +12,16 @@
 
 namespace condyle {
 
-enum class View { kAnterior, kPosterior, kMedial, kLateral, kPlateau };
-inline constexpr int kViewCount = 5;
+enum class View {
+  kAnterior,
+  kPosterior,
+  kMedial,
+  kLateral,
+  kPlateau,   ///< tibia from above, without the femur
+  kCondyles,  ///< femur from below, without the tibia
+  kExploded   ///< femur lifted and tipped, so that both articular surfaces are seen
+};
+inline constexpr int kViewCount = 7;
 
 /// "anterior", "posterior", ...
 [[nodiscard]] const char* name(View view);
@@ -43,7 +51,8 @@ struct Camera {
   }
 };
 
-/// Rows right, up, back of a view. The plateau is seen from above with anterior up.
+/// Rows right, up, back of a view. Plateau and condyles are seen with anterior up, the exploded
+/// knee from in front, above and its lateral side.
 [[nodiscard]] Eigen::Matrix3d view_rotation(View view, const Anatomy& anatomy);
 
 /// A rectangle of the picture [pixel].

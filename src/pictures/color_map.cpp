@@ -28,6 +28,16 @@ constexpr std::array<Rgb, 10> kPlasma = {{{13, 8, 135},
                                           {253, 202, 38},
                                           {240, 249, 33}}};
 
+constexpr std::array<Rgb, 9> kYlGnBu = {{{8, 29, 88},
+                                         {37, 52, 148},
+                                         {34, 94, 168},
+                                         {29, 145, 192},
+                                         {65, 182, 196},
+                                         {127, 205, 187},
+                                         {199, 233, 180},
+                                         {237, 248, 177},
+                                         {255, 255, 217}}};
+
 constexpr std::array<Rgb, 11> kRdBu = {{{5, 48, 97},
                                         {33, 102, 172},
                                         {67, 147, 195},
@@ -61,6 +71,8 @@ Rgb map_color(ColorMap map, double t) {
       return interpolate(kPlasma, 0.8 * s);
     case ColorMap::kFlexion:
       return interpolate(kViridis, 0.95 * s);
+    case ColorMap::kGap:
+      return interpolate(kYlGnBu, s);
     case ColorMap::kDiverging:
       return interpolate(kRdBu, s);
   }

@@ -2,8 +2,8 @@
 
 /// Colour maps by their anchor colours: viridis and plasma of matplotlib (van der Walt and Smith
 /// 2015), whose lightness rises evenly, so that they survive colour blindness and grey printing;
-/// and for values of both signs RdBu of ColorBrewer (Brewer 2003), blue through white to red, which
-/// the colour-blind tell apart.
+/// and of ColorBrewer (Brewer 2003), which the colour-blind tell apart, YlGnBu for gaps and RdBu,
+/// blue through white to red, for values of both signs.
 
 #include "pictures/image.h"
 
@@ -12,6 +12,7 @@ namespace condyle {
 enum class ColorMap {
   kStrain,    ///< plasma without its pale end, which would drown on bone
   kFlexion,   ///< viridis
+  kGap,       ///< YlGnBu from its dark end: touching is dark, far apart pale
   kDiverging  ///< RdBu: blue below the middle, red above
 };
 

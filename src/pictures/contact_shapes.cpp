@@ -1,5 +1,7 @@
 #include "pictures/knee_shapes.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -16,7 +18,8 @@ struct PathSize {
   double radius, dot;  // [mm]
 };
 constexpr PathSize kOurPath = {0.5, 0.75}, kReferencePath = {0.3, 0.6};
-constexpr double kContactDot = 1.5, kArrowRadius = 0.95;  // [mm]
+constexpr double kArrowRadius = 0.95, kEllipseRim = 0.16, kLineRadius = 0.45;  // [mm]
+constexpr int kEllipseSides = 64;
 constexpr double kStrideOfPath = 25;  // [mm] between two poses: farther apart it is another contact
 
 bool tibia_moves(const Scene& scene) { return tibia_body(scene) == scene.moving_body(); }
@@ -29,8 +32,8 @@ const ContactPointResult* strongest(const ContactResult& contact) {
   return best;
 }
 
-Vector3d on_tibia(const Scene& scene, const ContactPointResult& point) {
-  return tibia_moves(scene) ? point.point_moving : point.point_ground;
+Vector3d on_body(const Scene& scene, int body, const ContactPointResult& point) {
+  return body == scene.moving_body() ? point.point_moving : point.point_ground;
 }
 
 /// One piece of a path: follows a contact as long as it stays closed.
@@ -49,7 +52,9 @@ std::vector<ContactMark> contact_marks(const Scene& scene, const PoseResult& pos
     for (const ContactPointResult& point : contact.points) {
       const Vector3d out_of_fixed = X_PB.R * point.normal_ground;
       marks.push_back({X_PB * point.point_ground,
-                       tibia_moves(scene) ? Vector3d(-out_of_fixed) : out_of_fixed, point.force});
+                       tibia_moves(scene) ? Vector3d(-out_of_fixed) : out_of_fixed, point.force,
+                       point.hertz});
+      if (point.hertz) marks.back().hertz->major_axis = X_PB.R * point.hertz->major_axis;
     }
   }
   return marks;
@@ -61,6 +66,7 @@ using PaintOf = std::function<Paint(const PoseResult&)>;
 
 ShadedMesh paths_of(const Scene& scene,
                     const SweepResult& sweep,
+                    int body,
                     const PathSize& size,
                     const PaintOf& paint) {
   ShadedMesh mesh;
@@ -70,13 +76,13 @@ ShadedMesh paths_of(const Scene& scene,
       const ContactPointResult* point =
           pose.converged() && c < pose.contacts.size() ? strongest(pose.contacts[c]) : nullptr;
       const double far =
-          point && !piece.empty() ? (on_tibia(scene, *point) - piece.back().center).norm() : 0;
+          point && !piece.empty() ? (on_body(scene, body, *point) - piece.back().center).norm() : 0;
       if (!point || far > kStrideOfPath) {
         add_piece(mesh, piece, size);
         piece.clear();
       }
       if (!point || (!piece.empty() && far < 1e-6)) continue;
-      piece.push_back({on_tibia(scene, *point), size.radius, paint(pose)});
+      piece.push_back({on_body(scene, body, *point), size.radius, paint(pose)});
     }
     add_piece(mesh, piece, size);
   }
@@ -85,24 +91,72 @@ ShadedMesh paths_of(const Scene& scene,
 
 }  // namespace
 
-ShadedMesh contact_paths(const Run& run, const PictureScales& scales) {
+ShadedMesh contact_paths(const Run& run, int body, const PictureScales& scales) {
   const double range = std::max(1e-12, scales.sweep_high - scales.sweep_low);
-  return paths_of(run.scene, run.sweep, kOurPath, [&](const PoseResult& pose) {
+  return paths_of(run.scene, run.sweep, body, kOurPath, [&](const PoseResult& pose) {
     return Paint{map_color(ColorMap::kFlexion, (pose.value - scales.sweep_low) / range), 0.9};
   });
 }
 
-ShadedMesh reference_paths(const Run& run) {
+ShadedMesh reference_paths(const Run& run, int body) {
   if (!run.comparison) return {};
-  return paths_of(run.scene, run.comparison->reference, kReferencePath, [](const PoseResult&) {
-    return Paint{kReferenceColor, 0.9};
-  });
+  return paths_of(run.scene, run.comparison->reference, body, kReferencePath,
+                  [](const PoseResult&) {
+                    return Paint{kReferenceColor, 0.9};
+                  });
 }
 
-ShadedMesh contact_points(const std::vector<ContactMark>& marks) {
+ShadedMesh contact_points(const std::vector<ContactMark>& marks, double radius) {
   ShadedMesh mesh;
   for (const ContactMark& mark : marks)
-    append(mesh, ball(mark.point, kContactDot, {kContactColor, 0.85}));
+    append(mesh, ball(mark.point, radius, {kContactColor, 0.85}));
+  return mesh;
+}
+
+ShadedMesh contact_lines(const Scene& scene, const PoseResult& pose) {
+  ShadedMesh mesh;
+  const RigidTransform X_PB = tibia_moves(scene) ? pose.X_BA.inverse() : RigidTransform();
+  for (const ContactResult& contact : pose.contacts) {
+    if (!contact.closed || contact.shape != ContactShape::kLine || contact.points.size() < 2)
+      continue;
+    std::vector<TubePoint> ends;
+    for (const ContactPointResult* end : {&contact.points.front(), &contact.points.back()})
+      ends.push_back({X_PB * end->point_ground, kLineRadius, {kContactColor, 0.85}});
+    if ((ends[0].center - ends[1].center).norm() > 1e-3) append(mesh, tube(ends));
+  }
+  return mesh;
+}
+
+namespace {
+
+/// A disc in the plane of two semi-axes, and its rim.
+void add_ellipse(ShadedMesh& mesh, const Vector3d& center, const Vector3d& a, const Vector3d& b) {
+  const Eigen::Vector3f normal = a.cross(b).normalized().cast<float>();
+  const auto color = bytes({kHertzColor, 1});
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.push_back({center.cast<float>(), normal, color});
+  std::vector<TubePoint> rim;
+  for (int i = 0; i <= kEllipseSides; ++i) {
+    const double angle = 2 * M_PI * i / kEllipseSides;
+    const Vector3d at = center + std::cos(angle) * a + std::sin(angle) * b;
+    rim.push_back({at, kEllipseRim, {kContactColor, 1}});
+    mesh.vertices.push_back({at.cast<float>(), normal, color});
+    const auto here = static_cast<std::uint32_t>(i);
+    if (i > 0) mesh.triangles.push_back({first, first + here, first + here + 1});
+  }
+  append(mesh, tube(rim));
+}
+
+}  // namespace
+
+ShadedMesh hertz_ellipses(const std::vector<ContactMark>& marks) {
+  ShadedMesh mesh;
+  for (const ContactMark& mark : marks) {
+    if (!mark.hertz) continue;
+    const auto [major, minor] = mark.hertz->semi_axes;
+    const Vector3d& axis = mark.hertz->major_axis;
+    add_ellipse(mesh, mark.point, major * axis, minor * mark.toward_femur.cross(axis));
+  }
   return mesh;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -19,6 +20,13 @@ constexpr int kWidth = 1200, kPanelHeight = 400, kPanelGap = 34, kHeadHeight = 8
 constexpr std::array<const char*, 8> kColors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                                 "#E69F00", "#56B4E9", "#000000", "#8C6BB1"};
 constexpr std::array<int, 4> kDashes = {1, 2, 4, 5};
+constexpr std::array<int, 5> kRunDashes = {1, 2, 3, 4, 5};
+constexpr double kLeft = 0.09;            // of the page, left of the axes
+constexpr double kLetter = 9.2;           // width of one in the legend [pixel]
+constexpr std::size_t kLongestName = 40;  // in the legend, letters
+constexpr std::size_t kLongestTitle = 88;
+constexpr std::size_t kManyPoints = 60;  // more are not marked one by one
+constexpr double kPdfWidth = 7;          // [inch]: two columns of a journal
 
 /// In single quotes gnuplot takes everything as it is, except the quote itself.
 std::string quoted(const std::string& text) {
@@ -30,6 +38,33 @@ std::string quoted(const std::string& text) {
       result += static_cast<unsigned char>(c) < 32 ? ' ' : c;
   }
   return result + "'";
+}
+
+/// At most `most` letters of UTF-8.
+std::string shortened(const std::string& text, std::size_t most) {
+  std::size_t letters = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if ((static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U) continue;
+    if (letters++ == most) return text.substr(0, i) + "…";
+  }
+  return text;
+}
+
+std::size_t letters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+  }));
+}
+
+/// Right end of the axes, of the page: the legend has its place beside them.
+double right_end(const Chart& chart) {
+  std::size_t longest = 0;
+  for (const Panel& panel : chart.panels)
+    for (const Curve& curve : panel.curves) longest = std::max(longest, letters(curve.title));
+  for (const std::string& run : chart.runs) longest = std::max(longest, letters(run));
+  if (longest == 0) return 0.97;
+  const double legend = 80 + kLetter * static_cast<double>(std::min(longest, kLongestName + 1));
+  return 1 - legend / kWidth;
 }
 
 std::string data_block(const std::string& name, const Curve& curve) {
@@ -48,26 +83,79 @@ bool has_points(const Curve& curve) {
   return false;
 }
 
+std::string terminal(PlotFormat format, int height) {
+  switch (format) {
+    case PlotFormat::kPng:
+      return fmt::format("pngcairo size {},{} font 'DejaVu Sans,13'", kWidth, height);
+    case PlotFormat::kSvg:
+      return fmt::format("svg size {},{} font 'DejaVu Sans,13'", kWidth, height);
+    case PlotFormat::kPdf:
+      // The same page, set smaller: letters of 7 points on a width of two columns.
+      return fmt::format("pdfcairo size {}in,{:.4f}in font 'DejaVu Sans,7' fontscale 1", kPdfWidth,
+                         kPdfWidth * height / kWidth);
+  }
+  return "";
+}
+
 std::string head(const Chart& chart,
                  const std::filesystem::path& file,
                  PlotFormat format,
                  int height) {
-  const char* terminal = format == PlotFormat::kPng ? "pngcairo" : "svg";
-  return "set encoding utf8\n" +
-         fmt::format(
-             "set terminal {} size {},{} font 'DejaVu Sans,13' noenhanced background '#ffffff'\n",
-             terminal, kWidth, height) +
+  const std::string title = chart.title.empty() ? chart.what : chart.title + ": " + chart.what;
+  const bool pdf = format == PlotFormat::kPdf;
+  return "set encoding utf8\nset minussign\n" +
+         fmt::format("set terminal {} noenhanced background '#ffffff'\n",
+                     terminal(format, height)) +
          "set output " + quoted(file.string()) + "\n" +
          "set border 3 linecolor '#505860' linewidth 1.2\nset tics nomirror out scale 0.6 "
          "textcolor '#303840'\n"
          "set grid linecolor '#e4e6e9' linetype 1 linewidth 1, linecolor '#e4e6e9' linetype 1 "
          "linewidth 1\n"
-         "set offsets graph 0, graph 0, graph 0.05, graph 0\n"
-         "set lmargin at screen 0.09\nset rmargin at screen 0.80\n" +
+         "set offsets graph 0, graph 0, graph 0.05, graph 0\n" +
+         fmt::format("set lmargin at screen {}\nset rmargin at screen {:.5f}\n", kLeft,
+                     right_end(chart)) +
          fmt::format(
-             "set multiplot\nset label 1 {} at screen 0.09, screen {:.5f} font 'DejaVu Sans "
-             "Bold,16' textcolor '#262c34'\n",
-             quoted(chart.title), 1 - 0.45 * kHeadHeight / height);
+             "set multiplot\nset label 1 {} at screen {}, screen {:.5f} font 'DejaVu Sans "
+             "Bold,{}' textcolor '#262c34'\n",
+             quoted(shortened(title, kLongestTitle)), kLeft, 1 - 0.45 * kHeadHeight / height,
+             pdf ? 8.5 : 16);
+}
+
+/// One curve of the plot command; a title that stands in the legend already is left out there.
+std::string curve_command(const Chart& chart,
+                          const Panel& panel,
+                          std::size_t index,
+                          const std::string& data) {
+  const Curve& curve = panel.curves[index];
+  const std::size_t color = curve.color < 0 ? index : static_cast<std::size_t>(curve.color);
+  int dash = curve.dashed ? 2 : kDashes[color / kColors.size() % kDashes.size()];
+  const auto style = static_cast<std::size_t>(curve.style);
+  if (!chart.runs.empty()) dash = kRunDashes[style % kRunDashes.size()];
+  const bool marked = chart.runs.empty() && curve.x.size() <= kManyPoints;
+  const std::string points = marked ? "linespoints pointtype 7 pointsize 0.35" : "lines";
+  const bool keyed = chart.runs.empty() && !curve.title.empty();
+  return fmt::format("${} using 1:2 with {} linewidth {} linecolor '{}' dashtype {} {}", data,
+                     points, 2, kColors[color % kColors.size()], dash,
+                     keyed ? "title " + quoted(shortened(curve.title, kLongestName)) : "notitle");
+}
+
+/// Legend of several runs: a colour for each title, a line style for each run.
+std::string run_legend(const Chart& chart, const Panel& panel, bool with_runs) {
+  std::string commands;
+  const auto entry = [&](const std::string& title, const char* color, int dash) {
+    commands += fmt::format(", NaN with lines linewidth 2 linecolor '{}' dashtype {} title {}",
+                            color, dash, quoted(shortened(title, kLongestName)));
+  };
+  std::vector<std::string> known;
+  for (const Curve& curve : panel.curves) {
+    if (curve.title.empty() || !has_points(curve)) continue;
+    if (std::find(known.begin(), known.end(), curve.title) != known.end()) continue;
+    known.push_back(curve.title);
+    entry(curve.title, kColors[static_cast<std::size_t>(curve.color) % kColors.size()], 1);
+  }
+  for (std::size_t i = 0; with_runs && i < chart.runs.size(); ++i)
+    entry(chart.runs[i], "#303840", kRunDashes[i % kRunDashes.size()]);
+  return commands;
 }
 
 std::string panel_script(const Chart& chart, std::size_t index, int height) {
@@ -78,9 +166,9 @@ std::string panel_script(const Chart& chart, std::size_t index, int height) {
   std::string script = fmt::format("set tmargin at screen {:.5f}\nset bmargin at screen {:.5f}\n",
                                    top, top - static_cast<double>(kPanelHeight) / height);
   script += fmt::format(
-      "set key at screen 0.82, screen {:.5f} left top Left reverse vertical samplen 2 spacing 1.25 "
-      "textcolor '#303840'\n",
-      top);
+      "set key at screen {:.5f}, screen {:.5f} left top Left reverse vertical samplen 2.4 spacing "
+      "1.25 textcolor '#303840'\n",
+      right_end(chart) + 0.015, top);
   script += panel.from_zero ? "set yrange [0:*]\n" : "set yrange [*:*]\n";
   script += last ? "set format x '%g'\n" : "set format x ''\n";
   script += "set ylabel " + quoted(panel.y_label) + " textcolor '#303840'\n";
@@ -88,22 +176,28 @@ std::string panel_script(const Chart& chart, std::size_t index, int height) {
   std::string commands;
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     if (!has_points(panel.curves[i])) continue;
-    const Curve& curve = panel.curves[i];
-    const std::size_t color = curve.color < 0 ? i : static_cast<std::size_t>(curve.color);
-    const int dash = curve.dashed ? 2 : kDashes[color / kColors.size() % kDashes.size()];
     const std::string name = fmt::format("panel{}curve{}", index, i);
-    script += data_block(name, curve);
-    commands += fmt::format(
-        "{}${} using 1:2 with linespoints linewidth 2 linecolor '{}' dashtype {} pointtype 7 "
-        "pointsize 0.35 title {}",
-        commands.empty() ? "plot " : ", ", name, kColors[color % kColors.size()], dash,
-        quoted(curve.title));
+    script += data_block(name, panel.curves[i]);
+    commands += (commands.empty() ? "plot " : ", ") + curve_command(chart, panel, i, name);
   }
+  if (!commands.empty() && !chart.runs.empty()) commands += run_legend(chart, panel, index == 0);
   if (commands.empty()) commands = "set xrange [0:1]\nset yrange [0:1]\nplot NaN notitle";
   return script + commands + "\nunset label 1\n";
 }
 
 }  // namespace
+
+const char* ending(PlotFormat format) {
+  switch (format) {
+    case PlotFormat::kPng:
+      return "png";
+    case PlotFormat::kSvg:
+      return "svg";
+    case PlotFormat::kPdf:
+      return "pdf";
+  }
+  return "";
+}
 
 std::string gnuplot_script(const Chart& chart,
                            const std::filesystem::path& file,

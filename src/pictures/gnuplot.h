@@ -15,6 +15,7 @@ struct Curve {
   std::vector<double> x, y;
   int color = -1;       ///< of the list of colours; -1: the next one
   bool dashed = false;  ///< a second curve in the colour of a first
+  int style = 0;        ///< of the line, where several runs lie over each other: which run
 };
 
 struct Panel {
@@ -25,11 +26,14 @@ struct Panel {
 
 /// Panels one above the other over the same abscissa, legends to their right.
 struct Chart {
-  std::string title, x_label;
+  std::string title, what;  ///< whose curves, and what they are
+  std::string x_label;
   std::vector<Panel> panels;
+  std::vector<std::string> runs = {};  ///< names of the line styles; none where there is one run
 };
 
-enum class PlotFormat { kPng, kSvg };
+enum class PlotFormat { kPng, kSvg, kPdf };
+[[nodiscard]] const char* ending(PlotFormat format);
 
 /// The script that draws `chart` into `file`.
 [[nodiscard]] std::string gnuplot_script(const Chart& chart,

@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 #include "input_error.h"
 #include "pictures/annotate.h"
+#include "pictures/gap_map.h"
 #include "pictures/knee_shapes.h"
 #include "pictures/renderer.h"
-#include "pictures/seen_from_above.h"
+#include "pictures/seen_insertions.h"
 
 namespace condyle {
 namespace {
@@ -18,7 +21,10 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kShaftReach = 1.2;  // how much farther than the insertions bone is kept in view
-constexpr std::size_t kFramePoints = 1500;  // of each shape that decide the frame
+constexpr std::size_t kFramePoints = 1500;                // of each shape that decide the frame
+constexpr std::size_t kFramePoses = 40;                   // about as many of the run
+constexpr double kPlainSpacing = 1.2, kGapSpacing = 0.7;  // between vertices of patches [mm]
+constexpr double kContactDot = 1.5, kSmallDot = 0.7;      // [mm]
 
 struct KeptShape {
   int body;
@@ -49,50 +55,95 @@ struct KneePictures::State {
   PageLayout page;
   PictureScales scales;
   Renderer renderer;
-  std::vector<KeptShape> shapes;
-  int path = -1, reference_path = -1, ligaments = -1, contacts = -1, arrows = -1;
-  std::vector<bool> seen;  // insertions on the tibia, from above
-  std::array<Camera, kViewCount> cameras;
+  std::vector<BodyShape> body_meshes;
+  std::vector<KeptShape> shapes;  // of body_meshes
+  std::optional<GapMap> gaps;
+  std::array<int, 2> path = {-1, -1}, reference_path = {-1, -1};  // on tibia and femur
+  int ligaments = -1, contacts = -1, ellipses = -1, arrows = -1;
+  std::array<std::optional<Staging>, kViewCount> stagings;
+  std::array<std::optional<Camera>, kViewCount> cameras;
 
-  State(const Run& r, const PictureOptions& o)
-      : run(r),
-        options(o),
-        page(page_layout(o.width, o.height)),
-        scales(picture_scales(r)),
-        renderer(o.width, o.height) {
-    const std::vector<BodyShape> all = body_shapes(run);
-    seen = seen_from_above(run.scene, all);
-    for (const BodyShape& shape : all) {
-      shapes.push_back({shape.body,
-                        {renderer.add(shape.mesh), {}, shape.layer, shape.gloss, shape.closed},
-                        some_vertices(shape.mesh)});
-    }
-    path = renderer.add(contact_paths(run, scales));
-    reference_path = renderer.add(reference_paths(run));
-    for (int* id : {&ligaments, &contacts, &arrows}) *id = renderer.add({});
-    for (int i = 0; i < kViewCount; ++i)
-      cameras[static_cast<std::size_t>(i)] = frame_all(static_cast<View>(i));
+  State(const Run& r, const PictureOptions& o);
+  [[nodiscard]] std::array<int, 2> bodies() const {
+    return {tibia_body(run.scene), femur_body(run.scene)};
   }
-
-  [[nodiscard]] std::vector<Vector3d> anchors(const PoseResult& pose, bool tibia_only) const;
-  [[nodiscard]] std::vector<Vector3d> points_in_view(const PoseResult& pose, bool tibia_only) const;
-  [[nodiscard]] Camera frame_all(View view) const;
-  [[nodiscard]] std::vector<Item> items(View view, const PoseResult& pose);
+  [[nodiscard]] const Staging& staging(View view);
+  [[nodiscard]] const Camera& camera(View view);
+  [[nodiscard]] Scenery scenery(View view, const PoseResult& pose);
+  [[nodiscard]] std::vector<Vector3d> anchors(const PoseResult& pose, const Staging& staging) const;
+  [[nodiscard]] std::vector<Vector3d> points_in_view(const PoseResult& pose,
+                                                     const Staging& staging) const;
+  [[nodiscard]] Camera frame_all(View view);
+  void fill_meshes(const Scenery& scenery);
+  void paint_gaps(const Scenery& scenery);
+  [[nodiscard]] std::vector<Item> items(const Scenery& scenery);
 };
 
+KneePictures::State::State(const Run& r, const PictureOptions& o)
+    : run(r),
+      options(o),
+      page(o.panel ? panel_layout(o.width, o.height) : page_layout(o.width, o.height)),
+      scales(picture_scales(r)),
+      renderer(o.width, o.height),
+      body_meshes(body_shapes(r, o.proximity ? kGapSpacing : kPlainSpacing)) {
+  for (const BodyShape& shape : body_meshes) {
+    shapes.push_back({shape.body,
+                      {renderer.add(shape.mesh), {}, shape.layer, shape.gloss, shape.closed},
+                      some_vertices(shape.mesh)});
+  }
+  if (options.proximity) gaps.emplace(run);
+  for (std::size_t i = 0; i < 2; ++i) {
+    path[i] = renderer.add(contact_paths(run, bodies()[i], scales));
+    reference_path[i] = renderer.add(reference_paths(run, bodies()[i]));
+  }
+  for (int* id : {&ligaments, &contacts, &ellipses, &arrows}) *id = renderer.add({});
+}
+
+const Staging& KneePictures::State::staging(View view) {
+  auto& staging = stagings[static_cast<std::size_t>(view)];
+  if (!staging) staging = staging_of(run, view);
+  return *staging;
+}
+
+const Camera& KneePictures::State::camera(View view) {
+  auto& camera = cameras[static_cast<std::size_t>(view)];
+  if (!camera) camera = frame_all(view);
+  return *camera;
+}
+
+Scenery KneePictures::State::scenery(View view, const PoseResult& pose) {
+  const Staging& stage = staging(view);
+  Scenery scenery{run,
+                  pose,
+                  view,
+                  camera(view),
+                  scales,
+                  stage,
+                  options.proximity,
+                  options.hertz,
+                  staged_poses(run.scene, stage, pose.X_BA),
+                  staged_marks(run.scene, stage, pose)};
+  if (!stage.alone()) return scenery;
+  const int body = stage.tibia ? tibia_body(run.scene) : femur_body(run.scene);
+  if (body < 0) return scenery;
+  const Eigen::Matrix3d& R_PB = scenery.X_P[static_cast<std::size_t>(body)].R;
+  scenery.seen = seen_insertions(run.scene, body_meshes, body, scenery.camera.R_VP * R_PB);
+  return scenery;
+}
+
 /// What must be in the picture: insertions and articular surfaces.
-std::vector<Vector3d> KneePictures::State::anchors(const PoseResult& pose, bool tibia_only) const {
-  const auto X_P = body_poses(run.scene, pose.X_BA);
-  const int tibia = tibia_body(run.scene);
+std::vector<Vector3d> KneePictures::State::anchors(const PoseResult& pose,
+                                                   const Staging& staging) const {
+  const auto X_P = staged_poses(run.scene, staging, pose.X_BA);
   std::vector<Vector3d> points;
   for (const LigamentDescription& ligament : run.scene.ligaments) {
     for (const Attachment& end : ligament.ends) {
-      if (!tibia_only || end.body == tibia)
+      if (staging.shows(run.scene, end.body))
         points.push_back(X_P[static_cast<std::size_t>(end.body)] * end.at);
     }
   }
   for (const KeptShape& shape : shapes) {
-    if (shape.item.layer != Layer::kSolid || (tibia_only && shape.body != tibia)) continue;
+    if (shape.item.layer != Layer::kSolid || !staging.shows(run.scene, shape.body)) continue;
     for (const Vector3d& p : shape.outline)
       points.push_back(X_P[static_cast<std::size_t>(shape.body)] * p);
   }
@@ -101,16 +152,16 @@ std::vector<Vector3d> KneePictures::State::anchors(const PoseResult& pose, bool 
 
 /// The same and the bone around it, without the far ends of long shafts.
 std::vector<Vector3d> KneePictures::State::points_in_view(const PoseResult& pose,
-                                                          bool tibia_only) const {
-  std::vector<Vector3d> points = anchors(pose, tibia_only);
+                                                          const Staging& staging) const {
+  std::vector<Vector3d> points = anchors(pose, staging);
   Vector3d middle = Vector3d::Zero();
   for (const Vector3d& p : points) middle += p / static_cast<double>(points.size());
   double reach = points.empty() ? 1e9 : 0;
-  for (const Vector3d& p : points) reach = std::max(reach, kShaftReach * (p - middle).norm());
-  const auto X_P = body_poses(run.scene, pose.X_BA);
+  const double factor = staging.apart() ? 1 : kShaftReach;
+  for (const Vector3d& p : points) reach = std::max(reach, factor * (p - middle).norm());
+  const auto X_P = staged_poses(run.scene, staging, pose.X_BA);
   for (const KeptShape& shape : shapes) {
-    if (shape.item.layer != Layer::kBone || (tibia_only && shape.body != tibia_body(run.scene)))
-      continue;
+    if (shape.item.layer != Layer::kBone || !staging.shows(run.scene, shape.body)) continue;
     for (const Vector3d& p : shape.outline) {
       const Vector3d q = X_P[static_cast<std::size_t>(shape.body)] * p;
       if ((q - middle).norm() < reach) points.push_back(q);
@@ -119,36 +170,74 @@ std::vector<Vector3d> KneePictures::State::points_in_view(const PoseResult& pose
   return points;
 }
 
-Camera KneePictures::State::frame_all(View view) const {
-  std::vector<Vector3d> points;
+Camera KneePictures::State::frame_all(View view) {
+  std::vector<const PoseResult*> poses;
   for (const PoseResult& pose : run.sweep.poses) {
-    if (!pose.converged()) continue;
-    const auto more = points_in_view(pose, view == View::kPlateau);
-    points.insert(points.end(), more.begin(), more.end());
-    if (view == View::kPlateau) break;  // the tibia stands still
+    if (pose.converged()) poses.push_back(&pose);
+    if (view == View::kPlateau && !poses.empty()) break;  // the tibia stands still
   }
+  const std::size_t stride = 1 + poses.size() / kFramePoses;
+  std::vector<Vector3d> points;
+  const auto add = [&](const PoseResult& pose) {
+    const auto more = points_in_view(pose, staging(view));
+    points.insert(points.end(), more.begin(), more.end());
+  };
+  for (std::size_t i = 0; i + 1 < poses.size(); i += stride) add(*poses[i]);
+  if (!poses.empty()) add(*poses.back());
   if (points.empty())
     throw InputError(
         "nothing to draw: the run has no converged pose, or neither meshes nor ligaments");
   return fit_camera(view_rotation(view, anatomy_of(run.scene)), points, page.drawing);
 }
 
-std::vector<Item> KneePictures::State::items(View view, const PoseResult& pose) {
-  const auto X_P = body_poses(run.scene, pose.X_BA);
-  const bool tibia_only = view == View::kPlateau;
-  const std::vector<ContactMark> marks = contact_marks(run.scene, pose);
-  renderer.replace(ligaments, tibia_only ? tibial_insertions(run, pose, scales)
-                                         : ligament_tubes(run, pose, scales));
-  renderer.replace(contacts, contact_points(marks));
-  renderer.replace(arrows, tibia_only ? ShadedMesh{} : force_arrows(marks, scales));
+void KneePictures::State::paint_gaps(const Scenery& scenery) {
+  const auto X_P = body_poses(run.scene, scenery.pose.X_BA);  // as they stand, not lifted
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (body_meshes[i].surface < 0 || !scenery.staging.shows(run.scene, shapes[i].body)) continue;
+    gaps->paint(body_meshes[i].mesh, static_cast<std::size_t>(body_meshes[i].surface), X_P,
+                kCartilage);
+    renderer.replace(shapes[i].item.mesh, body_meshes[i].mesh);
+  }
+}
+
+void KneePictures::State::fill_meshes(const Scenery& scenery) {
+  const Staging& stage = scenery.staging;
+  ShadedMesh lines;
+  if (stage.alone()) {
+    lines =
+        insertions(run, scenery.pose, stage.tibia ? bodies()[0] : bodies()[1], scenery.X_P, scales);
+  } else {
+    lines = stage.apart() ? ligament_threads(run, scenery.pose, scenery.X_P, scales)
+                          : ligament_tubes(run, scenery.pose, scenery.X_P, scales);
+  }
+  renderer.replace(ligaments, lines);
+  ShadedMesh dots = contact_points(scenery.marks, options.hertz ? kSmallDot : kContactDot);
+  if (!stage.apart()) append(dots, contact_lines(run.scene, scenery.pose));
+  renderer.replace(contacts, dots);
+  renderer.replace(ellipses, options.hertz ? hertz_ellipses(scenery.marks) : ShadedMesh{});
+  renderer.replace(arrows,
+                   shows_arrows(scenery) ? force_arrows(scenery.marks, scales) : ShadedMesh{});
+  if (gaps) paint_gaps(scenery);
+}
+
+std::vector<Item> KneePictures::State::items(const Scenery& scenery) {
+  fill_meshes(scenery);
   std::vector<Item> items;
   for (const KeptShape& shape : shapes) {
-    if (tibia_only && shape.body != tibia_body(run.scene)) continue;
+    if (!scenery.staging.shows(run.scene, shape.body)) continue;
     items.push_back(shape.item);
-    items.back().X_PM = X_P[static_cast<std::size_t>(shape.body)];
+    items.back().X_PM = scenery.X_P[static_cast<std::size_t>(shape.body)];
   }
-  for (const int mesh : {path, reference_path, ligaments})
-    items.push_back({mesh, {}, Layer::kSolid, 0.12, true});
+  for (std::size_t i = 0; i < 2 && !gaps; ++i) {
+    const bool shown =
+        i == 0 ? scenery.staging.tibia : !scenery.staging.tibia || scenery.staging.apart();
+    if (!shown || bodies()[i] < 0) continue;
+    for (const int mesh : {path[i], reference_path[i]})
+      items.push_back(
+          {mesh, scenery.X_P[static_cast<std::size_t>(bodies()[i])], Layer::kSolid, 0.12, true});
+  }
+  items.push_back({ligaments, {}, Layer::kSolid, 0.12, true});
+  items.push_back({ellipses, {}, Layer::kMark, 0, false});
   for (const int mesh : {contacts, arrows}) items.push_back({mesh, {}, Layer::kMark, 0.12, true});
   return items;
 }
@@ -156,22 +245,24 @@ std::vector<Item> KneePictures::State::items(View view, const PoseResult& pose) 
 KneePictures::KneePictures(const Run& run, const PictureOptions& options) {
   check_size(options);
   state_ = std::make_unique<State>(run, options);
+  (void)state_->camera(View::kAnterior);  // says at once where there is nothing to draw
 }
 KneePictures::~KneePictures() = default;
 KneePictures::KneePictures(KneePictures&&) noexcept = default;
 KneePictures& KneePictures::operator=(KneePictures&&) noexcept = default;
 
-Camera KneePictures::camera(View view) const {
-  return state_->cameras[static_cast<std::size_t>(view)];
+const Camera& KneePictures::camera(View view) const { return state_->camera(view); }
+
+Scenery KneePictures::scenery(View view, std::size_t pose) const {
+  const PoseResult& shown = state_->run.sweep.poses.at(pose);
+  assert(shown.converged());
+  return state_->scenery(view, shown);
 }
 
 Image KneePictures::draw(View view, std::size_t pose) {
-  const PoseResult& shown = state_->run.sweep.poses.at(pose);
-  assert(shown.converged());
-  Image image = state_->renderer.render(camera(view), state_->items(view, shown));
-  if (state_->options.words)
-    annotate(image, state_->page,
-             {state_->run, shown, view, camera(view), state_->scales, state_->seen});
+  const Scenery shown = scenery(view, pose);
+  Image image = state_->renderer.render(shown.camera, state_->items(shown));
+  if (state_->options.words && !state_->options.panel) annotate(image, state_->page, shown);
   return image;
 }
 

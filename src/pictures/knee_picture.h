@@ -13,8 +13,13 @@ namespace condyle {
 
 struct PictureOptions {
   int width = 1200, height = 900;  ///< [pixel], 200 to 8000
-  bool words = true;  ///< title, labels, bars; false: the knee alone, in the same place
+  bool words = true;       ///< title, labels, bars; false: the knee alone, in the same place
+  bool proximity = false;  ///< gap between the articular surfaces in colours, in place of the path
+  bool hertz = false;      ///< ellipses of the contact pressure, where the run holds estimates
+  bool panel = false;      ///< without words, as large as the page lets it be
 };
+
+struct Scenery;
 
 class KneePictures {
  public:
@@ -30,7 +35,10 @@ class KneePictures {
   [[nodiscard]] Image draw(View view, std::size_t pose);
 
   /// The camera of a view.
-  [[nodiscard]] Camera camera(View view) const;
+  [[nodiscard]] const Camera& camera(View view) const;
+
+  /// What a picture shows, for words around it (pictures/annotate.h). Refers to this object.
+  [[nodiscard]] Scenery scenery(View view, std::size_t pose) const;
 
  private:
   struct State;

@@ -11,7 +11,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr Paint kBone = {{232, 222, 204}, 0};
-constexpr Paint kCartilage = {{186, 207, 223}, 0.42};
 
 int body_named(const Scene& scene, const std::string& name) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -59,20 +58,22 @@ std::vector<RigidTransform> body_poses(const Scene& scene, const RigidTransform&
   return poses;
 }
 
-std::vector<BodyShape> body_shapes(const Run& run) {
+std::vector<BodyShape> body_shapes(const Run& run, double spacing) {
   std::vector<BodyShape> shapes;
   for (const BodyMesh& bone : run.bodies) {
     const int body = body_named(run.scene, bone.name);
     if (body < 0 || bone.mesh.triangles.empty()) continue;
-    shapes.push_back({body, Layer::kBone, 0.05, is_closed(bone.mesh), shade(bone.mesh, kBone)});
+    shapes.push_back({body, Layer::kBone, 0.05, is_closed(bone.mesh), shade(bone.mesh, kBone), -1});
   }
-  for (const SurfaceDescription& surface : run.scene.surfaces) {
+  for (std::size_t i = 0; i < run.scene.surfaces.size(); ++i) {
+    const SurfaceDescription& surface = run.scene.surfaces[i];
     const RunPatch* patch = patch_of(run, surface.name);
     if (surface.kind == SurfaceKind::kPatch && !patch) continue;
-    shapes.push_back(
-        {surface.body, Layer::kSolid, 0.16, false,
-         patch ? patch_shape(Patch(patch->data), kCartilage)
-               : exact_shape(surface, kCartilage, place_of_interest(run, surface.body))});
+    shapes.push_back({surface.body, Layer::kSolid, 0.16, false,
+                      patch
+                          ? patch_shape(Patch(patch->data), kCartilage, spacing)
+                          : exact_shape(surface, kCartilage, place_of_interest(run, surface.body)),
+                      static_cast<int>(i)});
   }
   return shapes;
 }

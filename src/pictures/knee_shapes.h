@@ -4,6 +4,7 @@
 /// contact points and force arrows once per pose. P is the picture's frame: the body frame of the
 /// tibia, which stands still in every picture while the femur moves over it.
 
+#include <optional>
 #include <vector>
 
 #include "pictures/color_map.h"
@@ -26,11 +27,13 @@ struct BodyShape {
   Layer layer = Layer::kSolid;
   double gloss = 0.1;
   bool closed = false;
-  ShadedMesh mesh;  ///< body frame
+  ShadedMesh mesh;   ///< body frame
+  int surface = -1;  ///< of the scene, where it is an articular surface
 };
-/// Bones and articular surfaces of all bodies. Works on runs without meshes or patches: then there
-/// is less to see.
-[[nodiscard]] std::vector<BodyShape> body_shapes(const Run& run);
+/// Bones and articular surfaces of all bodies, patches with vertices about `spacing` [mm] apart.
+/// Works on runs without meshes or patches: then there is less to see.
+[[nodiscard]] std::vector<BodyShape> body_shapes(const Run& run, double spacing = 1.2);
+inline constexpr Paint kCartilage = {{186, 207, 223}, 0.42};
 
 /// Scales that hold for all pictures of a run, so that they can be compared.
 struct PictureScales {
@@ -56,28 +59,42 @@ struct PictureScales {
 
 [[nodiscard]] ShadedMesh ligament_tubes(const Run& run,
                                         const PoseResult& pose,
+                                        const std::vector<RigidTransform>& X_P,
                                         const PictureScales& scales);
-/// Only where they end on the tibia, for the view of the plateau.
-[[nodiscard]] ShadedMesh tibial_insertions(const Run& run,
-                                           const PoseResult& pose,
-                                           const PictureScales& scales);
+/// Straight thin lines from end to end, for a knee that is taken apart.
+[[nodiscard]] ShadedMesh ligament_threads(const Run& run,
+                                          const PoseResult& pose,
+                                          const std::vector<RigidTransform>& X_P,
+                                          const PictureScales& scales);
+/// Only where they end on a body, for the views that show it alone.
+[[nodiscard]] ShadedMesh insertions(const Run& run,
+                                    const PoseResult& pose,
+                                    int body,
+                                    const std::vector<RigidTransform>& X_P,
+                                    const PictureScales& scales);
 
 /// Points of the closed contacts at a pose, in P.
 struct ContactMark {
-  Eigen::Vector3d point;         ///< [mm]
-  Eigen::Vector3d toward_femur;  ///< unit normal out of the tibia
-  double force = 0;              ///< on the femur along toward_femur [N]
+  Eigen::Vector3d point;                    ///< [mm]
+  Eigen::Vector3d toward_femur;             ///< unit normal out of the tibia
+  double force = 0;                         ///< on the femur along toward_femur [N]
+  std::optional<HertzEstimate> hertz = {};  ///< its major axis in P
 };
 [[nodiscard]] std::vector<ContactMark> contact_marks(const Scene& scene, const PoseResult& pose);
 
-/// The points that the contacts leave on the tibia over the converged poses, coloured by the swept
-/// value.
-[[nodiscard]] ShadedMesh contact_paths(const Run& run, const PictureScales& scales);
+/// The points that the contacts leave on a body over the converged poses, coloured by the swept
+/// value; in the frame of that body.
+[[nodiscard]] ShadedMesh contact_paths(const Run& run, int body, const PictureScales& scales);
 /// The same of the reference model, where the run holds one: thin, in kReferenceColor.
-[[nodiscard]] ShadedMesh reference_paths(const Run& run);
+[[nodiscard]] ShadedMesh reference_paths(const Run& run, int body);
 inline constexpr Rgb kReferenceColor = {190, 58, 40};
-/// Balls at the contact points and arrows of the forces on the femur.
-[[nodiscard]] ShadedMesh contact_points(const std::vector<ContactMark>& marks);
+/// Balls at the contact points, joined where a contact is a line.
+[[nodiscard]] ShadedMesh contact_points(const std::vector<ContactMark>& marks, double radius);
+[[nodiscard]] ShadedMesh contact_lines(const Scene& scene, const PoseResult& pose);
+/// The ellipses of Hertz' estimate in the tangent plane, to scale; nothing for marks without one.
+[[nodiscard]] ShadedMesh hertz_ellipses(const std::vector<ContactMark>& marks);
+inline constexpr Rgb kHertzColor = {226, 120, 62};
+/// Arrows of the forces on the femur.
 [[nodiscard]] ShadedMesh force_arrows(const std::vector<ContactMark>& marks,
                                       const PictureScales& scales);
 

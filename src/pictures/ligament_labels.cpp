@@ -9,15 +9,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d anchor_of(const Scenery& scenery,
-                   const std::vector<RigidTransform>& X_P,
-                   std::size_t strand) {
+Vector3d anchor_of(const Scenery& scenery, std::size_t strand) {
   const LigamentDescription& ligament = scenery.run.scene.ligaments[strand];
-  if (scenery.view == View::kPlateau) {
-    const int tibia = tibia_body(scenery.run.scene);
-    const Attachment& end = ligament.ends[ligament.ends[0].body == tibia ? 0 : 1];
+  const std::vector<RigidTransform>& X_P = scenery.X_P;
+  const auto end_in_P = [&](const Attachment& end) -> Vector3d {
     return X_P[static_cast<std::size_t>(end.body)] * end.at;
+  };
+  if (scenery.staging.alone()) {
+    const bool first = scenery.staging.shows(scenery.run.scene, ligament.ends[0].body);
+    return end_in_P(ligament.ends[first ? 0 : 1]);
   }
+  if (scenery.staging.apart())
+    return 0.5 * (end_in_P(ligament.ends[0]) + end_in_P(ligament.ends[1]));
   const auto line = ligament_line(scenery.run.scene, X_P, strand, scenery.pose.ligaments[strand]);
   return line.size() == 2 ? Vector3d(0.5 * (line[0] + line[1])) : line[line.size() / 2];
 }
@@ -35,7 +38,6 @@ Vector3d middle_anchor(const std::vector<Vector3d>& anchors) {
 }  // namespace
 
 std::vector<LigamentLabel> ligament_labels(const Scenery& scenery) {
-  const std::vector<RigidTransform> X_P = body_poses(scenery.run.scene, scenery.pose.X_BA);
   std::vector<LigamentLabel> labels;
   for (const LigamentBundle& group : ligament_groups(scenery.run.scene)) {
     LigamentLabel label{group.name, 0, Vector3d::Zero()};
@@ -43,8 +45,8 @@ std::vector<LigamentLabel> ligament_labels(const Scenery& scenery) {
     for (const std::size_t strand : group.members) {
       if (strand >= scenery.pose.ligaments.size()) continue;
       label.force += scenery.pose.ligaments[strand].force;
-      if (scenery.view == View::kPlateau && !scenery.seen_from_above[strand]) continue;
-      anchors.push_back(anchor_of(scenery, X_P, strand));
+      if (scenery.staging.alone() && !scenery.seen[strand]) continue;
+      anchors.push_back(anchor_of(scenery, strand));
     }
     if (anchors.empty()) continue;
     label.anchor = middle_anchor(anchors);

@@ -15,9 +15,9 @@ struct LigamentLabel {
   Eigen::Vector3d anchor;  ///< [mm], in P
 };
 
-/// In the order of the scene. Seen from above the anchor is an insertion on the tibia, and
-/// ligaments whose insertions are all hidden below the plateau have no label; else it is the middle
-/// of the bundle's middle strand.
+/// In the order of the scene. Where a view shows one body alone the anchor is an insertion on
+/// it, and ligaments whose insertions are all hidden have no label; else it is the middle of the
+/// bundle's middle strand.
 [[nodiscard]] std::vector<LigamentLabel> ligament_labels(const Scenery& scenery);
 
 }  // namespace condyle

@@ -14,6 +14,7 @@ using Eigen::Vector3d;
 
 constexpr Rgb kSlackColor = {168, 168, 165};
 constexpr double kThroughBone = 0.62;
+constexpr double kThread = 0.24;  // of the radius of a tube
 constexpr double kDeepestBow =
     0.16;  // of the length: a very slack ligament must not leave the picture
 constexpr int kBowPoints = 13;
@@ -72,8 +73,10 @@ std::vector<Vector3d> ligament_line(const Scene& scene,
   return line;
 }
 
-ShadedMesh ligament_tubes(const Run& run, const PoseResult& pose, const PictureScales& scales) {
-  const std::vector<RigidTransform> X_P = body_poses(run.scene, pose.X_BA);
+ShadedMesh ligament_tubes(const Run& run,
+                          const PoseResult& pose,
+                          const std::vector<RigidTransform>& X_P,
+                          const PictureScales& scales) {
   ShadedMesh mesh;
   for (std::size_t i = 0; i < pose.ligaments.size() && i < run.scene.ligaments.size(); ++i) {
     const LigamentResult& result = pose.ligaments[i];
@@ -88,14 +91,31 @@ ShadedMesh ligament_tubes(const Run& run, const PoseResult& pose, const PictureS
   return mesh;
 }
 
-ShadedMesh tibial_insertions(const Run& run, const PoseResult& pose, const PictureScales& scales) {
-  const int tibia = tibia_body(run.scene);
-  const std::vector<RigidTransform> X_P = body_poses(run.scene, pose.X_BA);
+ShadedMesh ligament_threads(const Run& run,
+                            const PoseResult& pose,
+                            const std::vector<RigidTransform>& X_P,
+                            const PictureScales& scales) {
+  ShadedMesh mesh;
+  for (std::size_t i = 0; i < pose.ligaments.size() && i < run.scene.ligaments.size(); ++i) {
+    const Paint paint = {ligament_color(scales, pose.ligaments[i]), 0.5 * kThroughBone};
+    const auto [a, b] = ends_of(run.scene.ligaments[i], X_P);
+    append(mesh, tube({{a, kThread * scales.tube_radius, paint},
+                       {b, kThread * scales.tube_radius, paint}}));
+    for (const Vector3d& end : {a, b}) append(mesh, ball(end, 0.8 * scales.tube_radius, paint));
+  }
+  return mesh;
+}
+
+ShadedMesh insertions(const Run& run,
+                      const PoseResult& pose,
+                      int body,
+                      const std::vector<RigidTransform>& X_P,
+                      const PictureScales& scales) {
   ShadedMesh mesh;
   for (std::size_t i = 0; i < pose.ligaments.size() && i < run.scene.ligaments.size(); ++i) {
     for (const Attachment& end : run.scene.ligaments[i].ends) {
-      if (end.body != tibia) continue;
-      append(mesh, ball(X_P[static_cast<std::size_t>(tibia)] * end.at, 1.05 * scales.tube_radius,
+      if (end.body != body) continue;
+      append(mesh, ball(X_P[static_cast<std::size_t>(body)] * end.at, 1.05 * scales.tube_radius,
                         {ligament_color(scales, pose.ligaments[i]), 0.8}));
     }
   }

@@ -2,7 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
 #include "pictures/color_bar.h"
+#include "pictures/gap_map.h"
 #include "pictures/swept_quantity.h"
 
 namespace condyle {
@@ -27,25 +34,48 @@ void draw_bars(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
     pen.canvas.text({right + 9 * pen.s, y + 5 * pen.s}, "slack", pen.style(14));
     top = place.bottom + 120 * pen.s;
   }
+  const Frame lower{left, top, right, top + 215 * pen.s};
+  if (scenery.proximity) {
+    draw_color_bar(pen, {ColorMap::kGap, "Gap", "[mm]", 0, kGapLimit}, lower);
+    return;
+  }
   if (scenery.run.scene.contacts.empty() || !(scales.sweep_high > scales.sweep_low)) return;
   const std::string unit = swept.unit == "°" ? "[°]" : "[" + swept.unit + "]";
   draw_color_bar(pen,
                  {ColorMap::kFlexion, "Contact path", capitalized(swept.title) + " " + unit,
                   swept.shown(scales.sweep_low), swept.shown(scales.sweep_high)},
-                 {left, top, right, top + 215 * pen.s});
+                 lower);
 }
+
+namespace {
+
+/// One arm of the mark: a line and the letter at its end.
+void draw_arm(const Pen& pen, const Vector2d& middle, const Vector2d& out, char letter) {
+  pen.canvas.line(middle, middle + 22 * pen.s * out, 1.4 * pen.s, kLeader);
+  const Vector2d away = 12 * pen.s * out.normalized();
+  pen.canvas.text(middle + 22 * pen.s * out + away + Vector2d(0, 6 * pen.s), std::string(1, letter),
+                  pen.style(16, kInk, Align::kCenter));
+}
+
+}  // namespace
 
 void draw_directions(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
   const Anatomy anatomy = anatomy_of(scenery.run.scene);
   const Vector2d middle(66 * pen.s, page.height - 74 * pen.s);
+  if (scenery.view == View::kExploded) {
+    const std::array<std::pair<Vector3d, char>, 3> arms = {
+        {{anatomy.lateral, 'L'}, {anatomy.anterior, 'A'}, {anatomy.proximal, 'S'}}};
+    for (const auto& [direction, letter] : arms) {
+      const Vector3d seen = scenery.camera.R_VP * direction;
+      draw_arm(pen, middle, 1.35 * Vector2d(seen.x(), -seen.y()), letter);
+    }
+    return;
+  }
   for (int axis = 0; axis < 2; ++axis) {
     for (const double sign : {1.0, -1.0}) {
       const Vector3d direction = sign * scenery.camera.R_VP.row(axis).transpose();
-      const Vector2d out = axis == 0 ? Vector2d(sign, 0) : Vector2d(0, -sign);
-      pen.canvas.line(middle, middle + 22 * pen.s * out, 1.4 * pen.s, kLeader);
-      pen.canvas.text(middle + 34 * pen.s * out + Vector2d(0, 6 * pen.s),
-                      std::string(1, direction_letter(anatomy, direction)),
-                      pen.style(16, kInk, Align::kCenter));
+      draw_arm(pen, middle, axis == 0 ? Vector2d(sign, 0) : Vector2d(0, -sign),
+               direction_letter(anatomy, direction));
     }
   }
 }
@@ -73,12 +103,29 @@ void draw_force_scale(const Pen& pen, const PageLayout& page, const Scenery& sce
                   pen.style(14, kInk, Align::kCenter));
 }
 
-void draw_reference_key(const Pen& pen, const PageLayout& page) {
-  const double right = page.width - 30 * pen.s, y = page.height - 52 * pen.s;
-  const std::string words = "contact path of Wismans' model";
+void draw_keys(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
+  const double right = page.width - 30 * pen.s;
   const TextStyle style = pen.style(14, kInk, Align::kRight);
-  const double left = right - pen.canvas.text_width(words, style) - 12 * pen.s;
-  pen.canvas.text({right, y + 5 * pen.s}, words, style);
+  double y = page.height - 52 * pen.s;
+  const auto words = [&](const std::string& text) {
+    pen.canvas.text({right, y + 5 * pen.s}, text, style);
+    return right - pen.canvas.text_width(text, style) - 12 * pen.s;
+  };
+  if (scenery.staging.apart()) {
+    words(fmt::format("femur lifted {:g} mm, tipped {:.0f}°", scenery.staging.lifted,
+                      scenery.staging.tipped * 180 / M_PI));
+    y -= 24 * pen.s;
+  }
+  const bool ellipses = std::any_of(scenery.marks.begin(), scenery.marks.end(),
+                                    [](const ContactMark& mark) { return mark.hertz.has_value(); });
+  if (scenery.hertz && ellipses) {
+    const double left = words("Hertz ellipse, to scale; greatest pressure");
+    pen.canvas.disc({left - 10 * pen.s, y}, 7 * pen.s, kInk);
+    pen.canvas.disc({left - 10 * pen.s, y}, 5.8 * pen.s, kHertzColor);
+    y -= 24 * pen.s;
+  }
+  if (!scenery.run.comparison || scenery.proximity) return;
+  const double left = words("contact path of Wismans' model");
   pen.canvas.line({left - 34 * pen.s, y}, {left, y}, 3 * pen.s, kReferenceColor);
   pen.canvas.disc({left - 17 * pen.s, y}, 3.4 * pen.s, kReferenceColor);
 }

@@ -8,15 +8,16 @@
 
 namespace condyle {
 
-/// Colour bars of ligament strain and of the contact path, at the right.
+/// Colour bars of ligament strain and of the contact path or the gap, at the right.
 void draw_bars(const Pen& pen, const PageLayout& page, const Scenery& scenery);
-/// A cross with the letters of the anatomical directions, lower left.
+/// A cross with the letters of the anatomical directions, lower left; three arms where the view is
+/// oblique.
 void draw_directions(const Pen& pen, const PageLayout& page, const Scenery& scenery);
 void draw_scale_bar(const Pen& pen, const PageLayout& page, const Scenery& scenery);
 /// The arrow of a round force, to compare the arrows in the picture with.
 void draw_force_scale(const Pen& pen, const PageLayout& page, const Scenery& scenery);
 
-/// What the second line of contact paths is, where a run holds the reference model.
-void draw_reference_key(const Pen& pen, const PageLayout& page);
+/// What ellipses and a second line of contact paths are, lower right.
+void draw_keys(const Pen& pen, const PageLayout& page, const Scenery& scenery);
 
 }  // namespace condyle

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <functional>
 
-#include "pictures/swept_quantity.h"
-
 namespace condyle {
 namespace {
 
@@ -16,15 +14,13 @@ constexpr std::size_t kMostPerPanel = 8;  ///< curves of ours, each with one of 
 constexpr const char* kDashed = " (dashed: Wismans' model)";
 
 Chart chart_of(const Run& run, const std::string& what) {
-  const SweptQuantity swept = swept_quantity(run.scene);
-  const std::string unit = swept.unit == "×" || swept.unit.empty() ? "" : " [" + swept.unit + "]";
-  return {run.scene.title + ": " + what, swept.title + unit, {}};
+  return {run.scene.title, what, abscissa_of(run.scene).label, {}};
 }
 
 std::vector<double> swept_values(const Run& run) {
-  const SweptQuantity swept = swept_quantity(run.scene);
+  const double per_value = abscissa_of(run.scene).per_value;
   std::vector<double> values;
-  for (const PoseResult& pose : run.sweep.poses) values.push_back(swept.shown(pose.value));
+  for (const PoseResult& pose : run.sweep.poses) values.push_back(per_value * pose.value);
   return values;
 }
 
@@ -140,7 +136,8 @@ Chart laxity_chart(const Run& run) {
   const LoadDescription& load = run.scene.loads[run.scene.sweep->index];
   const bool angle = loaded_coordinate(run.scene) < 3;
   const bool both_models = !run.laxity->curves.empty() && run.laxity->curves[0].reference;
-  Chart chart{run.scene.title + (both_models ? kDashed : ""),
+  Chart chart{run.scene.title,
+              std::string("laxity") + (both_models ? kDashed : ""),
               fmt::format("{} [{}]", load.name, load.moment ? "N mm" : "N"),
               {}};
   std::vector<double> loads;

@@ -6,15 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "pictures/gnuplot.h"
+#include "pictures/run_charts.h"
 #include "results/run_file.h"
 
 namespace condyle {
-
-struct NamedChart {
-  std::string name;  ///< of the file, without its ending
-  Chart chart;
-};
 
 /// Joint coordinates, contact forces, places of contact, ligament forces, the flexion moment, and
 /// what each part of the reference model does alone. None where the run holds no comparison.

@@ -2,21 +2,18 @@
 
 #include <png.h>
 
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <memory>
 #include <string>
 
 #include "input_error.h"
+#include "pictures/picture_error.h"
+#include "results/output_file.h"
 
 namespace condyle {
 namespace {
 
 // Mostly white pages: a low level packs nearly as well as the highest and several times faster.
 constexpr int kCompression = 3;
-
-using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
   throw InputError(path.string() + ": " + what);
@@ -27,11 +24,14 @@ using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
   png_longjmp(png, 1);
 }
 void on_png_warning(png_structp, png_const_charp) {}
+void keep(png_structp png, png_bytep data, png_size_t size) {
+  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(data), size);
+}
 
 /// libpng leaves by longjmp, so nothing with a destructor lives in here.
-bool encode(png_structp png, png_infop info, std::FILE* file, const Image& image) {
+bool encode(png_structp png, png_infop info, std::string& bytes, const Image& image) {
   if (setjmp(png_jmpbuf(png))) return false;
-  png_init_io(png, file);
+  png_set_write_fn(png, &bytes, keep, nullptr);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
                static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
@@ -44,32 +44,21 @@ bool encode(png_structp png, png_infop info, std::FILE* file, const Image& image
   return true;
 }
 
-std::string write_open_file(std::FILE* file, const Image& image) {
-  std::string message = "cannot encode the picture";
+}  // namespace
+
+std::string encode_png(const Image& image) {
+  std::string message = "no memory", bytes;
   png_structp png =
       png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, on_png_error, on_png_warning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
-  const bool done = info && encode(png, info, file, image);
+  const bool done = info && encode(png, info, bytes, image);
   png_destroy_write_struct(&png, &info);
-  return done ? std::string() : message;
+  if (!done) throw PictureError("cannot encode a picture: " + message);
+  return bytes;
 }
 
-}  // namespace
-
 void write_png(const std::filesystem::path& path, const Image& image) {
-  const std::filesystem::path part = path.string() + ".part";
-  std::FILE* file = std::fopen(part.c_str(), "wb");
-  if (!file) fail(path, std::string("cannot write: ") + std::strerror(errno));
-  std::string problem = write_open_file(file, image);
-  if (std::fclose(file) != 0 && problem.empty()) problem = std::strerror(errno);
-  std::error_code error;
-  if (problem.empty()) {
-    std::filesystem::rename(part, path, error);
-    if (error) problem = error.message();
-  }
-  if (problem.empty()) return;
-  std::filesystem::remove(part, error);
-  fail(path, "cannot write: " + problem);
+  write_output_file(path, encode_png(image));
 }
 
 Image read_png(const std::filesystem::path& path) {

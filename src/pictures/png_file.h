@@ -3,10 +3,14 @@
 /// PNG files through libpng. The same image gives the same bytes: no time stamp is written.
 
 #include <filesystem>
+#include <string>
 
 #include "pictures/image.h"
 
 namespace condyle {
+
+/// The bytes of a PNG file.
+[[nodiscard]] std::string encode_png(const Image& image);
 
 /// Writes beside `path` first and renames: never a half-written picture. Throws InputError when the
 /// folder does not exist or the disk is full.

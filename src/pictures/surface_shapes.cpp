@@ -12,10 +12,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A vertex of the patch grid with its distance to the edge of the data, positive inside.
+/// A vertex of the patch grid with its distance to the edge of the data, positive inside, and its
+/// place in the mesh once it has one.
 struct Sample {
   ShadedVertex vertex;
   double inside;
+  std::uint32_t index = kNotYet;
+  static constexpr std::uint32_t kNotYet = 0xffffffff;
 };
 
 ShadedVertex between(const ShadedVertex& a, const ShadedVertex& b, float t) {
@@ -23,22 +26,29 @@ ShadedVertex between(const ShadedVertex& a, const ShadedVertex& b, float t) {
           (a.normal + t * (b.normal - a.normal)).normalized(), a.color};
 }
 
+std::uint32_t add_vertex(ShadedMesh& mesh, const ShadedVertex& vertex) {
+  mesh.vertices.push_back(vertex);
+  return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+}
+
 /// Adds the part of a triangle that lies inside: the edge of a patch is a smooth line, not a
 /// staircase.
-void add_inside(ShadedMesh& mesh, const std::array<const Sample*, 3>& corners) {
-  std::vector<ShadedVertex> polygon;
+void add_inside(ShadedMesh& mesh, const std::array<Sample*, 3>& corners) {
+  std::array<std::uint32_t, 4> polygon{};
+  std::size_t size = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Sample &a = *corners[i], &b = *corners[(i + 1) % 3];
-    if (a.inside >= 0) polygon.push_back(a.vertex);
+    Sample &a = *corners[i], &b = *corners[(i + 1) % 3];
+    if (a.inside >= 0) {
+      if (a.index == Sample::kNotYet) a.index = add_vertex(mesh, a.vertex);
+      polygon[size++] = a.index;
+    }
     if ((a.inside >= 0) != (b.inside >= 0)) {
-      polygon.push_back(
-          between(a.vertex, b.vertex, static_cast<float>(a.inside / (a.inside - b.inside))));
+      const auto t = static_cast<float>(a.inside / (a.inside - b.inside));
+      polygon[size++] = add_vertex(mesh, between(a.vertex, b.vertex, t));
     }
   }
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), polygon.begin(), polygon.end());
-  for (std::uint32_t i = 2; i < polygon.size(); ++i)
-    mesh.triangles.push_back({first, first + i - 1, first + i});
+  for (std::size_t i = 2; i < size; ++i)
+    mesh.triangles.push_back({polygon[0], polygon[i - 1], polygon[i]});
 }
 
 int cells(double length, double spacing) {
@@ -155,8 +165,8 @@ ShadedMesh painted_patch(const Patch& patch,
   ShadedMesh mesh;
   for (int i = 0; i < nu; ++i) {
     for (int j = 0; j < nv; ++j) {
-      const Sample* a = &samples[static_cast<std::size_t>(i * (nv + 1) + j)];
-      const Sample* b = a + nv + 1;
+      Sample* a = &samples[static_cast<std::size_t>(i * (nv + 1) + j)];
+      Sample* b = a + nv + 1;
       if (patch.data().orientation > 0) {
         add_inside(mesh, {a, b, b + 1});
         add_inside(mesh, {a, b + 1, a + 1});

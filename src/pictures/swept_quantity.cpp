@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <numbers>
 
@@ -48,10 +49,23 @@ SweptQuantity swept_quantity(const Scene& scene) {
   return quantity_of(scene.conditions[index]);
 }
 
+std::string SweptQuantity::inside_a_line() const {
+  for (const char* known : {"Time", "Factor on ", "Flexion", "Adduction", "Internal rotation",
+                            "Lateral shift", "Anterior drawer", "Distraction", "Pose"}) {
+    if (title.rfind(known, 0) != 0) continue;
+    std::string text = title;
+    text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+    return text;
+  }
+  return title;
+}
+
 std::string with_unit(const SweptQuantity& quantity, double inside) {
   // Rounded first, so that -0.04 does not read "-0".
-  const double rounded = std::round(10 * quantity.shown(inside)) / 10 + 0.0;
-  return fmt::format("{:g}{}{}", rounded, quantity.unit == "mm" ? " " : "", quantity.unit);
+  const double digits = quantity.unit == "s" ? 1e4 : quantity.unit == "×" ? 1e3 : 10;
+  const double rounded = std::round(digits * quantity.shown(inside)) / digits + 0.0;
+  const bool apart = quantity.unit == "mm" || quantity.unit == "s";
+  return fmt::format("{:g}{}{}", rounded, apart ? " " : "", quantity.unit);
 }
 
 std::optional<std::size_t> nearest_pose(const Scene& scene,

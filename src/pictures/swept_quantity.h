@@ -18,6 +18,8 @@ struct SweptQuantity {
   double per_inside = 1;  ///< shown value = per_inside * value inside
   bool flexion = false;
   [[nodiscard]] double shown(double inside) const { return per_inside * inside; }
+  /// The title as it stands within a line: "flexion"; names of conditions stay as they are written.
+  [[nodiscard]] std::string inside_a_line() const;
 };
 [[nodiscard]] SweptQuantity swept_quantity(const Scene& scene);
 

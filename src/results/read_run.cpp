@@ -8,6 +8,7 @@
 #include "results/hdf5_file.h"
 #include "results/run_file.h"
 #include "results/run_layout.h"
+#include "results/simulation_group.h"
 #include "results/sweep_group.h"
 #include "scene/read_scene.h"
 #include "scene/sweep_range.h"
@@ -290,6 +291,7 @@ Run read_run(const std::filesystem::path& path) {
   const Hdf5Group bodies = root.open("bodies");
   for (const std::string& name : bodies.names())
     run.bodies.push_back(read_body(bodies.open(name), name));
+  if (root.has("simulate")) run.simulation = read_simulation(root.open("simulate"), run.scene);
   if (root.has("reference")) run.comparison = read_comparison(root, run.scene);
   if (root.has("laxity")) run.laxity = read_laxity(root.open("laxity"), run.scene);
   return run;

@@ -44,7 +44,7 @@ struct Run {
   std::optional<Comparison> comparison = {};  ///< of `condyle compare`
   std::optional<LaxityResult> laxity = {};    ///< of `condyle laxity`
   std::vector<std::string> start = {};        ///< of a fit: what start_warnings found
-  std::optional<Simulation> simulation = {};  ///< of `condyle simulate`; written, not read back
+  std::optional<Simulation> simulation = {};  ///< of `condyle simulate`; read back without poses
   std::vector<InputFile> inputs = {};         ///< the meshes; none in files of version 0.1.0
   std::string program = {}, created = {};     ///< read back only: who wrote the file, and when (UTC)
 };

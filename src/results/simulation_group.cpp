@@ -88,4 +88,66 @@ void write_simulation(const Hdf5Group& group, const Scene& scene, const Simulati
   writer.write_events(simulation.contact_of);
 }
 
+namespace {
+
+void read_energy(const Hdf5Group& energy, std::vector<MotionFrame>& frames) {
+  const auto joules = [&](const char* name, const std::function<void(MotionFrame&, double)>& set) {
+    const std::vector<double> values = energy.read(name, {frames.size()});
+    for (std::size_t i = 0; i < frames.size(); ++i) set(frames[i], kJoule * values[i]);
+  };
+  joules("kinetic", [](MotionFrame& f, double e) { f.energy.kinetic = e; });
+  joules("gravity", [](MotionFrame& f, double e) { f.energy.gravity = e; });
+  joules("ligaments", [](MotionFrame& f, double e) { f.energy.elastic = e; });
+  joules("dissipated", [](MotionFrame& f, double e) { f.dissipated = e; });
+  joules("driver_work", [](MotionFrame& f, double e) { f.driver_work = e; });
+}
+
+void read_frames(const Hdf5Group& group, std::vector<MotionFrame>& frames) {
+  const std::vector<double> time = group.read("time").values;
+  frames.resize(time.size());
+  const std::vector<double> v = group.read("velocity", {time.size(), 3}),
+                            w = group.read("angular_velocity", {time.size(), 3});
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    NetworkState& state = frames[i].state;
+    state.t = time[i];
+    state.bodies.resize(1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      state.bodies[0].v[static_cast<Eigen::Index>(k)] = v[3 * i + k];
+      state.bodies[0].omega[static_cast<Eigen::Index>(k)] = kDegree * w[3 * i + k];
+    }
+  }
+}
+
+/// Contacts of the events are those of the scene.
+void read_motion_events(const Hdf5Group& events, const Scene& scene, Motion& motion) {
+  const std::vector<double> time = events.read("time").values;
+  const Shape shape = {time.size()};
+  const std::vector<double> speed = events.read("speed", shape);
+  const std::vector<int> contact = events.read_integers("contact", shape),
+                         closing = events.read_integers("closing", shape);
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    if (contact[i] < 0 || contact[i] >= static_cast<int>(scene.contacts.size()))
+      events.fail("holds an event of no known contact");
+    motion.events.push_back({time[i], contact[i], closing[i] == 1, speed[i]});
+  }
+}
+
+}  // namespace
+
+Simulation read_simulation(const Hdf5Group& group, const Scene& scene) {
+  Simulation simulation;
+  Motion& motion = simulation.motion;
+  motion.completed = group.read_attribute("completed") == "yes";
+  motion.reason = group.read_attribute("reason");
+  simulation.mass.mass = kKilogram * group.read("mass", {1})[0];
+  const std::vector<double> center = group.read("mass_center", {3});
+  simulation.mass.center = Eigen::Map<const Eigen::Vector3d>(center.data());
+  read_frames(group, motion.frames);
+  read_energy(group.open("energy"), motion.frames);
+  read_motion_events(group.open("events"), scene, motion);
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i)
+    simulation.contact_of.push_back(static_cast<int>(i));
+  return simulation;
+}
+
 }  // namespace condyle

@@ -9,4 +9,7 @@ namespace condyle {
 
 void write_simulation(const Hdf5Group& group, const Scene& scene, const Simulation& simulation);
 
+/// Frames with time, velocities and energies, events, mass; `poses` of the result are left empty.
+[[nodiscard]] Simulation read_simulation(const Hdf5Group& group, const Scene& scene);
+
 }  // namespace condyle

@@ -39,27 +39,6 @@ std::string place_of(const Scene& scene, const SurfaceDescription& surface) {
   return fmt::format("{}: surface \"{}\"", scene.file.string(), surface.name);
 }
 
-std::unique_ptr<Surface> make_exact(const SurfaceDescription& s) {
-  switch (s.kind) {
-    case SurfaceKind::kPlane:
-      return make_plane(s.point, s.direction, s.known_radius);
-    case SurfaceKind::kSphere:
-      return make_sphere(s.point, s.radius, s.solid_inside);
-    case SurfaceKind::kCylinder:
-      return make_cylinder(s.point, s.direction, s.radius, s.solid_inside, s.length);
-    case SurfaceKind::kEllipsoid:
-      return make_ellipsoid(s.point, s.axes, s.semi_axes, s.solid_inside);
-    case SurfaceKind::kTorus:
-      return make_torus(s.point, s.direction, s.radius, s.minor_radius, s.solid_inside);
-    case SurfaceKind::kPolynomial:
-      return make_polynomial(s.point, s.axes, s.terms, s.solid_inside, s.known_radius);
-    case SurfaceKind::kPatch:
-      break;
-  }
-  assert(false);
-  return nullptr;
-}
-
 MeshFile mesh_of(const Scene& scene, const SurfaceDescription& surface) {
   if (surface.patch.mesh) return *surface.patch.mesh;
   const BodyDescription& body = scene.bodies[surface.body];
@@ -283,13 +262,34 @@ void fit_sources(const Scene& scene,
 
 }  // namespace
 
+std::unique_ptr<Surface> make_exact_surface(const SurfaceDescription& s) {
+  switch (s.kind) {
+    case SurfaceKind::kPlane:
+      return make_plane(s.point, s.direction, s.known_radius);
+    case SurfaceKind::kSphere:
+      return make_sphere(s.point, s.radius, s.solid_inside);
+    case SurfaceKind::kCylinder:
+      return make_cylinder(s.point, s.direction, s.radius, s.solid_inside, s.length);
+    case SurfaceKind::kEllipsoid:
+      return make_ellipsoid(s.point, s.axes, s.semi_axes, s.solid_inside);
+    case SurfaceKind::kTorus:
+      return make_torus(s.point, s.direction, s.radius, s.minor_radius, s.solid_inside);
+    case SurfaceKind::kPolynomial:
+      return make_polynomial(s.point, s.axes, s.terms, s.solid_inside, s.known_radius);
+    case SurfaceKind::kPatch:
+      break;
+  }
+  assert(false);
+  return nullptr;
+}
+
 std::vector<FittedSurface> fit_surfaces(const Scene& scene, const OnProgress& on_patch) {
   std::vector<Source> sources = collect_sources(scene);
   std::vector<FittedSurface> surfaces(scene.surfaces.size());
   fit_sources(scene, sources, surfaces, on_patch);
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     if (scene.surfaces[i].kind != SurfaceKind::kPatch)
-      surfaces[i].surface = make_exact(scene.surfaces[i]);
+      surfaces[i].surface = make_exact_surface(scene.surfaces[i]);
   return surfaces;
 }
 

@@ -40,6 +40,9 @@ struct FittedSurface {
   TriangleMesh region = {};         ///< patches only: the part of the mesh that was fitted
 };
 
+/// A described surface of any kind but a patch.
+[[nodiscard]] std::unique_ptr<Surface> make_exact_surface(const SurfaceDescription& surface);
+
 /// One entry per Scene::surfaces. Throws InputError for meshes that cannot be used. `on_patch` is
 /// told of each patch that is fitted, from either of two threads but never from both at once.
 [[nodiscard]] std::vector<FittedSurface> fit_surfaces(const Scene& scene,

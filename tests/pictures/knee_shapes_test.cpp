@@ -4,7 +4,7 @@
 
 #include "pictures/block_knee.h"
 #include "pictures/ligament_groups.h"
-#include "pictures/seen_from_above.h"
+#include "pictures/seen_insertions.h"
 
 namespace condyle {
 namespace {
@@ -97,7 +97,7 @@ TEST(KneeShapes, LigamentsWithoutASlackLengthAreColouredByForce) {
 
 TEST(KneeShapes, ThePathEndsWhereTheContactOpens) {
   auto run = block_run();
-  const auto vertices = [&] { return contact_paths(run, picture_scales(run)).vertices.size(); };
+  const auto vertices = [&] { return contact_paths(run, tibia_body(run.scene), picture_scales(run)).vertices.size(); };
   const std::size_t whole = vertices();
   run.sweep.poses[1].contacts[0].closed = false;  // the medial path falls apart into two dots
   EXPECT_LT(vertices(), whole);
@@ -131,7 +131,7 @@ TEST(SeenFromAbove, InsertionsBelowThePlateauAreNot) {
   auto run = block_run();
   run.scene.ligaments.push_back(strand("below", {0, 10, 0}, {0, -30, 10}));
   run.scene.ligaments.push_back(strand("on top", {0, 10, 0}, {0, -2.5, 10}));
-  const auto seen = seen_from_above(run.scene, body_shapes(run));
+  const auto seen = seen_insertions(run.scene, body_shapes(run), tibia_body(run.scene), view_rotation(View::kPlateau, anatomy_of(run.scene)));
   // LCL and MCL insert beside the block, 6 mm clear of it.
   EXPECT_EQ(seen, (std::vector<bool>{true, true, true, false, true}));
 }

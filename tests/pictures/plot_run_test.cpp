@@ -99,7 +99,7 @@ TEST(RunProgram, CollectsWhatTheProgramComplainsOf) {
 }
 
 TEST(PlotRun, ACurveMayBeDashedInTheColourOfAnother) {
-  Chart chart{"title", "x", {{"y", {}}}};
+  Chart chart{"title", "what", "x", {{"y", {}}}};
   chart.panels[0].curves = {{"first", {0, 1}, {0, 1}, 3, false}, {"", {0, 1}, {1, 2}, 3, true}};
   const std::string script = gnuplot_script(chart, "file.png", PlotFormat::kPng);
   const std::size_t first = script.find("linecolor '#CC79A7' dashtype 1");

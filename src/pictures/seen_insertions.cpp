@@ -1,10 +1,8 @@
-#include "pictures/seen_from_above.h"
+#include "pictures/seen_insertions.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
-
-#include "pictures/camera.h"
 
 namespace condyle {
 namespace {
@@ -31,22 +29,22 @@ struct Insertion {
 
 }  // namespace
 
-std::vector<bool> seen_from_above(const Scene& scene,
+std::vector<bool> seen_insertions(const Scene& scene,
                                   const std::vector<BodyShape>& shapes,
+                                  int body,
+                                  const Eigen::Matrix3d& R_VB,
                                   double depth) {
-  const int tibia = tibia_body(scene);
-  const Eigen::Matrix3d R = view_rotation(View::kPlateau, anatomy_of(scene));
   std::vector<Insertion> insertions;
   for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
     for (const Attachment& end : scene.ligaments[i].ends) {
-      if (end.body == tibia) insertions.push_back({i, R * end.at});
+      if (end.body == body) insertions.push_back({i, R_VB * end.at});
     }
   }
   for (const BodyShape& shape : shapes) {
-    if (shape.body != tibia) continue;
+    if (shape.body != body) continue;
     std::vector<Vector3d> p;
     for (const ShadedVertex& vertex : shape.mesh.vertices)
-      p.push_back(R * vertex.position.cast<double>());
+      p.push_back(R_VB * vertex.position.cast<double>());
     for (const auto& [a, b, c] : shape.mesh.triangles) {
       for (Insertion& insertion : insertions) {
         insertion.cover = std::max(insertion.cover,

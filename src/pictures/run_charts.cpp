@@ -1,0 +1,232 @@
+#include "pictures/run_charts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "pictures/knee_shapes.h"
+#include "pictures/ligament_groups.h"
+#include "pictures/swept_quantity.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+using OfPose = std::function<double(const PoseResult&)>;
+
+/// y of each converged pose over the swept value.
+Curve curve_of(const Run& run, const std::string& title, const OfPose& y) {
+  const Abscissa abscissa = abscissa_of(run.scene);
+  Curve curve{title, {}, {}};
+  for (const PoseResult& pose : run.sweep.poses) {
+    curve.x.push_back(abscissa.per_value * pose.value);
+    curve.y.push_back(pose.converged() ? y(pose) : kUnknown);
+  }
+  return curve;
+}
+
+Chart chart_of(const Run& run, const std::string& what) {
+  return {run.scene.title, what, abscissa_of(run.scene).label, {}};
+}
+
+bool has_value(const Curve& curve) {
+  return std::any_of(curve.y.begin(), curve.y.end(), [](double y) { return std::isfinite(y); });
+}
+
+void keep(Chart& chart, Panel panel) {
+  if (std::any_of(panel.curves.begin(), panel.curves.end(), has_value))
+    chart.panels.push_back(std::move(panel));
+}
+
+double total_force(const PoseResult& pose, const std::vector<std::size_t>& strands) {
+  double sum = 0;
+  for (const std::size_t i : strands)
+    sum += i < pose.ligaments.size() ? pose.ligaments[i].force : 0;
+  return sum;
+}
+
+/// Of the strands that have a slack length.
+double greatest_strain(const Scene& scene,
+                       const PoseResult& pose,
+                       const std::vector<std::size_t>& strands) {
+  double greatest = kUnknown;
+  for (const std::size_t i : strands) {
+    if (i >= pose.ligaments.size() || !(slack_length(scene.ligaments[i].law) > 0)) continue;
+    if (!(greatest >= pose.ligaments[i].strain)) greatest = pose.ligaments[i].strain;
+  }
+  return greatest;
+}
+
+/// Mean of the points on the tibia, weighted by force; nothing for an open contact.
+std::optional<Vector3d> place_on_tibia(const Scene& scene, const ContactResult& contact) {
+  if (!contact.closed || !(contact.force > 0)) return std::nullopt;
+  const bool moves = tibia_body(scene) == scene.moving_body();
+  Vector3d sum = Vector3d::Zero();
+  for (const ContactPointResult& point : contact.points)
+    sum += point.force * (moves ? point.point_moving : point.point_ground);
+  return sum / contact.force;
+}
+
+Curve place_curve(const Run& run, std::size_t contact, const Vector3d& axis) {
+  return curve_of(run, run.scene.contacts[contact].name, [&](const PoseResult& pose) {
+    if (contact >= pose.contacts.size()) return kUnknown;
+    const auto place = place_on_tibia(run.scene, pose.contacts[contact]);
+    return place ? axis.dot(*place - run.scene.joint->tibia.origin) : kUnknown;
+  });
+}
+
+}  // namespace
+
+Abscissa abscissa_of(const Scene& scene) {
+  const SweptQuantity swept = swept_quantity(scene);
+  const bool load = !scene.simulation && scene.sweep && scene.sweep->varies_load &&
+                    scene.sweep->index >= 0 &&
+                    static_cast<std::size_t>(scene.sweep->index) < scene.loads.size();
+  if (load) {
+    const LoadDescription& varied = scene.loads[static_cast<std::size_t>(scene.sweep->index)];
+    if (varied.vector.norm() > 0)
+      return {varied.name + (varied.moment ? " [N mm]" : " [N]"), varied.vector.norm()};
+  }
+  const std::string unit = swept.unit == "×" || swept.unit.empty() ? "" : " [" + swept.unit + "]";
+  return {swept.title + unit, swept.per_inside};
+}
+
+Chart joint_coordinate_chart(const Run& run) {
+  Chart chart = chart_of(run, "joint coordinates");
+  if (!run.scene.joint) return chart;
+  Panel angles{"Rotation [°]", {}}, lengths{"Translation [mm]", {}};
+  const auto angle = [&](const std::string& title, double JointCoordinates::*member) {
+    angles.curves.push_back(curve_of(
+        run, title, [member](const PoseResult& pose) { return kDegrees * (pose.joint.*member); }));
+  };
+  const auto length = [&](const std::string& title, double JointCoordinates::*member) {
+    lengths.curves.push_back(
+        curve_of(run, title, [member](const PoseResult& pose) { return pose.joint.*member; }));
+  };
+  if (!swept_quantity(run.scene).flexion) angle("flexion", &JointCoordinates::flexion);
+  angle("adduction", &JointCoordinates::adduction);
+  angle("internal rotation", &JointCoordinates::internal_rotation);
+  length("lateral shift", &JointCoordinates::lateral_shift);
+  length("anterior drawer", &JointCoordinates::anterior_drawer);
+  length("distraction", &JointCoordinates::distraction);
+  chart.panels = {angles, lengths};
+  return chart;
+}
+
+Chart contact_force_chart(const Run& run) {
+  Chart chart = chart_of(run, "contact forces");
+  Panel panel{"Contact force [N]", {}, true};
+  for (std::size_t c = 0; c < run.scene.contacts.size(); ++c) {
+    panel.curves.push_back(curve_of(run, run.scene.contacts[c].name, [c](const PoseResult& pose) {
+      return c < pose.contacts.size() ? pose.contacts[c].force : kUnknown;
+    }));
+  }
+  if (!panel.curves.empty()) chart.panels = {panel};
+  return chart;
+}
+
+Chart contact_place_chart(const Run& run) {
+  Chart chart = chart_of(run, "contact on the tibia");
+  if (!run.scene.joint) return chart;
+  Panel forward{"Anterior [mm]", {}}, outward{"Lateral [mm]", {}};
+  for (std::size_t c = 0; c < run.scene.contacts.size(); ++c) {
+    forward.curves.push_back(place_curve(run, c, run.scene.joint->tibia.anterior));
+    outward.curves.push_back(place_curve(run, c, run.scene.joint->tibia.lateral));
+  }
+  keep(chart, forward);
+  keep(chart, outward);
+  return chart;
+}
+
+Chart ligament_force_chart(const Run& run) {
+  Chart chart = chart_of(run, "ligament forces");
+  Panel panel{"Ligament force [N]", {}, true};
+  for (const LigamentBundle& group : ligament_groups(run.scene)) {
+    panel.curves.push_back(curve_of(
+        run, group.name, [&](const PoseResult& pose) { return total_force(pose, group.members); }));
+  }
+  if (!panel.curves.empty()) chart.panels = {panel};
+  return chart;
+}
+
+Chart ligament_strain_chart(const Run& run) {
+  const auto groups = ligament_groups(run.scene);
+  const bool strands = std::any_of(groups.begin(), groups.end(),
+                                   [](const auto& group) { return group.members.size() > 1; });
+  Chart chart =
+      chart_of(run, strands ? "ligament strains (greatest of the strands)" : "ligament strains");
+  Panel panel{"Ligament strain [%]", {}};
+  for (const LigamentBundle& group : groups) {
+    Curve curve = curve_of(run, group.name, [&](const PoseResult& pose) {
+      return 100 * greatest_strain(run.scene, pose, group.members);
+    });
+    if (has_value(curve)) panel.curves.push_back(std::move(curve));
+  }
+  keep(chart, panel);
+  return chart;
+}
+
+Chart flexion_moment_chart(const Run& run) {
+  Chart chart = chart_of(run, "flexion moment of the knee");
+  for (std::size_t i = 0; i < run.scene.conditions.size() && !run.scene.simulation; ++i) {
+    if (run.scene.conditions[i].kind != ConditionKind::kFlexion) continue;
+    keep(chart, {"Flexion moment [N mm]", {curve_of(run, "", [i](const PoseResult& pose) {
+                   return i < pose.conditions.size() ? pose.conditions[i].multiplier : kUnknown;
+                 })}});
+    break;
+  }
+  return chart;
+}
+
+Chart stability_chart(const Run& run) {
+  Chart chart = chart_of(run, "stability");
+  keep(chart, {"Lowest stiffness [N/mm]",
+               {curve_of(run, "", [](const PoseResult& pose) { return pose.lowest_stiffness; })}});
+  return chart;
+}
+
+Chart energy_chart(const Run& run) {
+  Chart chart = chart_of(run, "energy");
+  if (!run.simulation || run.simulation->motion.frames.empty()) return chart;
+  constexpr double kJoule = 1e3;  // N mm
+  const std::vector<MotionFrame>& frames = run.simulation->motion.frames;
+  const auto curve = [&](const std::string& title,
+                         const std::function<double(const MotionFrame&)>& of) {
+    Curve joules{title, {}, {}};
+    for (const MotionFrame& frame : frames) {
+      joules.x.push_back(frame.state.t);
+      joules.y.push_back((of(frame) - of(frames.front())) / kJoule);
+    }
+    return joules;
+  };
+  Panel parts{"Energy since the start [J]", {}}, balance{"Balance since the start [J]", {}};
+  parts.curves = {curve("kinetic", [](const auto& f) { return f.energy.kinetic; }),
+                  curve("gravity", [](const auto& f) { return f.energy.gravity; }),
+                  curve("ligaments", [](const auto& f) { return f.energy.elastic; }),
+                  curve("dissipated", [](const auto& f) { return f.dissipated; }),
+                  curve("work of loads", [](const auto& f) { return f.driver_work; })};
+  balance.curves = {curve("", [](const auto& f) { return f.balance(); })};
+  chart.panels = {parts, balance};
+  return chart;
+}
+
+std::vector<NamedChart> run_charts(const Run& run) {
+  if (run.sweep.poses.empty()) return {};
+  return {{"joint_coordinates", joint_coordinate_chart(run)},
+          {"contact_forces", contact_force_chart(run)},
+          {"contact_places", contact_place_chart(run)},
+          {"ligament_forces", ligament_force_chart(run)},
+          {"ligament_strains", ligament_strain_chart(run)},
+          {"flexion_moment", flexion_moment_chart(run)},
+          {"stability", stability_chart(run)},
+          {"energy", energy_chart(run)}};
+}
+
+}  // namespace condyle

@@ -1,0 +1,45 @@
+#pragma once
+
+/// The curves of a run over what it sweeps. Poses that did not converge leave gaps; a chart without
+/// a curve has no panels.
+
+#include <string>
+#include <vector>
+
+#include "pictures/gnuplot.h"
+#include "results/run_file.h"
+
+namespace condyle {
+
+struct NamedChart {
+  std::string name;  ///< of the file, without its ending
+  Chart chart;
+};
+
+/// The abscissa of all charts of a run: what is swept, a swept load by its size.
+struct Abscissa {
+  std::string label;  ///< with unit
+  double per_value = 1;
+};
+[[nodiscard]] Abscissa abscissa_of(const Scene& scene);
+
+[[nodiscard]] Chart joint_coordinate_chart(const Run& run);
+[[nodiscard]] Chart contact_force_chart(const Run& run);
+/// Where the resultant of each contact acts, along the tibia's anatomical axes from its origin.
+[[nodiscard]] Chart contact_place_chart(const Run& run);
+/// Strands of one ligament are summed.
+[[nodiscard]] Chart ligament_force_chart(const Run& run);
+/// Of the strands of one ligament the greatest strain; ligaments without a slack length have none.
+[[nodiscard]] Chart ligament_strain_chart(const Run& run);
+/// The multiplier of the flexion condition: the moment with which the knee itself would flex.
+[[nodiscard]] Chart flexion_moment_chart(const Run& run);
+/// The lowest eigenvalue of the reduced stiffness: below zero the position is unstable.
+[[nodiscard]] Chart stability_chart(const Run& run);
+/// Of a motion: kinetic, potential and ligament energy, dissipation, work of the loads, and how far
+/// their balance departs from its start.
+[[nodiscard]] Chart energy_chart(const Run& run);
+
+/// All of the above, by the names of their files.
+[[nodiscard]] std::vector<NamedChart> run_charts(const Run& run);
+
+}  // namespace condyle
