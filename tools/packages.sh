@@ -53,6 +53,12 @@ install_where_possible() {
   install_packages || echo "Going on without: $*" >&2
 }
 
+# npm bundles the 3-D view of reports; without it they go without. Debian's own is taken only where there is no other, as
+# one of another origin and Debian's do not stand beside each other.
+install_npm_where_possible() {
+  command -v node >/dev/null && command -v npm >/dev/null || install_where_possible nodejs npm
+}
+
 # apt waits for a busy package lock by itself, but not for the lock of its lists.
 update_package_lists() {
   local attempt

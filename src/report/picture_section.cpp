@@ -11,6 +11,7 @@
 #include "pictures/knee_picture.h"
 #include "pictures/plot_run.h"
 #include "pictures/png_file.h"
+#include "pictures/strip.h"
 #include "pictures/swept_quantity.h"
 #include "report/html.h"
 #include "report/sections.h"
@@ -62,26 +63,33 @@ std::vector<std::size_t> chosen_poses(const SweepResult& sweep) {
   return chosen;
 }
 
-std::string figure(const std::string& source, const std::string& caption) {
+std::string figure(const Image& image, const std::string& caption, const char* kind) {
   return fmt::format(
-      "<figure><img src=\"data:image/png;base64,{}\" alt=\"{}\" "
-      "loading=\"lazy\"><figcaption>{}</figcaption>"
-      "</figure>\n",
-      source, escaped(caption), escaped(caption));
+      "<figure class=\"{}\"><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" "
+      "alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
+      kind, base64(encode_png(image)), image.width, image.height, escaped(caption),
+      escaped(caption));
 }
 
-/// The same view of several poses, side by side where there is room.
-std::string strip(const Run& run, KneePictures& pictures, View view, const fs::path& folder) {
+/// "flexion 0°, 40°, 80°, 120°"
+std::string angles(const Run& run, const std::vector<std::size_t>& poses) {
   const SweptQuantity swept = swept_quantity(run.scene);
-  std::string out = fmt::format("<div class=\"strip\" data-view=\"{}\">\n", name(view));
-  for (const std::size_t pose : chosen_poses(run.sweep)) {
-    const fs::path file = folder / "picture.png";
-    write_png(file, pictures.draw(view, pose));
-    const std::string caption = fmt::format("{} view, {} {}", name(view), swept.title,
-                                            with_unit(swept, run.sweep.poses[pose].value));
-    out += figure(base64(contents(file)), caption);
-  }
-  return out + "</div>\n";
+  std::string text = swept.title;
+  for (const std::size_t pose : poses)
+    text += (pose == poses.front() ? " " : ", ") + with_unit(swept, run.sweep.poses[pose].value);
+  return text;
+}
+
+std::string strip(const Run& run, View view, const std::vector<std::size_t>& poses) {
+  return figure(draw_strip(run, view, poses, strip_size(poses.size())),
+                fmt::format("{} view: {}", name(view), angles(run, poses)), "strip");
+}
+
+std::string single(const Run& run, KneePictures& pictures, View view, std::size_t pose) {
+  return figure(
+      pictures.draw(view, pose),
+      fmt::format("{} view: {}; path of contact over all poses", name(view), angles(run, {pose})),
+      "picture");
 }
 
 void replace_all(std::string& text, std::string_view from, const std::string& to) {
@@ -114,14 +122,16 @@ std::string inlined(std::string svg, const std::string& prefix) {
 
 std::string picture_section(const Run& run) {
   if (run.sweep.count_converged() == 0 || (run.bodies.empty() && run.patches.empty())) return "";
-  const PassingFolder folder;
+  const std::vector<std::size_t> poses = chosen_poses(run.sweep);
+  std::string body = strip(run, View::kMedial, poses) + strip(run, View::kAnterior, poses);
   PictureOptions options;
-  options.width = 800;
-  options.height = 600;
+  options.width = 1000;
+  options.height = 750;
   KneePictures pictures(run, options);
-  std::string body;
-  for (const View view : {View::kMedial, View::kAnterior, View::kPlateau})
-    body += strip(run, pictures, view, folder.path());
+  body += "<div class=\"pair\">\n";
+  for (const View view : {View::kPlateau, View::kCondyles})
+    body += single(run, pictures, view, poses[poses.size() / 2]);
+  body += "</div>\n";
   return section("pictures", "Pictures", body);
 }
 

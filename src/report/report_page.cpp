@@ -54,7 +54,8 @@ std::string report_page(const Run& run, const std::string& file, const ReportOpt
     parts.emplace_back(
         [] { return section("pictures", "Pictures", "<p>Left out on request.</p>\n"); });
   }
-  parts.emplace_back([&] { return comparison_section(run) + laxity_section(run); });
+  parts.emplace_back(
+      [&] { return comparison_section(run) + laxity_section(run) + motion_section(run); });
   parts.emplace_back([&] { return pose_section(run) + event_section(run); });
   parts.emplace_back([&] { return contact_section(run) + ligament_section(run); });
   parts.emplace_back([&] { return solver_section(run) + fit_section(run); });

@@ -25,6 +25,7 @@ struct Swept {
 [[nodiscard]] std::string solver_section(const Run& run);
 [[nodiscard]] std::string comparison_section(const Run& run);
 [[nodiscard]] std::string laxity_section(const Run& run);
+[[nodiscard]] std::string motion_section(const Run& run);  ///< of a simulation
 [[nodiscard]] std::string fit_section(const Run& run);
 [[nodiscard]] std::string source_section(const Run& run, const std::string& file);
 

@@ -59,6 +59,33 @@ std::string laxity_section(const Run& run) {
   return section("laxity", "Laxity", html(table));
 }
 
+std::string motion_section(const Run& run) {
+  if (!run.simulation || run.simulation->motion.frames.empty()) return "";
+  const Motion& motion = run.simulation->motion;
+  constexpr double kJoule = 1e3;  // N mm
+  const EnergySum &first = motion.frames.front().energy, &last = motion.frames.back().energy;
+  HtmlTable energies{"Energy", {"", "change [J]"}, {}};
+  const auto add = [&](const char* what, double energy) {
+    energies.rows.push_back({what, fmt::format("{:+.4g}", energy / kJoule)});
+  };
+  add("kinetic", last.kinetic - first.kinetic);
+  add("gravity", last.gravity - first.gravity);
+  add("ligaments", last.elastic - first.elastic);
+  add("dissipated", motion.frames.back().dissipated);
+  add("work of the loads", motion.frames.back().driver_work);
+  HtmlTable events{"Contacts", {"time [s]", "contact", "event", "speed [mm/s]"}, {}, {1, 2}};
+  for (const ContactEvent& event : motion.events) {
+    const int contact = run.simulation->contact_of.at(static_cast<std::size_t>(event.contact));
+    events.rows.push_back(
+        {number(event.t, 5), run.scene.contacts.at(static_cast<std::size_t>(contact)).name,
+         event.closing ? "closes" : "opens", event.closing ? short_number(event.speed) : "-"});
+  }
+  const std::string verdict =
+      motion.completed ? "" : "<p>Stopped " + escaped(motion.reason) + "</p>\n";
+  return section("motion", "Motion",
+                 verdict + html(energies) + (events.rows.empty() ? "" : html(events)));
+}
+
 std::string fit_section(const Run& run) {
   if (run.patches.empty()) return "";
   HtmlTable table{"Patches fitted to the meshes; distances from the mesh to the patch",

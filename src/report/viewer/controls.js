@@ -50,7 +50,7 @@ function addToggles(bar, scene, data) {
   const slider = Object.assign(document.createElement('input'),
     { type: 'range', min: 0, max: 1, step: 0.05, value: 0.45 });
   slider.addEventListener('input', () => scene.setBoneOpacity(Number(slider.value)));
-  label.append('bone ', slider);
+  label.append('opacity of bone ', slider);
   bar.append(label);
   return toggles;
 }

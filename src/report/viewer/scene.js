@@ -28,6 +28,10 @@ function sortMeshes(root, data) {
     const kind = node.material.name;
     node.material = node.material.clone();
     if (kind === 'bone') meshes.bones.push(node);
+    if (kind === 'cartilage') {  // lies in the bone's surface: a millimetre nearer to the eye
+      node.material.polygonOffset = true;
+      node.material.polygonOffsetUnits = -400;
+    }
     if (kind === 'ligament') {
       const holder = name.startsWith('ligament ') ? name : nameOf(node.parent);
       meshes.ligaments.set(holder.slice('ligament '.length), node);
@@ -108,11 +112,11 @@ export async function createScene(canvas, model, data) {
   mixer.setTime(first);
   gltf.scene.updateMatrixWorld(true);
   const box = new Box3().setFromObject(gltf.scene);
-  const center = api.focus ?? box.getCenter(new Vector3());
+  const center = box.getCenter(new Vector3());
   const radius = 0.5 * box.getSize(new Vector3()).length();
   /// Looks from a direction: x to the person's left, y up, z to the front.
   api.look = (direction) => {
-    const distance = (1.02 * radius) / Math.sin((0.5 * camera.fov * Math.PI) / 180);
+    const distance = (0.8 * radius) / Math.sin((0.5 * camera.fov * Math.PI) / 180);
     camera.up.set(0, 1, 0);
     const way = new Vector3(...direction).normalize();
     camera.position.copy(center).addScaledVector(way, distance / Math.min(1, camera.aspect));
