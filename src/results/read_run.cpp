@@ -279,8 +279,8 @@ Run read_run(const std::filesystem::path& path) {
   const Hdf5Group root = reader.root();
   Run run;
   run.scene = read_head(root);
-  run.program = root.read_attribute("program");
-  run.created = root.read_attribute("created");
+  if (root.has_attribute("program")) run.program = root.read_attribute("program");
+  if (root.has_attribute("created")) run.created = root.read_attribute("created");
   if (root.has("inputs")) run.inputs = read_inputs(root.open("inputs"));
   if (root.has("sweep")) read_poses(root.open("sweep"), run);
   if (root.has("events")) read_events(root.open("events"), run);

