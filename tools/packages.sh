@@ -6,8 +6,8 @@ build_packages=(
   cmake g++ make pkg-config
   libeigen3-dev libassimp-dev libnanoflann-dev libhdf5-dev libtomlplusplus-dev libfmt-dev libcli11-dev
   libosmesa6-dev libpng-dev libfreetype-dev fonts-dejavu-core gnuplot-nox
-libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libpugixml-dev
-  libsundials-dev libssl-dev libgtest-dev libbenchmark-dev hdf5-tools
+  libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libpugixml-dev
+  libsundials-dev libssl-dev libgtest-dev libbenchmark-dev hdf5-tools python3-h5py
 )
 
 missing_packages() {

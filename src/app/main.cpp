@@ -26,6 +26,8 @@ void setup(CLI::App& program, int& status) {
   setup_compare(program, status);
   setup_laxity(program, status);
   setup_simulate(program, status);
+  setup_export(program, status);
+  setup_import(program, status);
 #ifdef CONDYLE_PICTURES
   setup_render(program, status);
   setup_plot(program, status);

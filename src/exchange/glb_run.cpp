@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "exchange/glb_file.h"
-#include "exchange/shown_poses.h"
 #include "results/run_layout.h"
 
 namespace condyle {
@@ -100,8 +99,8 @@ double ligament_radius(std::size_t ligaments) {
 
 class GlbRun {
  public:
-  GlbRun(const Run& run, const std::string& file)
-      : run_(run), scene_(run.scene), shown_(shown_poses(run, file)) {}
+  GlbRun(const Run& run, const std::vector<ShownPose>& shown)
+      : run_(run), scene_(run.scene), shown_(shown) {}
 
   [[nodiscard]] GlbDocument document(const ShapeOptions& options) {
     out_.title = scene_.title;
@@ -245,14 +244,22 @@ class GlbRun {
 
   const Run& run_;
   const Scene& scene_;
-  std::vector<ShownPose> shown_;
+  const std::vector<ShownPose>& shown_;
   GlbDocument out_;
 };
 
 }  // namespace
 
+std::string glb_of_poses(const Run& run,
+                         const std::vector<ShownPose>& shown,
+                         const ShapeOptions& options) {
+  ShapeOptions shapes = options;
+  shapes.drop_covered = true;
+  return glb_bytes(GlbRun(run, shown).document(shapes));
+}
+
 std::string glb_of_run(const Run& run, const std::string& file, const ShapeOptions& options) {
-  return glb_bytes(GlbRun(run, file).document(options));
+  return glb_of_poses(run, shown_poses(run, file), options);
 }
 
 }  // namespace condyle

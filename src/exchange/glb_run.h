@@ -3,15 +3,21 @@
 /// A run as an animated scene in glTF 2.0 (.glb). Lengths in m; y superior, z anterior, x to the
 /// person's left. docs/exchange.md tells what stands in the file.
 
-#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "exchange/run_shapes.h"
+#include "exchange/shown_poses.h"
 #include "results/run_file.h"
 
 namespace condyle {
 
-/// The bytes of the file. Throws InputError, naming `file`, where no pose has converged.
+/// The bytes of a file that shows these poses.
+[[nodiscard]] std::string glb_of_poses(const Run& run,
+                                       const std::vector<ShownPose>& shown,
+                                       const ShapeOptions& options = {});
+
+/// The same of all converged poses. Throws InputError, naming `file`, where no pose has converged.
 [[nodiscard]] std::string glb_of_run(const Run& run,
                                      const std::string& file,
                                      const ShapeOptions& options = {});

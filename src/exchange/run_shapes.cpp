@@ -2,6 +2,8 @@
 
 #include <meshoptimizer.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cstdint>
 
@@ -24,6 +26,34 @@ void fill_normals(std::vector<Vector3d>& normals) {
   for (Vector3d& n : normals) {
     if (!(n.squaredNorm() > 0.5)) n = Vector3d::UnitY();
   }
+}
+
+constexpr double kCover = 1;      // [mm] between a patch and the bone that it was fitted to
+constexpr double kOverlap = 0.5;  // [mm] of bone that stays below the edge of a patch
+
+/// Which vertices lie under the patch.
+void mark_covered(const Patch& patch,
+                  const std::vector<Vector3d>& vertices,
+                  std::vector<bool>& covered) {
+  const std::vector<Vector3d>& net = patch.data().control_points;
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& p : net) box.extend(p);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (covered[i] || !box.contains(vertices[i])) continue;
+    const Place place = patch.closest(vertices[i], patch.seed(vertices[i]));
+    covered[i] = (patch.evaluate_frame(place).c - vertices[i]).norm() < kCover &&
+                 patch.edge_distance(place) > kOverlap;
+  }
+}
+
+void drop_covered(const Run& run, RunShape& bone) {
+  std::vector<bool> covered(bone.mesh.vertices.size());
+  for (const RunPatch& patch : run.patches) {
+    if (patch.body == bone.body) mark_covered(Patch(patch.data), bone.mesh.vertices, covered);
+  }
+  std::erase_if(bone.mesh.triangles, [&](const std::array<int, 3>& t) {
+    return covered[t[0]] && covered[t[1]] && covered[t[2]];
+  });
 }
 
 /// Drops vertices, with their normals, until about `triangles` are left.
@@ -79,6 +109,7 @@ std::vector<RunShape> run_shapes(const Run& run, const ShapeOptions& options) {
     RunShape shape{bone.name + " bone",  body,      true,
                    is_closed(bone.mesh), bone.mesh, vertex_normals(bone.mesh)};
     fill_normals(shape.normals);
+    if (options.drop_covered) drop_covered(run, shape);
     thin_out(shape, options.bone_triangles);
     shapes.push_back(std::move(shape));
   }

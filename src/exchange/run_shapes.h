@@ -22,6 +22,8 @@ struct RunShape {
 struct ShapeOptions {
   std::size_t bone_triangles = 0;  ///< at most about so many in each bone; 0: as they are
   double patch_spacing = 1.2;      ///< between the vertices of a patch [mm]
+  bool drop_covered = false;       ///< leave out of bones what a patch fitted to them replaces, so
+                                   ///< that the two do not pierce each other
 };
 
 /// Bodies without a mesh, and patches that the run does not hold, are left out. Meshes are thinned

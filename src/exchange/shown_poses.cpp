@@ -1,5 +1,7 @@
 #include "exchange/shown_poses.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -65,6 +67,38 @@ std::vector<ShownPose> shown_poses(const Run& run, const std::string& file) {
   return shown;
 }
 
+std::vector<ShownPose> shown_poses_at(const Run& run,
+                                      const std::string& file,
+                                      const std::vector<double>& values) {
+  const std::vector<ShownPose> all = shown_poses(run, file);
+  const ShownUnit unit = shown_unit(run.scene);
+  const auto shown = [&](const ShownPose& pose) {
+    return unit.per_inside * run.sweep.poses[pose.index].value;
+  };
+  double low = shown(all[0]), high = low;
+  for (const ShownPose& pose : all) {
+    low = std::min(low, shown(pose));
+    high = std::max(high, shown(pose));
+  }
+  const double margin = 0.02 * (high - low) + 0.5;
+  std::vector<bool> chosen(all.size());
+  for (const double value : values) {
+    if (!(value > low - margin && value < high + margin)) {
+      throw InputError(
+          fmt::format("--at {:g}: {} holds {:g} to {:g} {}", value, file, low, high, unit.name));
+    }
+    const auto nearest =
+        std::min_element(all.begin(), all.end(), [&](const ShownPose& a, const ShownPose& b) {
+          return std::abs(shown(a) - value) < std::abs(shown(b) - value);
+        });
+    chosen[static_cast<std::size_t>(nearest - all.begin())] = true;
+  }
+  std::vector<ShownPose> poses;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (chosen[i]) poses.push_back(all[i]);
+  return poses;
+}
+
 RigidTransform body_pose(const Scene& scene, const PoseResult& pose, int body) {
   return body == scene.moving_body() ? pose.X_BA : RigidTransform();
 }
@@ -78,6 +112,19 @@ const ContactPointResult* strongest_point(const ContactResult& contact) {
       contact.points.begin(), contact.points.end(),
       [](const ContactPointResult& a, const ContactPointResult& b) { return a.force < b.force; });
   return strongest == contact.points.end() ? nullptr : &*strongest;
+}
+
+Vector3d force_on_moving_body(const ContactResult& contact) {
+  Vector3d sum = Vector3d::Zero();
+  if (!contact.closed) return sum;
+  for (const ContactPointResult& point : contact.points) sum += point.force * point.normal_ground;
+  return sum;
+}
+
+Vector3d force_place(const ContactResult& contact) {
+  if (contact.closed && contact.resultant_ground.allFinite()) return contact.resultant_ground;
+  const ContactPointResult* point = strongest_point(contact);
+  return point && point->point_ground.allFinite() ? point->point_ground : Vector3d::Zero();
 }
 
 Eigen::Matrix3d upright(const Scene& scene) {

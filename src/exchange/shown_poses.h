@@ -24,6 +24,12 @@ inline constexpr double kDegreesPerSecond = 10;
 /// InputError, naming `file`, where no pose has converged.
 [[nodiscard]] std::vector<ShownPose> shown_poses(const Run& run, const std::string& file);
 
+/// Those of the shown poses that are nearest to the values asked for (in the shown unit), each once
+/// and in the order of the run. Throws InputError where a value lies beyond the run.
+[[nodiscard]] std::vector<ShownPose> shown_poses_at(const Run& run,
+                                                    const std::string& file,
+                                                    const std::vector<double>& values);
+
 /// Of a sweep over an angle [deg], over a length [mm], over a load's factor [1], or of a motion
 /// [s]: the factor from the value inside, and the unit's name.
 struct ShownUnit {
@@ -43,6 +49,13 @@ struct ShownUnit {
 /// The point of a contact that carries most; of an open contact the nearest one. Null where the
 /// pose holds none.
 [[nodiscard]] const ContactPointResult* strongest_point(const ContactResult& contact);
+
+/// Force of a contact on the moving body, ground frame [N].
+[[nodiscard]] Eigen::Vector3d force_on_moving_body(const ContactResult& contact);
+
+/// Where it acts, ground frame [mm]; of an open contact the nearest point, and without a point the
+/// origin.
+[[nodiscard]] Eigen::Vector3d force_place(const ContactResult& contact);
 
 /// Takes the ground frame to x to the person's left, y superior, z anterior: a rotation, never a
 /// mirror. The anatomical frame of the fixed body says what is what; without [joint] nothing turns.

@@ -123,6 +123,24 @@ TEST(GlbRun, TurnsItsPatchesOutOfTheBone) {
   }
 }
 
+TEST(GlbRun, ShowsNoBoneAbovePatchesThatReplaceIt) {
+  const condyle::Run& run = phantom_run();
+  const GlbReader glb(glb_of_run(run, "run.h5"));
+  const int bone = glb.node("tibia bone");
+  const std::vector<std::uint32_t> corners = glb.corners(glb.primitive(bone)["indices"]);
+  const std::vector<Vector3d> p = glb.positions(bone);
+  const Patch patch(run.patches[1].data);
+  ASSERT_EQ(run.patches[1].surface, "medial plateau");
+  int inside = 0;
+  for (std::size_t i = 0; i < corners.size(); i += 3) {
+    const Vector3d middle = 1e3 * (p[corners[i]] + p[corners[i + 1]] + p[corners[i + 2]]) / 3;
+    const Place place = patch.closest(middle, patch.seed(middle));
+    if ((patch.evaluate(place).c - middle).norm() < 0.8 && patch.edge_distance(place) > 3) ++inside;
+  }
+  EXPECT_EQ(inside, 0);
+  EXPECT_GT(corners.size() / 3, run.bodies[1].mesh.triangles.size() * 3 / 4);
+}
+
 TEST(GlbRun, LeavesOutPosesThatFailed) {
   const condyle::Run run = made_up_run();
   EXPECT_EQ(GlbReader(glb_of_run(run, "run.h5")).times().size(), 2U);

@@ -1,0 +1,43 @@
+#pragma once
+
+/// The frames of an OpenSim model: which body each is fixed to, and which bodies are welded
+/// together.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "exchange/osim_model.h"
+
+namespace condyle {
+
+/// A place fixed to a body.
+struct OsimPlace {
+  std::string body;
+  RigidTransform X;  ///< in the body's frame [mm]
+};
+
+class OsimFrames {
+ public:
+  OsimFrames(const OsimModel& model, std::string file);
+
+  /// The frame at `path` ("/bodyset/femur_r", "/jointset/knee_r/femur_r_offset", or a frame's own
+  /// name within `owner`). Throws InputError, saying that `who` asks for it, where there is none.
+  [[nodiscard]] OsimPlace find(const std::string& path,
+                               const std::string& owner,
+                               const std::string& who) const;
+
+  /// The bodies welded to `root`, itself included, with their poses in its frame [mm].
+  [[nodiscard]] std::map<std::string, RigidTransform> welded_to(const std::string& root) const;
+
+ private:
+  [[nodiscard]] OsimPlace find(const std::string& path,
+                               const std::string& owner,
+                               const std::string& who,
+                               int depth) const;
+
+  const OsimModel& model_;
+  std::string file_;
+};
+
+}  // namespace condyle

@@ -1,0 +1,33 @@
+#pragma once
+
+/// The knee of an OpenSim-JAM model as a scene file.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "exchange/osim_knee.h"
+
+namespace condyle {
+
+struct OsimSceneOptions {
+  double compression = 100;  ///< load along the tibia in place of muscles and weight [N]; 0: none
+  double to = 90;            ///< of the sweep over flexion from 0, by 5 [deg]
+};
+
+struct OsimScene {
+  std::string text;                ///< of the scene (TOML)
+  std::vector<std::string> notes;  ///< what was left out, one line each
+};
+
+/// `scene` is where the text will stand; meshes are named relative to its folder. A mesh is looked
+/// for beside the model and in Geometry beside it, as OpenSim does. Throws InputError where a
+/// contact mesh is not there, is of a format that cannot be read, or is scaled by anything but 1,
+/// 0.01 or 0.001 (m, cm, mm).
+[[nodiscard]] OsimScene osim_scene(const OsimModel& model,
+                                   const OsimKnee& knee,
+                                   const std::filesystem::path& file,
+                                   const std::filesystem::path& scene,
+                                   const OsimSceneOptions& options = {});
+
+}  // namespace condyle

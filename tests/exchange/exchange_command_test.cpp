@@ -1,0 +1,125 @@
+/// condyle export and import as a user runs them, and what other programs read of it.
+
+#include "app/run_program.h"
+#include "results/made_up_run.h"
+
+namespace condyle {
+namespace {
+
+namespace fs = std::filesystem;
+
+using test::CommandLine;
+using test::contents;
+using test::expect_bad_input;
+using test::Outcome;
+
+const std::string kPhantom = CONDYLE_SOURCE_DIR "/data/phantom/knee.toml";
+const std::string kHere = CONDYLE_SOURCE_DIR "/tests/exchange";
+
+class Exchange : public CommandLine {
+ protected:
+  void sweep_phantom() {
+    const Outcome sweep = run("sweep '" + kPhantom + "' -o run.h5 --step 60");
+    ASSERT_EQ(sweep.code, 0) << sweep.err;
+  }
+  /// A program that is no part of condyle; its exit code and what it says.
+  [[nodiscard]] Outcome shell(const std::string& command) const {
+    const int status = std::system(
+        ("cd '" + folder_.string() + "' && " + command + " > stdout.txt 2> stderr.txt").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder_ / "stdout.txt"),
+            contents(folder_ / "stderr.txt")};
+  }
+};
+
+TEST_F(Exchange, WritesTheFormatThatTheEndingNames) {
+  write_run(folder_ / "run.h5", made_up_run());
+  for (const char* file : {"a.glb", "a.mot", "a.sto", "a.csv"}) {
+    const Outcome outcome = run(std::string("export run.h5 -o ") + file);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;  // one pose failed, and is named
+    EXPECT_EQ(outcome.err.rfind("condyle: left out ", 0), 0U) << outcome.err;
+    EXPECT_EQ(outcome.out, std::string("wrote ") + file + "\n");
+    EXPECT_GT(fs::file_size(folder_ / file), 100U);
+  }
+}
+
+TEST_F(Exchange, NamesWhatItCannotWrite) {
+  write_run(folder_ / "run.h5", made_up_run());
+  expect_bad_input(run("export run.h5 -o a.fbx"),
+                   "a.fbx: unknown format, expected a name that ends in .glb, .mot, .sto, .csv, "
+                   ".stl, or a folder");
+  expect_bad_input(run("export run.h5 -o out --format gltf"),
+                   "--format gltf: expected glb, vtk, opensim, csv, stl");
+  expect_bad_input(run("export run.h5 -o a.csv --format csv,stl"),
+                   "--format csv,stl: a.csv is a single file, expected a folder");
+  expect_bad_input(run("export run.h5 -o a.pvd"),
+                   "a.pvd: a series of many files, expected a folder, with --format vtk");
+  expect_bad_input(run("export no.h5 -o a.glb"), "no.h5: no such file, expected a run (HDF5)");
+  expect_bad_input(run("export run.h5 -o no/a.glb"),
+                   "no/a.glb: there is no folder no, expected one that exists");
+  expect_bad_input(run("export run.h5 -o no/such"),
+                   "no/such: there is no folder no, expected one that exists");
+  condyle::Run failed = made_up_run();
+  failed.sweep.poses = {failed.sweep.poses[1]};
+  write_run(folder_ / "run.h5", failed);
+  expect_bad_input(run("export run.h5 -o a.glb"),
+                   "run.h5: holds no pose that converged, expected the result of condyle sweep or "
+                   "simulate");
+  EXPECT_EQ(results(), std::vector<std::string>{"run.h5"});
+}
+
+TEST_F(Exchange, NamesWhatItCannotImport) {
+  expect_bad_input(run("import no.osim -o scene.toml"),
+                   "no.osim: no such file, expected an OpenSim model (.osim)");
+  expect_bad_input(run("import '" CONDYLE_SOURCE_DIR "/tests/data/phantom_jam.osim' -o a.toml "
+                       "--side both"),
+                   "--side both: expected right or left");
+  EXPECT_TRUE(results().empty());
+}
+
+// The commands of docs/exchange.md.
+TEST_F(Exchange, ImportsAModelThatChecksAndSweeps) {
+  fs::create_directories(folder_ / "a" / "b");
+  fs::copy(CONDYLE_SOURCE_DIR "/meshes", folder_ / "meshes");
+  fs::copy(CONDYLE_SOURCE_DIR "/tests/data/phantom_jam.osim", folder_ / "a" / "b" / "knee.osim");
+  const Outcome import = run("import a/b/knee.osim -o scene.toml");
+  EXPECT_EQ(import.code, 0) << import.err;
+  EXPECT_NE(import.out.find("joint knee_r, femur femur_distal_r, tibia tibia_proximal_r, 13 "
+                            "ligaments"),
+            std::string::npos)
+      << import.out;
+  EXPECT_NE(import.out.find("  2 other bodies: pelvis, patella_r\n"), std::string::npos);
+  const Outcome check = run("check scene.toml");
+  EXPECT_EQ(check.code, 0) << check.err;
+  const Outcome sweep = run("sweep scene.toml -o run.h5 --to 10");
+  EXPECT_EQ(sweep.code, 0) << sweep.err;
+}
+
+TEST_F(Exchange, WritesGltfThatKhronosFindsValid) {
+  sweep_phantom();
+  ASSERT_EQ(run("export run.h5 -o run.glb").code, 0);
+  const Outcome outcome = shell(
+      "'" + kHere + "/gltf_validator/validate.sh' '" CONDYLE_BINARY_DIR "/gltf_validator' run.glb");
+  if (outcome.code == 77) GTEST_SKIP() << "node or npm is missing, or npm reaches no packages";
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
+TEST_F(Exchange, WritesFilesThatVtkReads) {
+  sweep_phantom();
+  ASSERT_EQ(run("export run.h5 -o out --format vtk,csv").code, 0);
+  const Outcome outcome = shell("/usr/bin/python3 '" + kHere + "/read_vtk.py' out run");
+  if (outcome.code == 77 || outcome.code == 127) GTEST_SKIP() << "python3-vtk9 is missing";
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
+TEST_F(Exchange, IsReadByTheLinesOfTheDocs) {
+  sweep_phantom();
+  const Outcome outcome = shell("/usr/bin/python3 '" + kHere + "/read_run.py' run.h5 '" +
+                                CONDYLE_SOURCE_DIR "/docs/exchange.md'");
+  if (outcome.code == 77 || outcome.code == 127) GTEST_SKIP() << "python3-h5py is missing";
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.rfind("[  0.  60. 120.] (11000, 3) ", 0), 0U) << outcome.out;
+  EXPECT_NE(outcome.out.find("MATLAB /sweep/contacts/medial/force (3,)"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace condyle

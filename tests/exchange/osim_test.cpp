@@ -1,0 +1,179 @@
+/// Import of OpenSim-JAM models: the phantom knee written as JAM would write it, and what is wrong
+/// with a model.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "equilibrium/sweep.h"
+#include "exchange/osim_scene.h"
+#include "input_error.h"
+#include "scene/read_scene.h"
+#include "scene/small_scene.h"
+#include "support/scratch_folder.h"
+
+namespace condyle {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kModel = CONDYLE_SOURCE_DIR "/tests/data/phantom_jam.osim";
+const fs::path kScene = CONDYLE_SOURCE_DIR "/tests/data/imported.toml";  // not written
+
+OsimScene imported(const fs::path& file, const fs::path& scene, const OsimOptions& options = {}) {
+  const OsimModel model = read_osim(file);
+  return osim_scene(model, find_knee(model, file.string(), options), file, scene);
+}
+
+bool has_note(const OsimScene& scene, const std::string& note) {
+  for (const std::string& line : scene.notes)
+    if (line == note) return true;
+  return false;
+}
+
+TEST(OsimImport, FindsTheLigamentsOfTheScene) {
+  const Scene scene = parse_scene(imported(kModel, kScene).text, kScene);
+  const Scene phantom = read_scene(CONDYLE_SOURCE_DIR "/data/phantom/knee.toml");
+  ASSERT_EQ(scene.ligaments.size(), phantom.ligaments.size());
+  for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
+    const LigamentDescription &ours = scene.ligaments[i], &theirs = phantom.ligaments[i];
+    EXPECT_EQ(ours.name, theirs.name);
+    const auto& a = std::get<ToeLinearLaw>(ours.law);
+    const auto& b = std::get<ToeLinearLaw>(theirs.law);
+    // aMCL runs on along the tibia in the model, LCL is given in a body welded to the tibia.
+    EXPECT_NEAR(a.stiffness, b.stiffness, 1e-8) << ours.name;
+    EXPECT_NEAR(a.transition_strain, b.transition_strain, 1e-12) << ours.name;
+    EXPECT_NEAR(a.slack_length, b.slack_length, 1e-9) << ours.name;
+    for (std::size_t end = 0; end < 2; ++end) {
+      EXPECT_EQ(ours.ends[end].body, theirs.ends[end].body);
+      EXPECT_LT((ours.ends[end].at - theirs.ends[end].at).norm(), 1e-9) << ours.name;
+    }
+  }
+}
+
+TEST(OsimImport, SweepsLikeTheSceneItStandsFor) {
+  Scene scene = parse_scene(imported(kModel, kScene).text, kScene);
+  Scene phantom = read_scene(CONDYLE_SOURCE_DIR "/data/phantom/knee.toml");
+  scene.loads = phantom.loads;  // a JAM model has muscles instead
+  phantom.sweep->values = scene.sweep->values = {0, M_PI / 6, M_PI / 3, M_PI / 2};
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+    ASSERT_EQ(scene.surfaces[i].name, phantom.surfaces[i].name);
+    scene.surfaces[i].patch.smoothing = phantom.surfaces[i].patch.smoothing;
+  }
+  const SweepResult ours = sweep(scene, fit_surfaces(scene));
+  const SweepResult theirs = sweep(phantom, fit_surfaces(phantom));
+  ASSERT_EQ(theirs.count_converged(), 4);
+  ASSERT_EQ(ours.count_converged(), 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const PoseResult &a = ours.poses[i], &b = theirs.poses[i];
+    EXPECT_LT((a.X_BA.p - b.X_BA.p).norm(), 1e-9);
+    EXPECT_LT((a.X_BA.R - b.X_BA.R).norm(), 1e-10);
+    for (std::size_t k = 0; k < a.ligaments.size(); ++k)
+      EXPECT_NEAR(a.ligaments[k].force, b.ligaments[k].force, 1e-7);  // k/l₀ of 100 N/mm, 1e-9 mm
+    for (std::size_t k = 0; k < a.contacts.size(); ++k)
+      EXPECT_NEAR(a.contacts[k].force, b.contacts[k].force, 1e-6);
+  }
+}
+
+TEST(OsimImport, SaysWhatItLeavesOut) {
+  const OsimScene scene = imported(kModel, kScene);
+  for (const char* note : {
+           "contact pf_contact: not between femur and tibia",
+           "4 strands with a wrap object, taken as straight lines: iMCL, pMCL, aDMCL, pDMCL",
+           "1 strands with points along a bone, replaced by their free part: aMCL",
+           "1 strands to other bones, over both bones twice, or without force: PT1",
+           "damping of the ligaments",
+           "1 Millard2012EquilibriumMuscle",
+           "2 other bodies: pelvis, patella_r",
+       }) {
+    EXPECT_TRUE(has_note(scene, note)) << note;
+    EXPECT_NE(scene.text.find(std::string("# - ") + note), std::string::npos) << note;
+  }
+}
+
+class BrokenModel : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(folder_ / "deep" / "er");
+    std::ifstream stream(kModel);
+    text_ = {std::istreambuf_iterator<char>(stream), {}};
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void expect_error(const std::string& text, const std::string& message) {
+    const fs::path file = folder_ / "deep" / "er" / "model.osim";
+    std::ofstream(file) << text;
+    try {
+      (void)imported(file, folder_ / "scene.toml");
+      FAIL() << "expected: " << message;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.what(), file.string() + message);
+    }
+  }
+
+  fs::path folder_ = test::scratch_folder("osim");
+  std::string text_;
+};
+
+TEST_F(BrokenModel, IsNamedWithWhatIsMissing) {
+  expect_error("<OpenSimDocument Version=\"40000\">\n<Model>\n</Modl>",
+               ":3: Start-end tags mismatch, expected an OpenSim model (XML)");
+  expect_error("<other/>", ": holds no Model, expected an OpenSim model");
+  expect_error(with(text_, "Version=\"40000\"", "Version=\"30000\""),
+               ": OpenSimDocument Version = 30000, expected 40000 or later (OpenSim 4 saves such "
+               "files)");
+  expect_error(with(text_, "<length_units>m<", "<length_units>mm<"),
+               ": length_units = mm, expected m");
+  expect_error(with(text_, "<linear_stiffness>1500<", "<linear_stiffness>stiff<"),
+               ": Blankevoort1991Ligament \"aACL\": linear_stiffness = stiff, expected numbers");
+  expect_error(with(text_, "aACL-P1\"><socket_parent_frame>/bodyset/femur_distal_r<",
+                    "aACL-P1\"><socket_parent_frame>/bodyset/femur_dist_r<"),
+               ": Blankevoort1991Ligament \"aACL\": there is no frame /bodyset/femur_dist_r");
+  expect_error(text_,
+               ": Smith2018ContactMesh \"femur_cartilage\": mesh_file = "
+               "../../meshes/femur.stl is neither beside the model nor in the folder "
+               "Geometry there");
+}
+
+TEST_F(BrokenModel, NeedsAKneeWithLigamentsAndContacts) {
+  std::string bare = text_;
+  for (std::size_t at; (at = bare.find("<Blankevoort1991Ligament")) != std::string::npos;)
+    bare.erase(at, bare.find("</Blankevoort1991Ligament>") + 26 - at);
+  expect_error(bare, ": holds no Blankevoort1991Ligament, expected an OpenSim-JAM model of a knee");
+
+  std::string no_joint = text_;
+  for (const char* name : {"knee_r", "pf_r"}) {
+    const std::size_t at = no_joint.find("<CustomJoint name=\"" + std::string(name));
+    no_joint.erase(at, no_joint.find("</CustomJoint>", at) + 14 - at);
+  }
+  expect_error(no_joint,
+               ": no joint is spanned by its ligaments, expected a knee joint between femur and "
+               "tibia");
+
+  std::string no_contact = text_;
+  const std::size_t at = no_contact.find("<Smith2018ArticularContactForce name=\"tf");
+  no_contact.erase(at, no_contact.find("</Smith2018ArticularContactForce>", at) + 33 - at);
+  expect_error(no_contact,
+               ": no Smith2018ArticularContactForce between the bones of knee_r, expected contact "
+               "meshes of femur and tibia");
+}
+
+// The very model that the specimen's scene was made of, where somebody has put it there.
+TEST(OsimImport, FindsTheLigamentsOfLenhart2015) {
+  const fs::path folder = CONDYLE_SOURCE_DIR "/../shared/specimens/lenhart2015";
+  if (!fs::exists(folder / "lenhart2015.osim"))
+    GTEST_SKIP() << "there is no lenhart2015.osim in " << folder;
+  const fs::path file = folder / "lenhart2015.osim";
+  const OsimKnee knee = find_knee(read_osim(file), file.string());
+  const Scene scene = read_scene(folder / "knee.toml");
+  ASSERT_EQ(knee.ligaments.size(), scene.ligaments.size());
+  for (std::size_t i = 0; i < knee.ligaments.size(); ++i) {
+    EXPECT_EQ(knee.ligaments[i].name, scene.ligaments[i].name);
+    EXPECT_LT((knee.ligaments[i].femur - scene.ligaments[i].ends[0].at).norm(), 1e-4);
+    EXPECT_NEAR(knee.ligaments[i].slack_length, slack_length(scene.ligaments[i].law), 1e-4);
+  }
+}
+
+}  // namespace
+}  // namespace condyle
