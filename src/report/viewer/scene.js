@@ -111,15 +111,21 @@ export async function createScene(canvas, model, data) {
 
   mixer.setTime(first);
   gltf.scene.updateMatrixWorld(true);
-  const box = new Box3().setFromObject(gltf.scene);
-  const center = box.getCenter(new Vector3());
-  const radius = 0.5 * box.getSize(new Vector3()).length();
-  /// Looks from a direction: x to the person's left, y up, z to the front.
+  const first_box = new Box3().setFromObject(gltf.scene);
+  /// Looks from a direction (x to the person's left, y up, z to the front) at the first pose and the one that is shown.
   api.look = (direction) => {
-    const distance = (0.8 * radius) / Math.sin((0.5 * camera.fov * Math.PI) / 180);
-    camera.up.set(0, 1, 0);
-    const way = new Vector3(...direction).normalize();
-    camera.position.copy(center).addScaledVector(way, distance / Math.min(1, camera.aspect));
+    const box = new Box3().setFromObject(gltf.scene).union(first_box);
+    const center = box.getCenter(new Vector3()), half = box.getSize(new Vector3()).multiplyScalar(0.5);
+    const back = new Vector3(...direction).normalize();
+    const right = new Vector3(0, 1, 0).cross(back).normalize(), up = back.clone().cross(right);
+    const slope = Math.tan((0.5 * camera.fov * Math.PI) / 180);
+    let distance = 0;
+    for (let corner = 0; corner < 8; ++corner) {
+      const p = new Vector3(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y, corner & 4 ? half.z : -half.z);
+      const wide = Math.max(Math.abs(p.dot(up)), Math.abs(p.dot(right)) / camera.aspect);
+      distance = Math.max(distance, p.dot(back) + (1.04 * wide) / slope);
+    }
+    camera.position.copy(center).addScaledVector(back, distance);
     camera.near = distance / 100;
     camera.far = distance * 10;
     camera.updateProjectionMatrix();

@@ -109,6 +109,12 @@ async function useButtons(page) {
   expect(true, 'the play button plays');
 }
 
+/// Not more than software graphics can hold in one piece.
+async function photograph(page, path) {
+  const size = await page.evaluate(() => [window.innerWidth, document.documentElement.scrollHeight]);
+  await page.screenshot({ path, fullPage: true, clip: { x: 0, y: 0, width: size[0], height: Math.min(8000, size[1]) } });
+}
+
 mkdirSync(folder, { recursive: true });
 const browser = await chromium.launch({
   executablePath: program,
@@ -131,11 +137,16 @@ try {
     await slideTo(page, 0.4);
     const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
     expect(wide <= 0, `the page is no wider than the window (${wide})`);
-    await page.screenshot({ path: join(folder, `${name}.png`), fullPage: true });
+    await photograph(page, join(folder, `${name}.png`));
     const seen = await page.evaluate(canvasFacts);
     expect(seen.share > 0.03, 'the canvas is not blank');
     expect(said.length === 0, `the console is silent ${said.join(' | ')}`);
     expect(asked.length === 0, `nothing is asked of a network ${asked.join(' ')}`);
+    await page.evaluate(() => {
+      for (const id of ['view', 'pictures', 'plots']) document.getElementById(id)?.remove();
+      for (const fold of document.querySelectorAll('details')) fold.open = true;
+    });
+    await photograph(page, join(folder, `${name}-tables.png`));
     await page.context().close();
   }
 } finally {
