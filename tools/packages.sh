@@ -7,7 +7,7 @@ build_packages=(
   libeigen3-dev libassimp-dev libnanoflann-dev libhdf5-dev libtomlplusplus-dev libfmt-dev libcli11-dev
   libosmesa6-dev libpng-dev libfreetype-dev fonts-dejavu-core gnuplot-nox
   libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libpugixml-dev
-  libsundials-dev libgtest-dev libbenchmark-dev hdf5-tools python3-h5py
+  libsundials-dev libssl-dev libgtest-dev libbenchmark-dev hdf5-tools python3-h5py
 )
 
 missing_packages() {
@@ -51,6 +51,12 @@ install_packages() {
 install_where_possible() {
   local build_packages=("$@")
   install_packages || echo "Going on without: $*" >&2
+}
+
+# npm bundles the 3-D view of reports; without it they go without. Debian's own is taken only where there is no other, as
+# one of another origin and Debian's do not stand beside each other.
+install_npm_where_possible() {
+  command -v node >/dev/null && command -v npm >/dev/null || install_where_possible nodejs npm
 }
 
 # apt waits for a busy package lock by itself, but not for the lock of its lists.

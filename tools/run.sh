@@ -5,9 +5,11 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source tools/packages.sh
 
 install_packages
+install_npm_where_possible
 TARGET=condyle build build -DCMAKE_BUILD_TYPE=Release
 
 mkdir -p out
 build/condyle sweep data/phantom/knee.toml -o out/phantom.h5
 build/condyle render out/phantom.h5 -o out
 build/condyle plot out/phantom.h5 -o out
+build/condyle report out/phantom.h5 -o out/phantom.html

@@ -14,5 +14,7 @@ if [ "${1:-}" = --sanitize ]; then
 fi
 
 install_packages
+install_npm_where_possible
+install_where_possible chromium mandoc  # what tests look at reports and at the manual page with
 build "$folder" "${options[@]}"
 ctest --test-dir "$folder" --output-on-failure --parallel "$(nproc)" "$@"

@@ -58,6 +58,7 @@ void setup_check(CLI::App& program, int& status) {
   CLI::App* command =
       program.add_subcommand("check", "Read a scene and its meshes, and say what they hold");
   command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
+  command->footer("Example: condyle check data/phantom/knee.toml");
   command->callback([options, &status] { status = run_check(*options); });
 }
 

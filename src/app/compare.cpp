@@ -7,9 +7,11 @@
 
 #include "app/commands.h"
 #include "app/make_run.h"
-#include "app/print_fit.h"
+#include "app/progress.h"
 #include "app/range_options.h"
 #include "app/reference_options.h"
+#include "app/summary.h"
+#include "app/talk.h"
 #include "equilibrium/sweep.h"
 #include "input_error.h"
 #include "results/output_file.h"
@@ -22,12 +24,15 @@ namespace {
 constexpr int kSomePoseFailed = 2;
 
 struct CompareCommand {
+  Talk talk;
   std::string scene, output;
   RangeOptions range;
   CompareOptions options;
 };
 
 int run_compare(const CompareCommand& command) {
+  const Talk& talk = command.talk;
+  CommandClock clock;
   check_output_file(command.output);
   Scene scene = read_scene(command.scene);
   refuse_to_overwrite_inputs(command.output, scene);
@@ -36,23 +41,24 @@ int run_compare(const CompareCommand& command) {
   if (scene.sweep->arc_length)
     throw InputError(command.scene +
                      ": [sweep]: path = \"arc length\", expected \"steps\" for a comparison");
-  fmt::print("{}\n\n", scene.title);
-  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
-  print_fit(surfaces);
+  const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
   const SweepResult ours = sweep(scene, surfaces);
+  Progress progress(talk, "sweeps");
   Run run = make_run(scene, surfaces, ours);
-  run.comparison = compare(scene, surfaces, ours, command.options);
+  run.comparison = compare(scene, surfaces, ours, command.options,
+                           [&](int done, int total) { progress.at(done, total); });
+  progress.clear();
   for (const std::string& line : summary_lines(scene, surfaces, ours, *run.comparison))
-    fmt::print("{}\n", line);
+    say(talk, "{}\n", line);
   write_run(command.output, run);
-  fmt::print("wrote {}\n", command.output);
+  say(talk, "wrote {}\n", command.output);
   for (const std::string& line : failures(scene, ours)) fmt::print(stderr, "condyle: {}\n", line);
   for (const std::string& line : failures(scene, run.comparison->reference))
     fmt::print(stderr, "condyle: reference: {}\n", line);
   const auto all = static_cast<int>(ours.poses.size());
-  return ours.count_converged() == all && run.comparison->reference.count_converged() == all
-             ? 0
-             : kSomePoseFailed;
+  const bool both =
+      ours.count_converged() == all && run.comparison->reference.count_converged() == all;
+  return finish(talk, clock.summary(talk, command.output, both ? 0 : kSomePoseFailed), run);
 }
 
 }  // namespace
@@ -65,7 +71,11 @@ void setup_compare(CLI::App& program, int& status) {
   command->add_option("-o,--output", options->output, "result file to write (HDF5)")->required();
   add_range_options(*command, options->range);
   add_reference_options(*command, options->options);
-  command->callback([options, &status] { status = run_compare(*options); });
+  add_talk_options(*command, options->talk);
+  command->footer("Example: condyle compare data/wismans-type/knee.toml -o out/compare.h5");
+  command->callback([options, &status] {
+    status = run_telling_errors(options->talk, [&] { return run_compare(*options); });
+  });
 }
 
 }  // namespace condyle

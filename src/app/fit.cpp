@@ -9,6 +9,9 @@
 #include "app/commands.h"
 #include "app/make_run.h"
 #include "app/print_fit.h"
+#include "app/progress.h"
+#include "app/summary.h"
+#include "app/talk.h"
 #include "input_error.h"
 #include "results/output_file.h"
 #include "scene/read_scene.h"
@@ -23,22 +26,29 @@ namespace condyle {
 namespace {
 
 struct FitOptions {
+  Talk talk;
   std::string scene, output, pictures;
 };
 
 #ifdef CONDYLE_PICTURES
-void write_pictures(const std::filesystem::path& folder,
-                    const Scene& scene,
-                    const std::vector<FittedSurface>& surfaces) {
+std::vector<std::filesystem::path> write_pictures(const Talk& talk,
+                                                  const std::filesystem::path& folder,
+                                                  const Scene& scene,
+                                                  const std::vector<FittedSurface>& surfaces) {
+  std::vector<std::filesystem::path> files;
   for (const FitPicture& picture : draw_fit(scene, surfaces)) {
     const std::filesystem::path file = folder / (picture.name + ".png");
     write_png(file, picture.image);
-    fmt::print("wrote {}\n", file.string());
+    say(talk, "wrote {}\n", file.string());
+    files.push_back(file);
   }
+  return files;
 }
 #endif
 
 int run_fit(const FitOptions& options) {
+  const Talk& talk = options.talk;
+  CommandClock clock;
   check_output_file(options.output);
   const Scene scene = read_scene(options.scene);
   refuse_to_overwrite_inputs(options.output, scene);
@@ -51,19 +61,19 @@ int run_fit(const FitOptions& options) {
   std::optional<std::filesystem::path> folder;
   if (!options.pictures.empty()) folder = make_picture_folder(options.pictures);
 #endif
-  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
-  print_fit(surfaces);
-  print_known_parts(surfaces);
+  const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
+  if (talk.plain()) print_known_parts(surfaces);
   Run run = make_run(scene, surfaces);
   run.start = start_warnings(scene, surfaces);
-  fmt::print("\n");
-  for (const std::string& line : run.start) fmt::print("{}\n", line);
+  say(talk, "\n");
+  for (const std::string& line : run.start) say(talk, "{}\n", line);
   write_run(options.output, run);
-  fmt::print("wrote {}\n", options.output);
+  say(talk, "wrote {}\n", options.output);
+  CommandSummary facts = clock.summary(talk, options.output, 0);
 #ifdef CONDYLE_PICTURES
-  if (folder) write_pictures(*folder, scene, surfaces);
+  if (folder) facts.files = write_pictures(talk, *folder, scene, surfaces);
 #endif
-  return 0;
+  return finish(talk, facts, run);
 }
 
 }  // namespace
@@ -77,7 +87,11 @@ void setup_fit(CLI::App& program, int& status) {
   command->add_option("--pictures", options->pictures,
                       "folder for maps of deviation and curvature (PNG)");
 #endif
-  command->callback([options, &status] { status = run_fit(*options); });
+  add_talk_options(*command, options->talk);
+  command->footer("Example: condyle fit data/phantom/knee.toml -o out/fit.h5");
+  command->callback([options, &status] {
+    status = run_telling_errors(options->talk, [&] { return run_fit(*options); });
+  });
 }
 
 }  // namespace condyle

@@ -8,8 +8,10 @@
 
 #include "app/commands.h"
 #include "app/make_run.h"
-#include "app/print_fit.h"
+#include "app/progress.h"
 #include "app/reference_options.h"
+#include "app/summary.h"
+#include "app/talk.h"
 #include "input_error.h"
 #include "results/output_file.h"
 #include "results/sweep_table.h"
@@ -22,6 +24,7 @@ constexpr int kSomePoseFailed = 2;
 constexpr double kDegree = M_PI / 180;
 
 struct LaxityCommand {
+  Talk talk;
   std::string scene, output;
   CompareOptions options;
 };
@@ -44,21 +47,25 @@ int report_failures(const Scene& scene, const LaxityResult& result) {
 }
 
 int run_laxity(const LaxityCommand& command) {
+  const Talk& talk = command.talk;
+  CommandClock clock;
   check_output_file(command.output);
   const Scene scene = read_scene(command.scene);
   refuse_to_overwrite_inputs(command.output, scene);
   if (!scene.laxity)
     throw InputError(command.scene +
                      ": [laxity] is missing, expected the angles of flexion of the test");
-  fmt::print("{}\n\n", scene.title);
-  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
-  print_fit(surfaces);
+  const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
   Run run = make_run(scene, surfaces);
-  run.laxity = test_laxity(scene, surfaces, command.options);
-  for (const std::string& line : laxity_lines(scene, *run.laxity)) fmt::print("{}\n", line);
+  Progress progress(talk, "curves");
+  run.laxity = test_laxity(scene, surfaces, command.options,
+                           [&](int done, int total) { progress.at(done, total); });
+  progress.clear();
+  for (const std::string& line : laxity_lines(scene, *run.laxity)) say(talk, "{}\n", line);
   write_run(command.output, run);
-  fmt::print("wrote {}\n", command.output);
-  return report_failures(scene, *run.laxity);
+  say(talk, "wrote {}\n", command.output);
+  return finish(talk, clock.summary(talk, command.output, report_failures(scene, *run.laxity)),
+                run);
 }
 
 }  // namespace
@@ -70,7 +77,11 @@ void setup_laxity(CLI::App& program, int& status) {
   command->add_option("SCENE", options->scene, "scene file (TOML) with [laxity]")->required();
   command->add_option("-o,--output", options->output, "result file to write (HDF5)")->required();
   add_reference_options(*command, options->options);
-  command->callback([options, &status] { status = run_laxity(*options); });
+  add_talk_options(*command, options->talk);
+  command->footer("Example: condyle laxity data/wismans-type/drawer.toml -o out/laxity.h5");
+  command->callback([options, &status] {
+    status = run_telling_errors(options->talk, [&] { return run_laxity(*options); });
+  });
 }
 
 }  // namespace condyle

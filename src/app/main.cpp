@@ -32,6 +32,9 @@ void setup(CLI::App& program, int& status) {
   setup_render(program, status);
   setup_plot(program, status);
 #endif
+  setup_report(program, status);
+  setup_completion(program, status);
+  setup_manual(program, status);
 }
 
 /// CLI11 would only say that a command is missing.

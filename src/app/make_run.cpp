@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "input_error.h"
+#include "results/digest.h"
 
 namespace condyle {
 namespace {
@@ -18,6 +19,21 @@ std::vector<RunPatch> patches_of(const Scene& scene, const std::vector<FittedSur
                        surfaces[i].report.value_or(FitReport{})});
   }
   return patches;
+}
+
+/// Each mesh of the scene once.
+std::vector<InputFile> mesh_files(const Scene& scene) {
+  std::vector<InputFile> inputs;
+  const auto add = [&](const std::optional<MeshFile>& mesh) {
+    if (!mesh) return;
+    const std::string file = mesh->path.string();
+    for (const InputFile& known : inputs)
+      if (known.file == file) return;
+    inputs.push_back({file, sha256_of_file(mesh->path)});
+  };
+  for (const BodyDescription& body : scene.bodies) add(body.mesh);
+  for (const SurfaceDescription& surface : scene.surfaces) add(surface.patch.mesh);
+  return inputs;
 }
 
 }  // namespace
@@ -41,6 +57,7 @@ Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces, Swe
   for (const BodyDescription& body : scene.bodies) {
     if (body.mesh) run.bodies.push_back({body.name, load_body_mesh(body)});
   }
+  run.inputs = mesh_files(scene);
   return run;
 }
 

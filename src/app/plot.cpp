@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/summary.h"
+#include "app/talk.h"
 #include "input_error.h"
 #include "pictures/picture_folder.h"
 #include "pictures/plot_run.h"
@@ -18,6 +20,7 @@ namespace condyle {
 namespace {
 
 struct PlotCommand {
+  Talk talk;
   std::vector<std::string> runs;
   std::string folder;
   std::vector<std::string> formats = {"png"};
@@ -68,9 +71,13 @@ std::vector<std::filesystem::path> plot_all(const PlotCommand& command,
 int run_plot(const PlotCommand& command) {
   std::vector<PlotFormat> formats;
   for (const std::string& text : command.formats) formats.push_back(format_from_name(text));
-  for (const auto& file : plot_all(command, formats)) fmt::print("wrote {}\n", file.string());
-  std::fflush(stdout);
-  return 0;
+  CommandClock clock;
+  const std::vector<std::filesystem::path> files = plot_all(command, formats);
+  for (const auto& file : files) say(command.talk, "wrote {}\n", file.string());
+  CommandSummary facts =
+      clock.summary(command.talk, fmt::format("{}", fmt::join(command.runs, " ")), 0);
+  facts.files = files;
+  return finish(command.talk, facts, {});
 }
 
 }  // namespace
@@ -86,7 +93,10 @@ void setup_plot(CLI::App& program, int& status) {
       ->allow_extra_args(false)
       ->capture_default_str();
   command->footer("Example: condyle plot out/phantom.h5 -o out --format png,svg");
-  command->callback([options, &status] { status = run_plot(*options); });
+  add_talk_options(*command, options->talk);
+  command->callback([options, &status] {
+    status = run_telling_errors(options->talk, [&] { return run_plot(*options); });
+  });
 }
 
 }  // namespace condyle

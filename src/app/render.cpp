@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/progress.h"
+#include "app/summary.h"
+#include "app/talk.h"
 #include "input_error.h"
 #include "pictures/knee_picture.h"
 #include "pictures/movie.h"
@@ -27,6 +30,7 @@ namespace {
 constexpr int kSomePoseFailed = 2;
 
 struct RenderCommand {
+  Talk talk;
   std::string run, output;
   std::vector<double> at;  // degrees, mm, s or a factor, as swept
   std::vector<std::string> views = {"anterior", "medial", "plateau"};
@@ -156,10 +160,27 @@ class Output {
   std::filesystem::path folder_, file_;
 };
 
-void report(const std::filesystem::path& file) {
-  fmt::print("wrote {}\n", file.string());
-  std::fflush(stdout);
-}
+/// Counts pictures for the progress line, and remembers the files.
+class Account {
+ public:
+  Account(const Talk& talk, std::size_t pictures)
+      : talk_(talk), progress_(talk, "pictures"), total_(static_cast<int>(pictures)) {}
+  void drew() { progress_.at(++done_, total_); }
+  void wrote(const std::filesystem::path& file) {
+    files_.push_back(file);
+    if (!talk_.plain()) return;
+    progress_.clear();
+    fmt::print("wrote {}\n", file.string());
+    std::fflush(stdout);
+  }
+  [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
+
+ private:
+  const Talk& talk_;
+  Progress progress_;
+  int done_ = 0, total_;
+  std::vector<std::filesystem::path> files_;
+};
 
 struct Job {
   const RenderCommand& command;
@@ -170,7 +191,7 @@ struct Job {
   PictureOptions options;
 };
 
-void draw_singles(const Job& job) {
+void draw_singles(const Job& job, Account& account) {
   const Output output(job.command, job.views.size() * job.poses.size());
   KneePictures pictures(job.run, job.options);
   for (const std::size_t pose : job.poses) {
@@ -178,12 +199,13 @@ void draw_singles(const Job& job) {
       const double shown = job.swept.shown(job.run.sweep.poses[pose].value);
       const std::filesystem::path file = output.path(file_stem(view, shown));
       write_png(file, pictures.draw(view, pose));
-      report(file);
+      account.drew();
+      account.wrote(file);
     }
   }
 }
 
-void draw_strips(const Job& job) {
+void draw_strips(const Job& job, Account& account) {
   const Output output(job.command, job.views.size());
   for (const View view : job.views) {
     const std::filesystem::path file = output.path(fmt::format("{}_strip", name(view)));
@@ -194,19 +216,23 @@ void draw_strips(const Job& job) {
       options.height = page.height;
     }
     write_png(file, draw_strip(job.run, view, job.poses, options));
-    report(file);
+    account.drew();
+    account.wrote(file);
   }
 }
 
-void draw_movies(const Job& job) {
+void draw_movies(const Job& job, Account& account) {
   const Output output(job.command, job.views.size());
   for (const View view : job.views) {
     const std::filesystem::path file = output.path(fmt::format("{}_movie", name(view)));
     Movie movie(file, job.command.frames_per_second);
     KneePictures pictures(job.run, job.options);
-    for (const std::size_t pose : job.poses) movie.add(pictures.draw(view, pose));
+    for (const std::size_t pose : job.poses) {
+      movie.add(pictures.draw(view, pose));
+      account.drew();
+    }
     movie.finish();
-    report(file);
+    account.wrote(file);
   }
 }
 
@@ -220,6 +246,7 @@ PictureOptions options_of(const RenderCommand& command) {
 }
 
 int run_render(const RenderCommand& command) {
+  CommandClock clock;
   if (!command.size.empty()) (void)parse_size(command.size);
   std::vector<View> views;
   for (const std::string& text : command.views) views.push_back(view_from_name(text));
@@ -233,15 +260,15 @@ int run_render(const RenderCommand& command) {
   std::vector<std::size_t> poses =
       command.movie ? movie_poses(command, run, swept) : chosen_poses(command, run, swept);
   const int status = keep_converged(run, swept, poses);
-  if (poses.empty()) return kSomePoseFailed;
-  const Job job{command, run, swept, views, poses, options_of(command)};
-  if (command.movie)
-    draw_movies(job);
-  else if (command.strip)
-    draw_strips(job);
-  else
-    draw_singles(job);
-  return status;
+  Account account(command.talk, views.size() * (command.strip ? 1 : poses.size()));
+  if (!poses.empty()) {
+    const Job job{command, run, swept, views, poses, options_of(command)};
+    const auto draw = command.movie ? draw_movies : command.strip ? draw_strips : draw_singles;
+    draw(job, account);
+  }
+  CommandSummary facts = clock.summary(command.talk, command.run, status);
+  facts.files = account.files();
+  return finish(command.talk, facts, run);
 }
 
 }  // namespace
@@ -277,7 +304,10 @@ void setup_render(CLI::App& program, int& status) {
       ->capture_default_str();
   command->footer(
       "Example: condyle render out/phantom.h5 -o out --at 0,60,120 --view anterior,plateau");
-  command->callback([options, &status] { status = run_render(*options); });
+  add_talk_options(*command, options->talk);
+  command->callback([options, &status] {
+    status = run_telling_errors(options->talk, [&] { return run_render(*options); });
+  });
 }
 
 }  // namespace condyle

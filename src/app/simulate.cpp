@@ -9,7 +9,9 @@
 
 #include "app/commands.h"
 #include "app/make_run.h"
-#include "app/print_fit.h"
+#include "app/progress.h"
+#include "app/summary.h"
+#include "app/talk.h"
 #include "input_error.h"
 #include "results/output_file.h"
 #include "results/sweep_table.h"
@@ -22,6 +24,7 @@ constexpr int kDidNotSucceed = 2;
 constexpr double kJoule = 1e3;  // N mm
 
 struct SimulateCommand {
+  Talk talk;
   std::string scene, output;
 };
 
@@ -62,6 +65,12 @@ void print_balance(const Simulation& simulation) {
              motion.steps);
 }
 
+void print_motion(const Scene& scene, const Simulation& simulation) {
+  print_rows(scene, simulation.poses);
+  print_events(scene, simulation);
+  print_balance(simulation);
+}
+
 int report_failures(const Simulation& simulation) {
   int status = 0;
   if (!simulation.motion.completed) {
@@ -78,23 +87,24 @@ int report_failures(const Simulation& simulation) {
 }
 
 int run_simulate(const SimulateCommand& command) {
+  const Talk& talk = command.talk;
+  CommandClock clock;
   check_output_file(command.output);
   const Scene scene = read_scene(command.scene);
   refuse_to_overwrite_inputs(command.output, scene);
   if (!scene.simulation)
     throw InputError(command.scene + ": [simulate] is missing, expected time, rate and gravity");
-  fmt::print("{}\n\n", scene.title);
-  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
-  print_fit(surfaces);
+  const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
   Run run = make_run(scene, surfaces);
-  run.simulation = simulate(scene, surfaces);
+  Progress progress(talk, "frames");
+  run.simulation =
+      simulate(scene, surfaces, [&](int done, int total) { progress.at(done, total); });
+  progress.clear();
   run.sweep.poses = run.simulation->poses;
-  print_rows(scene, run.sweep.poses);
-  print_events(scene, *run.simulation);
-  print_balance(*run.simulation);
+  if (talk.plain()) print_motion(scene, *run.simulation);
   write_run(command.output, run);
-  fmt::print("wrote {}\n", command.output);
-  return report_failures(*run.simulation);
+  say(talk, "wrote {}\n", command.output);
+  return finish(talk, clock.summary(talk, command.output, report_failures(*run.simulation)), run);
 }
 
 }  // namespace
@@ -105,7 +115,11 @@ void setup_simulate(CLI::App& program, int& status) {
       "simulate", "Release, strike or drive the knee and follow its motion in time");
   command->add_option("SCENE", options->scene, "scene file (TOML) with [simulate]")->required();
   command->add_option("-o,--output", options->output, "result file to write (HDF5)")->required();
-  command->callback([options, &status] { status = run_simulate(*options); });
+  add_talk_options(*command, options->talk);
+  command->footer("Example: condyle simulate data/phantom/pendulum.toml -o out/pendulum.h5");
+  command->callback([options, &status] {
+    status = run_telling_errors(options->talk, [&] { return run_simulate(*options); });
+  });
 }
 
 }  // namespace condyle

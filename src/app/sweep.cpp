@@ -10,8 +10,11 @@
 #include "app/commands.h"
 #include "app/make_run.h"
 #include "app/print_fit.h"
+#include "app/progress.h"
 #include "app/range_options.h"
 #include "app/resume.h"
+#include "app/summary.h"
+#include "app/talk.h"
 #include "input_error.h"
 #include "results/journal.h"
 #include "results/output_file.h"
@@ -24,34 +27,44 @@ namespace {
 constexpr int kSomePoseFailed = 2;
 
 struct SweepCommand {
+  Talk talk;
   std::string scene, output;
   RangeOptions range;
   bool resume = false;
 };
 
 // The sweep with its table; each pose goes into the journal as soon as it is known.
-SweepResult sweep_aloud(const Scene& scene,
+SweepResult sweep_aloud(const Talk& talk,
+                        const Scene& scene,
                         const std::vector<FittedSurface>& surfaces,
                         std::vector<KnownPose> known,
                         Journal& journal) {
   const SweepTable table(scene);
-  fmt::print("{}", table.head());
+  say(talk, "{}", table.head());
   const bool resumed = !known.empty();
   std::size_t computed = 0;
+  int done = 0;
+  const int total = scene.sweep->arc_length ? 0 : static_cast<int>(scene.sweep->values.size());
+  Progress progress(talk, "poses");
   SweepOptions options;
   options.known = std::move(known);
   options.on_pose = [&](const PoseResult& pose) {
-    fmt::print("{}", table.row(pose));
-    std::fflush(stdout);
+    if (talk.plain()) {
+      progress.clear();
+      fmt::print("{}", table.row(pose));
+      std::fflush(stdout);
+    }
+    progress.at(++done, total);
   };
   options.on_computed = [&](const KnownPose& pose) {
     journal.append(pose);
     ++computed;
   };
   SweepResult result = sweep(scene, surfaces, options);
-  fmt::print("\n{}\n", summary(result));
+  progress.clear();
+  say(talk, "\n{}\n", summary(result));
   if (resumed)
-    fmt::print("{} poses taken over, {} computed\n", result.poses.size() - computed, computed);
+    say(talk, "{} poses taken over, {} computed\n", result.poses.size() - computed, computed);
   return result;
 }
 
@@ -64,11 +77,13 @@ void write_result(const SweepCommand& command, const Run& run, Journal& journal)
                                  journal_path(command.output).string()));
   }
   journal.remove();
-  fmt::print("wrote {}\n", command.output);
+  say(command.talk, "wrote {}\n", command.output);
   std::fflush(stdout);
 }
 
 int run_sweep(const SweepCommand& command) {
+  const Talk& talk = command.talk;
+  CommandClock clock;
   check_output_file(command.output);
   Scene scene = read_scene(command.scene);
   if (command.resume && scene.sweep && scene.sweep->arc_length) {
@@ -78,18 +93,20 @@ int run_sweep(const SweepCommand& command) {
   refuse_to_overwrite_inputs(command.output, scene);
   refuse_to_overwrite_inputs(journal_path(command.output), scene);
   override_range(command.scene, command.range, scene);
-  fmt::print("{}\n\n", scene.title);
-  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
-  print_fit(surfaces);
+  const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
   EarlierPoses earlier = earlier_poses(command.output, command.resume, scene, surfaces);
-  if (!earlier.message.empty()) fmt::print("{}\n\n", earlier.message);
+  if (!earlier.message.empty()) say(talk, "{}\n\n", earlier.message);
   Journal journal(journal_path(command.output), identity(scene, surfaces), earlier.journal_bytes);
-  const SweepResult result = sweep_aloud(scene, surfaces, std::move(earlier.poses), journal);
-  for (const std::string& line : event_lines(scene, result)) fmt::print("{}\n", line);
-  write_result(command, make_run(scene, surfaces, result), journal);
+  const SweepResult result = sweep_aloud(talk, scene, surfaces, std::move(earlier.poses), journal);
+  for (const std::string& line : event_lines(scene, result)) say(talk, "{}\n", line);
+  const Run run = make_run(scene, surfaces, result);
+  write_result(command, run, journal);
   if (!journal.failure().empty()) fmt::print(stderr, "condyle: {}\n", journal.failure());
   for (const std::string& line : failures(scene, result)) fmt::print(stderr, "condyle: {}\n", line);
-  return result.count_converged() == static_cast<int>(result.poses.size()) ? 0 : kSomePoseFailed;
+  const bool all = result.count_converged() == static_cast<int>(result.poses.size());
+  CommandSummary facts = clock.summary(talk, command.output, all ? 0 : kSomePoseFailed);
+  if (!journal.failure().empty()) facts.warnings.push_back(journal.failure());
+  return finish(talk, facts, run);
 }
 
 }  // namespace
@@ -103,7 +120,11 @@ void setup_sweep(CLI::App& program, int& status) {
   add_range_options(*command, options->range);
   command->add_flag("--resume", options->resume,
                     "take over what RUN.h5 and the journal of a stopped run hold");
-  command->callback([options, &status] { status = run_sweep(*options); });
+  add_talk_options(*command, options->talk);
+  command->footer("Example: condyle sweep data/phantom/knee.toml -o out/phantom.h5");
+  command->callback([options, &status] {
+    status = run_telling_errors(options->talk, [&] { return run_sweep(*options); });
+  });
 }
 
 }  // namespace condyle

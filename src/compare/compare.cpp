@@ -61,8 +61,16 @@ SweepResult reference_sweep(const Scene& scene,
 Comparison compare(const Scene& scene,
                    const std::vector<FittedSurface>& surfaces,
                    const SweepResult& ours,
-                   const CompareOptions& options) {
+                   const CompareOptions& options,
+                   const OnProgress& on_sweep) {
   check_wismans_scene(scene);
+  int sweeps_done = 0;
+  const auto counted = [&](SweepResult sweep) {
+    ++sweeps_done;
+    if (on_sweep)
+      on_sweep(sweeps_done, kVariantCount);  // all but ours, and ours again for the time
+    return sweep;
+  };
   Comparison result;
   result.options = options;
   result.heights = fit_heights(scene, surfaces, options.degree);
@@ -72,21 +80,21 @@ Comparison compare(const Scene& scene,
   const WismansModel model = build_wismans_model(quadratic, result.heights);
   const std::vector<FittedSurface> polynomials = with_polynomials(surfaces, result.heights);
 
-  result.reference = reference_sweep(scene, model, ours);
+  result.reference = counted(reference_sweep(scene, model, ours));
   const std::array<SweepResult, kVariantCount> sweeps = {
       ours,
       result.reference,
-      plain_sweep(scene, polynomials),
-      plain_sweep(quadratic, surfaces),
-      plain_sweep(with_closed_contacts(scene), surfaces),
-      sweep_one_contact_each(quadratic, polynomials, result.reference)};
+      counted(plain_sweep(scene, polynomials)),
+      counted(plain_sweep(quadratic, surfaces)),
+      counted(plain_sweep(with_closed_contacts(scene), surfaces)),
+      counted(sweep_one_contact_each(quadratic, polynomials, result.reference))};
   for (int v = 0; v < kVariantCount; ++v) result.converged[v] = sweeps[v].count_converged();
   for (const Quantity& quantity : compared_quantities(scene)) {
     ComparedQuantity compared{quantity.name, quantity.units, {}};
     for (int v = 0; v < kVariantCount; ++v) compared.values[v] = series(quantity, sweeps[v]);
     result.quantities.push_back(std::move(compared));
   }
-  const SweepResult again = plain_sweep(scene, surfaces);
+  const SweepResult again = counted(plain_sweep(scene, surfaces));
   result.seconds_ours = median_seconds(again);
   result.iterations_ours = mean_iterations(again);
   result.seconds_reference = median_seconds(result.reference);

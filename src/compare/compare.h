@@ -12,6 +12,7 @@
 
 #include "compare/quantities.h"
 #include "equilibrium/pose_result.h"
+#include "on_progress.h"
 #include "reference/build_wismans.h"
 
 namespace condyle {
@@ -47,11 +48,12 @@ struct Comparison {
 };
 
 /// `ours` is the engine's sweep of the scene. Throws InputError for a scene that the reference
-/// model cannot hold.
+/// model cannot hold. `on_sweep` is told of each of the sweeps behind it.
 [[nodiscard]] Comparison compare(const Scene& scene,
                                  const std::vector<FittedSurface>& surfaces,
                                  const SweepResult& ours,
-                                 const CompareOptions& options = {});
+                                 const CompareOptions& options = {},
+                                 const OnProgress& on_sweep = {});
 
 /// The reference model's sweep over the values of the scene.
 [[nodiscard]] SweepResult reference_sweep(const Scene& scene,

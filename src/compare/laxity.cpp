@@ -124,8 +124,11 @@ std::size_t loaded_coordinate(const Scene& scene) {
 
 LaxityResult test_laxity(const Scene& scene,
                          const std::vector<FittedSurface>& surfaces,
-                         const CompareOptions& options) {
+                         const CompareOptions& options,
+                         const OnProgress& on_curve) {
   const Ways ways(scene);
+  const int total =
+      static_cast<int>(scene.laxity->flexions.size()) * (scene.laxity->cut.empty() ? 1 : 2);
   LaxityResult result;
   const bool by_both = wismans_can_hold(scene);
   const std::vector<HeightFit> heights =
@@ -144,6 +147,7 @@ LaxityResult test_laxity(const Scene& scene,
             by_reference(build_wismans_model(quadratic, heights), knee, ways, flexion, starts);
       }
       result.curves.push_back(std::move(curve));
+      if (on_curve) on_curve(static_cast<int>(result.curves.size()), total);
     }
   }
   return result;

@@ -23,9 +23,11 @@ struct LaxityResult {
 };
 
 /// Needs scene.laxity. The load is reached from none, the flexion from that of the scene, in steps.
+/// `on_curve` is told of each curve.
 [[nodiscard]] LaxityResult test_laxity(const Scene& scene,
                                        const std::vector<FittedSurface>& surfaces,
-                                       const CompareOptions& options = {});
+                                       const CompareOptions& options = {},
+                                       const OnProgress& on_curve = {});
 
 /// Which joint coordinate (index into kJointColumns) the load acts on most: anterior drawer for a
 /// drawer force, adduction for a varus moment, ...

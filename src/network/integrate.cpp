@@ -89,6 +89,7 @@ class Integrator {
     for (long k = 1; k <= frames && motion_.completed; ++k) {
       const double to = start_ + std::min(options_.end, static_cast<double>(k) * options_.interval);
       if (scout_ ? advance_scouted(t, to, 0) : advance(t, to)) store(t);
+      if (options_.on_frame) options_.on_frame(static_cast<int>(k), static_cast<int>(frames));
     }
     add_counts();
     return std::move(motion_);

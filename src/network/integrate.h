@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "network/network_equations.h"
+#include "on_progress.h"
 
 namespace condyle {
 
@@ -22,6 +23,7 @@ struct IntegrationOptions {
   double least_rebound = 1;  ///< a contact that would rebound more slowly stays closed [mm/s]
   std::vector<double> breaks = {};  ///< times at which a driver jumps [s]
   long most_steps = 200000;         ///< from one frame to the next
+  OnProgress on_frame = {};         ///< told of each frame after the first
 };
 
 struct MotionFrame {

@@ -210,7 +210,9 @@ MassProperties moving_mass(const Scene& scene) {
   return mass_of_solid(load_body_mesh(body), *body.density, what);
 }
 
-Simulation simulate(const Scene& scene, const std::vector<FittedSurface>& surfaces) {
+Simulation simulate(const Scene& scene,
+                    const std::vector<FittedSurface>& surfaces,
+                    const OnProgress& on_frame) {
   Simulation result;
   result.mass = moving_mass(scene);
   const Model model = build_model(scene, surfaces);
@@ -227,6 +229,7 @@ Simulation simulate(const Scene& scene, const std::vector<FittedSurface>& surfac
   options.tolerance = simulation.tolerance;
   options.restitution = simulation.restitution;
   options.breaks = drive_breaks(simulation.drives);
+  options.on_frame = on_frame;
   const auto begin = std::chrono::steady_clock::now();
   result.motion = integrate(knee.network, state, options, PairScout(model, knee));
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -25,7 +25,9 @@ struct Simulation {
 [[nodiscard]] MassProperties moving_mass(const Scene& scene);
 
 /// Needs scene.simulation. Throws InputError for a body without mass, an open mesh, or a start that
-/// is no equilibrium.
-[[nodiscard]] Simulation simulate(const Scene& scene, const std::vector<FittedSurface>& surfaces);
+/// is no equilibrium. `on_frame` is told of each frame.
+[[nodiscard]] Simulation simulate(const Scene& scene,
+                                  const std::vector<FittedSurface>& surfaces,
+                                  const OnProgress& on_frame = {});
 
 }  // namespace condyle

@@ -107,6 +107,10 @@ bool Hdf5Group::has(const std::string& name) const {
   return H5Lexists(handle_.id(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
+bool Hdf5Group::has_attribute(const std::string& name) const {
+  return H5Aexists(handle_.id(), name.c_str()) > 0;
+}
+
 bool Hdf5Group::is_group(const std::string& name) const {
   const Hdf5Handle object(H5Oopen(handle_.id(), name.c_str(), H5P_DEFAULT), H5Oclose);
   return H5Iget_type(object.id()) == H5I_GROUP;

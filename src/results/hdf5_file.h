@@ -52,6 +52,7 @@ class Hdf5Group {
   [[nodiscard]] Hdf5Group create(const std::string& name) const;
   [[nodiscard]] Hdf5Group open(const std::string& name) const;
   [[nodiscard]] bool has(const std::string& name) const;
+  [[nodiscard]] bool has_attribute(const std::string& name) const;
   [[nodiscard]] bool is_group(const std::string& name) const;
   [[nodiscard]] std::vector<std::string> names()
       const;  ///< of what it holds, in the order of creation

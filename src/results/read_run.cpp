@@ -234,6 +234,15 @@ RunPatch read_patch(const Hdf5Group& group, const std::string& surface, const Sc
   return patch;
 }
 
+std::vector<InputFile> read_inputs(const Hdf5Group& group) {
+  const std::vector<std::string> files = group.read_texts("file");
+  const std::vector<std::string> digests = group.read_texts("sha256");
+  if (files.size() != digests.size()) group.fail("has not one checksum for each file");
+  std::vector<InputFile> inputs;
+  for (std::size_t i = 0; i < files.size(); ++i) inputs.push_back({files[i], digests[i]});
+  return inputs;
+}
+
 BodyMesh read_body(const Hdf5Group& group, const std::string& name) {
   BodyMesh body;
   body.name = name;
@@ -270,6 +279,9 @@ Run read_run(const std::filesystem::path& path) {
   const Hdf5Group root = reader.root();
   Run run;
   run.scene = read_head(root);
+  if (root.has_attribute("program")) run.program = root.read_attribute("program");
+  if (root.has_attribute("created")) run.created = root.read_attribute("created");
+  if (root.has("inputs")) run.inputs = read_inputs(root.open("inputs"));
   if (root.has("sweep")) read_poses(root.open("sweep"), run);
   if (root.has("events")) read_events(root.open("events"), run);
   if (root.has("fit")) run.start = root.open("fit").read_texts("start");

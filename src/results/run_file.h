@@ -30,6 +30,12 @@ struct RunPatch {
   FitReport report;
 };
 
+/// A mesh file that a run was computed from.
+struct InputFile {
+  std::string file;    ///< as it was opened
+  std::string sha256;  ///< of its bytes, in hexadecimal digits
+};
+
 struct Run {
   Scene scene;
   SweepResult sweep;
@@ -39,6 +45,8 @@ struct Run {
   std::optional<LaxityResult> laxity = {};    ///< of `condyle laxity`
   std::vector<std::string> start = {};        ///< of a fit: what start_warnings found
   std::optional<Simulation> simulation = {};  ///< of `condyle simulate`; read back without poses
+  std::vector<InputFile> inputs = {};         ///< the meshes; none in files of version 0.1.0
+  std::string program = {}, created = {};     ///< read back only: who wrote the file, and when (UTC)
 };
 
 /// Writes to a temporary file beside `path` and renames it: never a half-written file. Throws

@@ -310,6 +310,18 @@ void write_body(const Hdf5Group& group, const TriangleMesh& mesh) {
   group.write("triangles", corners, {mesh.triangles.size(), 3}, "1");
 }
 
+void write_inputs(const Hdf5Group& root, const std::vector<InputFile>& inputs) {
+  if (inputs.empty()) return;
+  std::vector<std::string> files, digests;
+  for (const InputFile& input : inputs) {
+    files.push_back(input.file);
+    digests.push_back(input.sha256);
+  }
+  const Hdf5Group group = root.create("inputs");
+  group.write("file", files);
+  group.write("sha256", digests);
+}
+
 void write_all(const Hdf5Group& root, const Run& run) {
   write_head(root, run.scene);
   if (!run.sweep.poses.empty()) {
@@ -319,6 +331,7 @@ void write_all(const Hdf5Group& root, const Run& run) {
   const Hdf5Group patches = root.create("patches");
   for (const RunPatch& patch : run.patches)
     write_patch(patches.create(patch.surface), patch, run.scene);
+  write_inputs(root, run.inputs);
   if (!run.start.empty()) root.create("fit").write("start", run.start);
   const Hdf5Group bodies = root.create("bodies");
   for (const BodyMesh& body : run.bodies) write_body(bodies.create(body.name), body.mesh);

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <exception>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -217,21 +218,36 @@ FittedSurface fit_one(const Scene& scene, const Source& source, const SurfaceDes
   }
 }
 
-void fit_source(const Scene& scene, Source& source, std::vector<FittedSurface>& surfaces) {
+void fit_source(const Scene& scene,
+                Source& source,
+                std::vector<FittedSurface>& surfaces,
+                const std::function<void()>& on_patch) {
   load_source(scene, source);
-  for (const int i : source.surfaces) surfaces[i] = fit_one(scene, source, scene.surfaces[i]);
+  for (const int i : source.surfaces) {
+    surfaces[i] = fit_one(scene, source, scene.surfaces[i]);
+    on_patch();
+  }
 }
 
 /// Work for all sources on two threads, the first error rethrown: sources share nothing but their
 /// own places in `surfaces`.
 void fit_sources(const Scene& scene,
                  std::vector<Source>& sources,
-                 std::vector<FittedSurface>& surfaces) {
+                 std::vector<FittedSurface>& surfaces,
+                 const OnProgress& on_patch) {
   std::vector<std::exception_ptr> errors(sources.size());
+  int done = 0, total = 0;
+  for (const Source& source : sources) total += static_cast<int>(source.surfaces.size());
+  std::mutex one_at_a_time;
+  const auto tell = [&] {
+    const std::lock_guard lock(one_at_a_time);
+    ++done;
+    if (on_patch) on_patch(done, total);
+  };
   const auto work = [&](std::size_t first, std::size_t step) {
     for (std::size_t k = first; k < sources.size(); k += step) {
       try {
-        fit_source(scene, sources[k], surfaces);
+        fit_source(scene, sources[k], surfaces, tell);
       } catch (...) {
         errors[k] = std::current_exception();
       }
@@ -267,10 +283,10 @@ std::unique_ptr<Surface> make_exact_surface(const SurfaceDescription& s) {
   return nullptr;
 }
 
-std::vector<FittedSurface> fit_surfaces(const Scene& scene) {
+std::vector<FittedSurface> fit_surfaces(const Scene& scene, const OnProgress& on_patch) {
   std::vector<Source> sources = collect_sources(scene);
   std::vector<FittedSurface> surfaces(scene.surfaces.size());
-  fit_sources(scene, sources, surfaces);
+  fit_sources(scene, sources, surfaces, on_patch);
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     if (scene.surfaces[i].kind != SurfaceKind::kPatch)
       surfaces[i].surface = make_exact_surface(scene.surfaces[i]);

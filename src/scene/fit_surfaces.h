@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/triangle_mesh.h"
+#include "on_progress.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
 
@@ -42,8 +43,10 @@ struct FittedSurface {
 /// A described surface of any kind but a patch.
 [[nodiscard]] std::unique_ptr<Surface> make_exact_surface(const SurfaceDescription& surface);
 
-/// One entry per Scene::surfaces. Throws InputError for meshes that cannot be used.
-[[nodiscard]] std::vector<FittedSurface> fit_surfaces(const Scene& scene);
+/// One entry per Scene::surfaces. Throws InputError for meshes that cannot be used. `on_patch` is
+/// told of each patch that is fitted, from either of two threads but never from both at once.
+[[nodiscard]] std::vector<FittedSurface> fit_surfaces(const Scene& scene,
+                                                      const OnProgress& on_patch = {});
 
 /// The mesh of a body, loaded and cleaned, in mm; empty where the scene names none.
 [[nodiscard]] TriangleMesh load_body_mesh(const BodyDescription& body);

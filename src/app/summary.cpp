@@ -1,0 +1,36 @@
+#include "app/summary.h"
+
+#include "app/print_fit.h"
+#include "app/progress.h"
+
+namespace condyle {
+
+std::vector<FittedSurface> fit_aloud(const Talk& talk, const Scene& scene) {
+  say(talk, "{}\n\n", scene.title);
+  Progress progress(talk, "patches");
+  std::vector<FittedSurface> surfaces =
+      fit_surfaces(scene, [&](int done, int total) { progress.at(done, total); });
+  progress.clear();
+  if (talk.plain()) print_fit(surfaces);
+  return surfaces;
+}
+
+CommandSummary CommandClock::summary(const Talk& talk,
+                                     const std::string& output,
+                                     int exit_code) const {
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+  CommandSummary summary;
+  summary.command = talk.command;
+  summary.version = CONDYLE_VERSION;
+  summary.exit_code = exit_code;
+  summary.seconds = passed.count();
+  summary.output = output;
+  return summary;
+}
+
+int finish(const Talk& talk, const CommandSummary& summary, const Run& run) {
+  if (talk.json) fmt::print("{}\n", json_summary(summary, run));
+  return summary.exit_code;
+}
+
+}  // namespace condyle

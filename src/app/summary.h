@@ -1,0 +1,32 @@
+#pragma once
+
+/// How commands that compute begin (fit the patches) and end (a summary for scripts).
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "app/talk.h"
+#include "report/summary_json.h"
+#include "scene/fit_surfaces.h"
+
+namespace condyle {
+
+/// The title, a progress line while patches are fitted, and how they came out.
+[[nodiscard]] std::vector<FittedSurface> fit_aloud(const Talk& talk, const Scene& scene);
+
+/// Counts from when it is made.
+class CommandClock {
+ public:
+  [[nodiscard]] CommandSummary summary(const Talk& talk,
+                                       const std::string& output,
+                                       int exit_code) const;
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Prints the JSON where it is asked for; returns the exit code.
+int finish(const Talk& talk, const CommandSummary& summary, const Run& run);
+
+}  // namespace condyle

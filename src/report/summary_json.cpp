@@ -1,0 +1,160 @@
+#include "report/summary_json.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "results/run_layout.h"
+#include "scene/sweep_range.h"
+
+namespace condyle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+Unit swept_unit(const Scene& scene) {
+  if (scene.sweep) return border_sweep_unit(scene);
+  return {scene.simulation ? "s" : "1", 1};
+}
+
+Json counts_of(const SweepResult& sweep) {
+  Json counts = {{"poses", sweep.poses.size()}};
+  for (int i = 0; i < kPoseStatusCount; ++i) {
+    int count = 0;
+    for (const PoseResult& pose : sweep.poses) count += static_cast<int>(pose.status) == i ? 1 : 0;
+    if (count > 0 || i == 0) counts[name(static_cast<PoseStatus>(i))] = count;
+  }
+  return counts;
+}
+
+Json joint_of(const PoseResult& pose) {
+  Json joint = Json::object();
+  for (const auto& column : kJointColumns)
+    joint[column.name] = pose.joint.*column.member / column.unit;
+  return joint;
+}
+
+Json poses_of(const Scene& scene, const SweepResult& sweep) {
+  const Unit unit = swept_unit(scene);
+  Json poses = Json::array();
+  for (const PoseResult& pose : sweep.poses) {
+    Json row = {{"value", pose.value / unit.factor},
+                {"status", name(pose.status)},
+                {"reason", pose.reason},
+                {"remark", pose.remark},
+                {"iterations", pose.iterations},
+                {"residual", pose.residual},
+                {"seconds", pose.seconds}};
+    if (scene.joint && pose.converged()) row["joint"] = joint_of(pose);
+    poses.push_back(std::move(row));
+  }
+  return poses;
+}
+
+Json events_of(const Scene& scene, const SweepResult& sweep) {
+  const Unit unit = swept_unit(scene);
+  Json events = Json::array();
+  for (const Event& event : sweep.events) {
+    Json row = {{"value", event.value / unit.factor}, {"kind", name(event.kind)}};
+    row["contact"] = event.contact < 0
+                         ? Json()
+                         : Json(scene.contacts[static_cast<std::size_t>(event.contact)].name);
+    events.push_back(std::move(row));
+  }
+  return events;
+}
+
+Json patches_of(const Run& run) {
+  Json patches = Json::array();
+  for (const RunPatch& patch : run.patches) {
+    patches.push_back({{"surface", patch.surface},
+                       {"rms_mm", patch.report.rms},
+                       {"max_mm", patch.report.max},
+                       {"notes", patch.report.notes}});
+  }
+  return patches;
+}
+
+Json laxity_of_run(const Run& run) {
+  Json curves = Json::array();
+  for (const LaxityCurve& curve : run.laxity->curves) {
+    Json row = {{"flexion_deg", curve.flexion / kDegree},
+                {"knee", curve.cut ? "cut" : "intact"},
+                {"laxity", laxity_of(run.scene, curve.ours)},
+                {"counts", counts_of(curve.ours)}};
+    if (curve.reference) {
+      row["reference_laxity"] = laxity_of(run.scene, *curve.reference);
+      row["reference_counts"] = counts_of(*curve.reference);
+    }
+    curves.push_back(std::move(row));
+  }
+  return curves;
+}
+
+Json simulation_of(const Scene& scene, const Simulation& simulation) {
+  const Motion& motion = simulation.motion;
+  Json events = Json::array();
+  for (const ContactEvent& event : motion.events) {
+    const int contact = simulation.contact_of[static_cast<std::size_t>(event.contact)];
+    events.push_back({{"time", event.t},
+                      {"contact", scene.contacts[static_cast<std::size_t>(contact)].name},
+                      {"kind", event.closing ? "closing" : "opening"},
+                      {"speed_mm_s", event.speed}});
+  }
+  return {{"completed", motion.completed},
+          {"reason", motion.reason},
+          {"steps", motion.steps},
+          {"seconds", simulation.seconds},
+          {"imbalance", motion.largest_imbalance / std::max(motion.energy_scale, 1e-300)},
+          {"events", std::move(events)}};
+}
+
+void add_run(Json& json, const Run& run) {
+  json["scene"] = run.scene.file.string();
+  json["title"] = run.scene.title;
+  if (!run.patches.empty()) json["patches"] = patches_of(run);
+  if (!run.sweep.poses.empty()) {
+    const char* swept = run.scene.simulation ? "time" : "value";
+    json["swept"] = {{"name", run.scene.sweep ? run.scene.sweep->vary : swept},
+                     {"units", swept_unit(run.scene).name}};
+    json["counts"] = counts_of(run.sweep);
+    json["poses"] = poses_of(run.scene, run.sweep);
+    json["events"] = events_of(run.scene, run.sweep);
+  }
+  if (run.comparison)
+    json["reference"] = {{"counts", counts_of(run.comparison->reference)},
+                         {"poses", poses_of(run.scene, run.comparison->reference)}};
+  if (run.laxity) json["laxity"] = laxity_of_run(run);
+  if (run.simulation) json["simulation"] = simulation_of(run.scene, *run.simulation);
+}
+
+}  // namespace
+
+std::string json_summary(const CommandSummary& summary, const Run& run) {
+  Json json = {{"command", summary.command},
+               {"version", summary.version},
+               {"exit_code", summary.exit_code},
+               {"seconds", summary.seconds}};
+  if (!summary.output.empty()) json["run"] = summary.output;
+  add_run(json, run);
+  std::vector<std::string> warnings = run_warnings(run);
+  warnings.insert(warnings.end(), summary.warnings.begin(), summary.warnings.end());
+  json["warnings"] = warnings;
+  if (!summary.files.empty()) {
+    json["files"] = Json::array();
+    for (const std::filesystem::path& file : summary.files) json["files"].push_back(file.string());
+  }
+  return text_of(json);
+}
+
+std::string json_error(const std::string& command,
+                       const std::string& version,
+                       const std::string& error) {
+  return text_of({{"command", command}, {"version", version}, {"exit_code", 1}, {"error", error}});
+}
+
+}  // namespace condyle

@@ -1,0 +1,33 @@
+#pragma once
+
+/// What a command did, for scripts: one JSON object (docs/command-line.md names its members).
+/// Angles in deg, lengths in mm, forces in N, times in s; null for a number that is none.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "results/run_file.h"
+
+namespace condyle {
+
+struct CommandSummary {
+  std::string command, version;
+  int exit_code = 0;
+  double seconds = 0;                             ///< of the whole command
+  std::string output;                             ///< the result file written; may be empty
+  std::vector<std::string> warnings = {};         ///< beyond those of the run itself
+  std::vector<std::filesystem::path> files = {};  ///< pictures and the like that were written
+};
+
+[[nodiscard]] std::string json_summary(const CommandSummary& summary, const Run& run);
+
+/// {"command": ..., "version": ..., "exit_code": 1, "error": ...}
+[[nodiscard]] std::string json_error(const std::string& command,
+                                     const std::string& version,
+                                     const std::string& error);
+
+/// What a reader of a run should know: warnings of the fit and the start, remarks on poses.
+[[nodiscard]] std::vector<std::string> run_warnings(const Run& run);
+
+}  // namespace condyle

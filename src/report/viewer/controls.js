@@ -1,0 +1,131 @@
+// Slider, play button, views, what is shown, and the words beside the knee.
+
+import { cssGradient } from './colors.js';
+
+const SECONDS = 6;  // of playing from end to end
+
+function button(text, action) {
+  const element = document.createElement('button');
+  element.type = 'button';
+  element.textContent = text;
+  element.addEventListener('click', action);
+  return element;
+}
+
+function addViews(bar, scene, data, toggles) {
+  const medial = data.side === 'left' ? -1 : 1;  // x points to the person's left
+  const named = data.side !== null;
+  const moving = (name, visible) => {
+    const toggle = toggles.get(name);
+    if (toggle && toggle.checked !== visible) toggle.click();
+  };
+  const views = [
+    [named ? 'anterior' : 'front', [0, 0, 1], true],
+    [named ? 'medial' : 'right side', [medial, 0, 0], true],
+    [named ? 'lateral' : 'left side', [-medial, 0, 0], true],
+    [named ? 'posterior' : 'back', [0, 0, -1], true],
+    [named ? 'plateau' : 'from above', [0, 1, 0.001], false],
+  ];
+  for (const [name, direction, femur] of views) {
+    bar.append(button(name, () => {
+      if (data.femur !== null) moving(data.femur, femur);
+      scene.look(direction);
+    }));
+  }
+}
+
+function addToggles(bar, scene, data) {
+  const toggles = new Map();
+  for (const body of data.bodies) {
+    const label = document.createElement('label');
+    const box = document.createElement('input');
+    box.type = 'checkbox';
+    box.checked = true;
+    box.addEventListener('change', () => scene.setVisible(body, box.checked));
+    label.append(box, ' ' + body);
+    bar.append(label);
+    toggles.set(body, box);
+  }
+  const label = document.createElement('label');
+  const slider = Object.assign(document.createElement('input'),
+    { type: 'range', min: 0, max: 1, step: 0.05, value: 0.45 });
+  slider.addEventListener('input', () => scene.setBoneOpacity(Number(slider.value)));
+  label.append('opacity of bone ', slider);
+  bar.append(label);
+  return toggles;
+}
+
+function addLegend(place, data) {
+  if (data.ligaments.length === 0) {
+    place.hidden = true;
+    return;
+  }
+  place.querySelector('.scale').style.background = cssGradient();
+  const most = 100 * data.greatest_strain;
+  const marks = place.querySelector('.marks');
+  for (const part of [0, 0.5, 1]) {
+    const mark = document.createElement('span');
+    mark.textContent = `${(most * part).toFixed(most < 4 ? 1 : 0)} %`;
+    marks.append(mark);
+  }
+}
+
+function words(scene, data, at) {
+  const number = (row, digits) => {
+    const value = scene.number(row.values, at);
+    return value === null ? '-' : value.toFixed(digits);
+  };
+  const rows = data.coordinates.map((row) => `${row.name} ${number(row, 1)} ${row.units}`);
+  for (const contact of data.contacts)
+    rows.push(`${contact.name} ${scene.number(contact.force, at)?.toFixed(0) ?? '-'} N`);
+  return rows;
+}
+
+export function createControls(place, scene, data) {
+  const slider = place.querySelector('input.poses');
+  const label = place.querySelector('output');
+  const list = place.querySelector('ul.coordinates');
+  slider.max = data.times.length - 1;
+  scene.listeners.push((at) => {
+    slider.value = at;
+    const swept = scene.number(data.swept.values, at);
+    label.textContent = `${data.swept.name} ${swept.toFixed(data.swept.digits)} ${data.swept.units}`;
+    list.replaceChildren(...words(scene, data, at).map((text) => {
+      const item = document.createElement('li');
+      item.textContent = text;
+      return item;
+    }));
+  });
+  let playing = null;
+  const stop = () => {
+    cancelAnimationFrame(playing);
+    playing = null;
+    play.textContent = 'play';
+  };
+  const play = place.querySelector('button.play');
+  play.addEventListener('click', () => {
+    if (playing !== null) {
+      stop();
+      return;
+    }
+    const from = scene.at >= slider.max ? 0 : scene.at, start = performance.now();
+    play.textContent = 'pause';
+    const step = (now) => {
+      const at = from + (slider.max * Math.max(0, now - start)) / (1000 * SECONDS);
+      scene.show(Math.min(at, slider.max));
+      if (at >= slider.max) stop();
+      else playing = requestAnimationFrame(step);
+    };
+    playing = requestAnimationFrame(step);
+  });
+  slider.addEventListener('input', () => {
+    if (playing !== null) stop();
+    scene.show(Number(slider.value));
+  });
+  const toggles = addToggles(place.querySelector('.toggles'), scene, data);
+  addViews(place.querySelector('.views'), scene, data, toggles);
+  addLegend(place.querySelector('.legend'), data);
+  place.hidden = false;
+  scene.resize();
+  scene.look(data.side === null ? [0.3, 0.2, 1] : [data.side === 'left' ? -0.45 : 0.45, 0.15, 1]);
+}

@@ -1,0 +1,149 @@
+// The knee in three.js: camera, light, and the poses of the run on a time line.
+
+import {
+  AmbientLight, AnimationMixer, Box3, Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene,
+  SRGBColorSpace, Vector3, WebGLRenderer,
+} from 'three';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { colorAt, SLACK } from './colors.js';
+
+const nameOf = (node) => node.userData.name ?? node.name;
+
+function addLights(scene, camera) {
+  scene.add(new HemisphereLight(0xffffff, 0xb8a890, 1.5), new AmbientLight(0xffffff, 0.35), camera);
+  const key = new DirectionalLight(0xffffff, 2.2);
+  key.position.set(-0.4, 0.6, 1);  // beside the eye
+  camera.add(key, key.target);
+  key.target.position.set(0, 0, -1);
+}
+
+/// Every mesh gets a material of its own, so that one can be coloured or faded without the others.
+function sortMeshes(root, data) {
+  const meshes = { bones: [], ligaments: new Map(), bodies: new Map(data.bodies.map((b) => [b, []])) };
+  root.traverse((node) => {
+    const name = nameOf(node);
+    if (meshes.bodies.has(name) && meshes.bodies.get(name).length === 0) meshes.bodies.get(name).push(node);
+    if (!node.isMesh) return;
+    const kind = node.material.name;
+    node.material = node.material.clone();
+    if (kind === 'bone') meshes.bones.push(node);
+    if (kind === 'cartilage') {  // lies in the bone's surface: a millimetre nearer to the eye
+      node.material.polygonOffset = true;
+      node.material.polygonOffsetUnits = -400;
+    }
+    if (kind === 'ligament') {
+      const holder = name.startsWith('ligament ') ? name : nameOf(node.parent);
+      meshes.ligaments.set(holder.slice('ligament '.length), node);
+    }
+  });
+  return meshes;
+}
+
+function setOpacity(bones, opacity) {
+  for (const bone of bones) {
+    bone.material.transparent = opacity < 1;
+    bone.material.opacity = opacity;
+    bone.material.depthWrite = opacity > 0.95;
+    bone.visible = opacity > 0;
+    bone.renderOrder = 1;  // after what lies behind it
+    bone.material.needsUpdate = true;
+  }
+}
+
+/// A place between poses: the pose before it, the next, and how far from one to the other.
+function between(list, at) {
+  const i = Math.max(0, Math.min(Math.floor(at), list.length - 1));
+  const k = Math.min(i + 1, list.length - 1);
+  const a = list[i], b = list[k];
+  if (a === null || b === null) return a ?? b;
+  return a + (b - a) * (at - i);
+}
+
+export async function createScene(canvas, model, data) {
+  const renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+  const scene = new Scene();
+  const camera = new PerspectiveCamera(28, 1, 0.001, 10);
+  addLights(scene, camera);
+  const gltf = await new GLTFLoader().parseAsync(model, '');
+  scene.add(gltf.scene);
+  const mixer = new AnimationMixer(gltf.scene);
+  for (const clip of gltf.animations) {
+    const action = mixer.clipAction(clip);
+    action.clampWhenFinished = true;
+    action.play();
+    action.paused = false;
+  }
+  const meshes = sortMeshes(gltf.scene, data);
+  const orbit = new OrbitControls(camera, canvas);
+  orbit.enableDamping = false;
+  const first = data.times[0], end = data.times[data.times.length - 1];
+
+  const api = { at: 0, camera, root: gltf.scene, listeners: [] };
+  const draw = () => renderer.render(scene, camera);
+
+  /// `at` counts poses: 2.5 is half-way from the third to the fourth.
+  api.show = (at) => {
+    api.at = at;
+    // A step before the end, where an animation would begin again.
+    mixer.setTime(Math.min(between(data.times, at), end - 1e-6 * Math.max(1e-6, end - first)));
+    for (const ligament of data.ligaments) {
+      const mesh = meshes.ligaments.get(ligament.name);
+      if (!mesh) continue;
+      const taut = between(ligament.force, at) > 0;
+      const strain = between(ligament.strain, at);
+      const rgb = taut ? colorAt(strain / data.greatest_strain) : SLACK;
+      mesh.material.color = new Color().setRGB(...rgb, SRGBColorSpace);
+      mesh.material.transparent = !taut;
+      mesh.material.opacity = taut ? 1 : 0.55;
+    }
+    gltf.scene.updateMatrixWorld(true);
+    draw();
+    for (const listener of api.listeners) listener(at);
+  };
+  api.number = between;
+  api.setBoneOpacity = (opacity) => { setOpacity(meshes.bones, opacity); draw(); };
+  api.setVisible = (body, visible) => {
+    for (const node of meshes.bodies.get(body) ?? []) node.visible = visible;
+    draw();
+  };
+  api.bodyMatrix = (body) => (meshes.bodies.get(body)?.[0]?.matrixWorld.elements ?? []).slice();
+
+  mixer.setTime(first);
+  gltf.scene.updateMatrixWorld(true);
+  const first_box = new Box3().setFromObject(gltf.scene);
+  /// Looks from a direction (x to the person's left, y up, z to the front) at the first pose and the one that is shown.
+  api.look = (direction) => {
+    const box = new Box3().setFromObject(gltf.scene).union(first_box);
+    const center = box.getCenter(new Vector3()), half = box.getSize(new Vector3()).multiplyScalar(0.5);
+    const back = new Vector3(...direction).normalize();
+    const right = new Vector3(0, 1, 0).cross(back).normalize(), up = back.clone().cross(right);
+    const slope = Math.tan((0.5 * camera.fov * Math.PI) / 180);
+    let distance = 0;
+    for (let corner = 0; corner < 8; ++corner) {
+      const p = new Vector3(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y, corner & 4 ? half.z : -half.z);
+      const wide = Math.max(Math.abs(p.dot(up)), Math.abs(p.dot(right)) / camera.aspect);
+      distance = Math.max(distance, p.dot(back) + (1.04 * wide) / slope);
+    }
+    camera.position.copy(center).addScaledVector(back, distance);
+    camera.near = distance / 100;
+    camera.far = distance * 10;
+    camera.updateProjectionMatrix();
+    orbit.target.copy(center);
+    orbit.update();
+    draw();
+  };
+  api.resize = () => {
+    const width = canvas.clientWidth, height = canvas.clientHeight;
+    if (width === 0 || height === 0) return;
+    renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    renderer.setSize(width, height, false);
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    draw();
+  };
+  orbit.addEventListener('change', draw);
+  window.addEventListener('resize', api.resize);
+  setOpacity(meshes.bones, 0.45);
+  return api;
+}

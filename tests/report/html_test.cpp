@@ -1,0 +1,41 @@
+#include "report/html.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace condyle {
+namespace {
+
+TEST(Html, EscapesWhatCouldEndATextOrAnAttribute) {
+  EXPECT_EQ(escaped("a < b & \"c\" > 'd'"), "a &lt; b &amp; &quot;c&quot; &gt; &#39;d&#39;");
+}
+
+TEST(Html, KeepsJsonFromEndingItsScript) {
+  EXPECT_EQ(script_safe("{\"a\":\"</script><!--&\"}"),
+            "{\"a\":\"\\u003c/script\\u003e\\u003c!--\\u0026\"}");
+}
+
+TEST(Html, WritesNumbersForPeople) {
+  EXPECT_EQ(number(1.005, 1), "1.0");
+  EXPECT_EQ(number(-0.001, 2), "0.00");  // no minus before nothing
+  EXPECT_EQ(number(-0.01, 2), "-0.01");
+  EXPECT_EQ(number(std::nan(""), 2), "-");
+  EXPECT_EQ(short_number(0.012345), "0.0123");
+}
+
+TEST(Html, EscapesEveryCellOfATable) {
+  const std::string text = html(HtmlTable{"<c>", {"<h>"}, {{"<d>"}}, {}});
+  for (const char* raw : {"<c>", "<h>", "<d>"}) EXPECT_EQ(text.find(raw), std::string::npos) << raw;
+  for (const char* safe : {"&lt;c&gt;", "&lt;h&gt;", "&lt;d&gt;"})
+    EXPECT_NE(text.find(safe), std::string::npos) << safe;
+}
+
+TEST(Html, LeavesOutASectionWithNothingInIt) {
+  EXPECT_EQ(section("a", "A", ""), "");
+  EXPECT_EQ(section("a", "A & B", "<p>x</p>\n"),
+            "<section id=\"a\">\n<h2>A &amp; B</h2>\n<p>x</p>\n</section>\n");
+}
+
+}  // namespace
+}  // namespace condyle

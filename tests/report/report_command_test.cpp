@@ -1,0 +1,48 @@
+/// condyle report, as a user runs it.
+
+#include "app/run_program.h"
+
+namespace condyle {
+namespace {
+
+using test::CommandLine;
+using test::contents;
+using test::expect_bad_input;
+
+TEST_F(CommandLine, WritesAReport) {
+  ASSERT_EQ(run("sweep knee.toml -o run.h5 --quiet").code, 0);
+  const auto outcome = run("report run.h5 -o run.html");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "wrote run.html\n");
+  EXPECT_EQ(outcome.err, "");
+  const std::string page = contents(folder_ / "run.html");
+  EXPECT_EQ(page.rfind("<!DOCTYPE html>", 0), 0U);
+  EXPECT_EQ(page.substr(page.size() - 8), "</html>\n");
+  EXPECT_NE(page.find("<h1>ball and socket</h1>"), std::string::npos);
+  EXPECT_NE(page.find("<strong>5 of 5</strong> poses converged"), std::string::npos);
+}
+
+TEST_F(CommandLine, LeavesPicturesAndTheViewOutOfAReportWhereAsked) {
+  ASSERT_EQ(run("sweep knee.toml -o run.h5 --quiet").code, 0);
+  ASSERT_EQ(run("report run.h5 -o run.html --no-pictures --no-viewer").code, 0);
+  const std::string page = contents(folder_ / "run.html");
+  EXPECT_EQ(page.find("<img"), std::string::npos);
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_LT(page.size(), 100000U);
+}
+
+TEST_F(CommandLine, NamesARunThatIsNotThereInAReport) {
+  const auto outcome = run("report nobody.h5 -o run.html");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.err.rfind("condyle: nobody.h5", 0), 0U) << outcome.err;
+  EXPECT_TRUE(results().empty());
+}
+
+TEST_F(CommandLine, DoesNotWriteAReportOverItsRun) {
+  ASSERT_EQ(run("sweep knee.toml -o run.h5 --quiet").code, 0);
+  expect_bad_input(run("report run.h5 -o run.h5"),
+                   "run.h5: is read by this command, expected another file to write");
+}
+
+}  // namespace
+}  // namespace condyle
