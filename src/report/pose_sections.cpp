@@ -87,6 +87,7 @@ std::string pose_section(const Run& run) {
   const bool joint = run.scene.joint.has_value();
   if (joint) {
     for (const auto& column : kJointColumns) {
+      if (swept.name == column.name) continue;  // the first column says it
       std::string name = column.name;
       std::replace(name.begin(), name.end(), '_', ' ');
       table.columns.push_back(fmt::format("{} [{}]", name, column.units));
@@ -102,6 +103,7 @@ std::string pose_section(const Run& run) {
     std::vector<std::string> row = {swept.at(pose.value)};
     const double none = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t k = 0; k < (joint ? kJointColumns.size() : 3); ++k) {
+      if (joint && swept.name == kJointColumns[k].name) continue;
       const double value = joint ? pose.joint.*kJointColumns[k].member / kJointColumns[k].unit
                                  : pose.X_BA.p[static_cast<Eigen::Index>(k)];
       row.push_back(number(pose.converged() ? value : none, 2));
