@@ -81,7 +81,7 @@ std::string angles(const Run& run, const std::vector<std::size_t>& poses) {
 }
 
 std::string strip(const Run& run, View view, const std::vector<std::size_t>& poses) {
-  return figure(draw_strip(run, view, poses, strip_size(poses.size())),
+  return figure(draw_strip(run, view, poses, strip_size(view, poses.size())),
                 fmt::format("{} view: {}", name(view), angles(run, poses)), "strip");
 }
 
