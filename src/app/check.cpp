@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Eigenvalues>
 #include <filesystem>
 #include <memory>
 #include <set>
 
 #include "app/commands.h"
+#include "network/simulate.h"
 #include "scene/describe.h"
 #include "scene/fit_surfaces.h"
 #include "scene/read_scene.h"
@@ -37,6 +39,20 @@ void check_mesh(const std::string& owner, const MeshFile& file) {
              file.path.filename().string(), mesh.triangles.size(), size.x(), size.y(), size.z());
 }
 
+/// Of the moving body, from its numbers or its mesh; throws where a motion has no use for it.
+void print_mass(const Scene& scene) {
+  const MassProperties mass = moving_mass(scene);
+  const Eigen::Vector3d moments =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mass.inertia).eigenvalues();
+  constexpr double kKilogram = 1e-3;  // tonne
+  fmt::print(
+      "mass       {}: {:.4g} kg, centre ({:.4g}, {:.4g}, {:.4g}) mm, principal moments {:.4g}, "
+      "{:.4g}, {:.4g} kg mm^2\n",
+      scene.bodies[scene.moving_body()].name, mass.mass / kKilogram, mass.center.x(),
+      mass.center.y(), mass.center.z(), moments.x() / kKilogram, moments.y() / kKilogram,
+      moments.z() / kKilogram);
+}
+
 int run_check(const CheckOptions& options) {
   const Scene scene = read_scene(options.scene);
   fmt::print("{}", describe(scene));
@@ -48,6 +64,7 @@ int run_check(const CheckOptions& options) {
     const std::optional<MeshFile>& mesh = surface.patch.mesh;
     if (mesh && seen.insert(mesh->path).second) check_mesh(surface.name, *mesh);
   }
+  if (scene.simulation) print_mass(scene);
   return 0;
 }
 

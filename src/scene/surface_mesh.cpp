@@ -62,7 +62,8 @@ class PatchMesher {
         numbers_.try_emplace(std::minmax(a, b), static_cast<int>(result_.mesh.vertices.size()));
     if (added) {
       const double t = a == b ? 0 : inside_[a] / (inside_[a] - inside_[b]);
-      const SurfacePoint at = patch_.evaluate_frame(place(a) + t * (place(b) - place(a)));
+      result_.places.emplace_back(place(a) + t * (place(b) - place(a)));
+      const SurfacePoint at = patch_.evaluate_frame(result_.places.back());
       result_.mesh.vertices.push_back(at.c);
       result_.normals.push_back(at.n);
     }

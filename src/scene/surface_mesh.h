@@ -15,6 +15,7 @@ namespace condyle {
 struct SurfaceMesh {
   TriangleMesh mesh;
   std::vector<Eigen::Vector3d> normals;  ///< unit, one for each vertex
+  std::vector<Place> places;             ///< of each vertex on its patch; none for the exact kinds
 };
 
 /// A patch within its known region, about `spacing` [mm] between vertices. Every vertex lies on the

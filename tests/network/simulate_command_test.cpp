@@ -77,6 +77,17 @@ TEST_F(SimulateCommand, ABlowOpensAndClosesTheCompartments) {
   EXPECT_GT(work.back(), 0.5);  // [J]
 }
 
+// The numbers that the scene gives: a leg of 4 kg.
+TEST_F(SimulateCommand, CheckSaysTheMass) {
+  const Outcome outcome = run("check '" CONDYLE_SOURCE_DIR "/data/phantom/blow.toml'");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find(
+                "mass       tibia: 4 kg, centre (0, -240, 0) mm, principal moments 6000, 1.1e+05, "
+                "1.1e+05 kg mm^2"),
+            std::string::npos)
+      << outcome.out;
+}
+
 TEST_F(SimulateCommand, BadInputIsNamed) {
   write("swing.toml", with(released(), kMass, ""));
   expect_bad_input(run("simulate swing.toml -o swing.h5"),
