@@ -49,9 +49,9 @@ TEST(Statics, NetworkWithoutInertiaHasTheEnginesResidual) {
     NetworkState at = state_at_rest(model, knee, state);
     std::vector<ContactLinearization> settled;
     ASSERT_TRUE(settle_contacts(knee.network, at, settled));
-    for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t i = 0; i < knee.places.size(); ++i)
       for (ClosedContact& contact : state.contacts)
-        if (contact.pair == knee.places[i]) {
+        if (at.contacts[i].closed && contact.pair == knee.places[i]) {
           contact.on_B = at.contacts[i].on_ground;
           contact.on_A = at.contacts[i].on_body;
         }
@@ -85,8 +85,13 @@ TEST(Statics, TheEnginesPoseIsAPositionOfRestOfTheNetwork) {
   NetworkState state = state_at_rest(model, knee, solver.state());
   ASSERT_TRUE(equations.assemble(state) && equations.solve());
   EXPECT_LT(equations.accelerations().norm(), 1e-5);  // 1e-9 N on 4e-6 N s²/mm
-  for (std::size_t i = 0; i < 2; ++i)
+  int closed = 0;
+  for (std::size_t i = 0; i < knee.places.size(); ++i) {
+    if (!state.contacts[i].closed) continue;
     EXPECT_NEAR(equations.contact_force(i), pose.contacts[knee.places[i]].force, 1e-8);
+    ++closed;
+  }
+  EXPECT_EQ(closed, 2);
 }
 
 }  // namespace
