@@ -87,6 +87,19 @@ bool strike(NetworkEquations& equations,
   return true;
 }
 
+/// After an impact: what parts faster than a rebound that counts is open, what parts more slowly is
+/// put at rest. Else two compartments would strike in turn without end, each knocking the other
+/// loose.
+void rest_slow_ones(NetworkEquations& equations,
+                    NetworkState& state,
+                    const std::vector<int>& list,
+                    double least_rebound) {
+  if (!equations.assemble(state)) return;
+  for (const int i : list)
+    state.contacts[i].closed = equations.gap_rate(static_cast<std::size_t>(i)) < least_rebound;
+  if (equations.assemble(state)) add_twists(state, equations.velocity_correction());
+}
+
 /// The closed contacts by their forces; rebounding ones are open.
 bool choose_closed(NetworkEquations& equations,
                    NetworkState& state,
@@ -131,6 +144,7 @@ double change_contacts(NetworkEquations& equations,
       close_only(state, list, subset);
       if (strike(equations, state, list, before, options)) break;
     }
+    rest_slow_ones(equations, state, list, options.least_rebound);
   }
   equations.assemble(state);
   std::vector<int> resting;
