@@ -46,10 +46,11 @@ unset title
 set xlabel "surfaces from the exact ones [mm]"
 set format y "%g"
 set format x "%g"
+set logscale xy
 set xrange [0.0003:0.5]
-set yrange [0.0005:2]
+set yrange [0.0001:2]
 set ylabel "translation [mm]"
-set key top left
+set key bottom right Left reverse
 set arrow 1 from graph 0,first 0.1 to graph 1,first 0.1 nohead dt 2 lc rgb "#444444"
 plot for [i=1:5] folder."/whole_way.csv" every ::1 using 7:(way(piece(groups, i), $10)) with points pt 2*i+3 ps 1.4 lw 1.5 lt i title piece(titles, i)
 set ylabel "rotation [°]"

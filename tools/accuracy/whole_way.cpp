@@ -59,7 +59,9 @@ SweepResult plain_sweep(const Scene& scene, const std::vector<FittedSurface>& su
 /// Reading, cleaning and fitting, with the time of each.
 std::vector<FittedSurface> make_surfaces(const Scene& scene, Outcome& outcome) {
   const double read = least_microseconds(1, [&] {
-    for (const BodyDescription& body : scene.bodies) (void)load_body_mesh(body);
+    outcome.triangles = 0;
+    for (const BodyDescription& body : scene.bodies)
+      outcome.triangles += static_cast<double>(load_body_mesh(body).triangles.size());
   });
   std::vector<FittedSurface> surfaces;
   const double patches = least_microseconds(1, [&] { surfaces = fit_surfaces(scene); });
@@ -142,7 +144,7 @@ std::string study_whole_way(const std::filesystem::path& folder,
     write(way, outcome, csv);
     all.emplace_back(way, std::move(outcome));
   }
-  return page + price(all) + "\n";
+  return page + exponents(all) + price(all) + "\n";
 }
 
 }  // namespace condyle::accuracy

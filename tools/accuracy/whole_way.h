@@ -31,6 +31,7 @@ struct Way {
 struct Outcome {
   PoseErrors pose;
   PatchErrors patch;
+  double triangles = 0;       ///< of both meshes
   double read_ms = 1e300;     ///< both meshes, alone; this and the next two the least of the seeds
   double patches_ms = 1e300;  ///< from the files, reading included
   double pose_us = 1e300;     ///< median of a sweep
@@ -51,6 +52,9 @@ struct Outcome {
 
 void write_head(fmt::ostream& csv);
 void write(const Way& way, const Outcome& outcome, fmt::ostream& csv);
+
+/// How reading and fitting grow with the triangles.
+[[nodiscard]] std::string exponents(const std::vector<std::pair<Way, Outcome>>& all);
 
 /// What an answer good to 0.1 mm and 0.1 degrees at every pose costs: the cheapest of the rows.
 [[nodiscard]] std::string price(const std::vector<std::pair<Way, Outcome>>& all);

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "accuracy/whole_way.h"
 
 namespace condyle::accuracy {
@@ -75,6 +77,23 @@ void write(const Way& way, const Outcome& outcome, fmt::ostream& csv) {
     csv.print(",{:.4e},{:.4e}", spread->rms(), spread->greatest);
   csv.print(",{},{},{:.1f},{:.1f},{:.1f},{:.1f}\n", e.converged, e.poses, outcome.read_ms,
             outcome.patches_ms, outcome.mean_sweep_ms(), outcome.pose_us);
+}
+
+std::string exponents(const std::vector<std::pair<Way, Outcome>>& all) {
+  const Outcome* first = nullptr;
+  const Outcome* last = nullptr;
+  for (const auto& [way, outcome] : all) {
+    if (way.group != all.front().first.group) continue;
+    if (!first) first = &outcome;
+    last = &outcome;
+  }
+  if (!first) return "";
+  const double grown = std::log(last->triangles / first->triangles);
+  return fmt::format(
+      "\nFrom {:.0f} to {:.0f} triangles reading grows with the exponent {:.2f}, and all until the "
+      "patches with {:.2f}.\n",
+      first->triangles, last->triangles, std::log(last->read_ms / first->read_ms) / grown,
+      std::log(last->patches_ms / first->patches_ms) / grown);
 }
 
 std::string price(const std::vector<std::pair<Way, Outcome>>& all) {
