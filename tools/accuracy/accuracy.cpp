@@ -17,7 +17,8 @@ int main(int argc, char** argv) {
   try {
     const std::filesystem::path folder = argv[1], root = argv[2];
     std::filesystem::create_directories(folder);
-    const std::string page = study_surfaces(folder) + study_solvers(folder) + study_costs(folder) +
+    const std::string page = study_surfaces(folder) + study_solvers(folder) +
+                             study_whole_way(folder, root) + study_costs(folder) +
                              study_hard_cases(folder, root);
     fmt::output_file((folder / "accuracy.md").string()).print("{}", page);
     fmt::print("{}", page);

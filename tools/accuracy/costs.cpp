@@ -16,8 +16,9 @@ namespace {
 
 constexpr int kPoses = 18;
 
-/// Time of a warm pose in steps of 5 degrees [us].
-double pose_time(Model model, bool stability, bool stiffness = false) {
+/// Time of a warm sweep over 90 degrees [us].
+double sweep_time(
+    Model model, int poses, int runs, bool stability = false, bool stiffness = false) {
   EquilibriumOptions options;
   options.description.stability = stability;
   options.description.joint_stiffness = stiffness;
@@ -26,13 +27,19 @@ double pose_time(Model model, bool stability, bool stiffness = false) {
   solver.solve(pose);
   bool forth = true;
   const auto sweep = [&] {
-    for (int k = 0; k < kPoses; ++k) {
-      solver.model().conditions[0].value = (forth ? k + 1 : kPoses - k) * 5 * M_PI / 180;
+    for (int k = 0; k < poses; ++k) {
+      solver.model().conditions[0].value =
+          (forth ? k + 1 : poses - k) * (90.0 / poses) * M_PI / 180;
       solver.solve(pose);
     }
     forth = !forth;
   };
-  return least_microseconds(200, sweep) / kPoses;
+  return least_microseconds(runs, sweep);
+}
+
+/// Of a pose in steps of 5 degrees [us].
+double pose_time(Model model, bool stability, bool stiffness = false) {
+  return sweep_time(std::move(model), kPoses, 200, stability, stiffness) / kPoses;
 }
 
 Model without_search(Model model) {
@@ -87,19 +94,40 @@ std::string parts(const std::filesystem::path& folder) {
   return page;
 }
 
+/// What grows, how far, and the time at each size [us].
+struct Growth {
+  std::string name, time_of;
+  std::vector<int> sizes;
+  std::function<double(int)> time;
+};
+
 std::string growth(const std::filesystem::path& folder) {
+  const std::vector<Growth> all{{"ligaments",
+                                 "a pose",
+                                 {8, 32, 128, 512, 1000},
+                                 [](int n) { return pose_time(with_ligaments(n / 8), false); }},
+                                {"control points each way of four patches",
+                                 "a pose",
+                                 {8, 16, 32, 64},
+                                 [](int n) {
+                                   return pose_time(benchmarks::patch_knee({n, n}), false);
+                                 }},
+                                {"poses over 90°", "the sweep", {9, 90, 900, 9000}, [](int n) {
+                                   return sweep_time(test::quadric_knee(), n, 9000 / n + 2);
+                                 }}};
   fmt::ostream csv = fmt::output_file((folder / "scaling.csv").string());
-  csv.print("ligaments,microseconds\n");
-  std::string page =
-      "\n| ligaments | time per pose | exponent since the row above |\n|---|---|---|\n";
-  double last_n = 0, last_t = 0;
-  for (const int times : {1, 4, 16, 64, 125}) {
-    const double t = pose_time(with_ligaments(times), false), n = 8.0 * times;
-    csv.print("{:.0f},{:.2f}\n", n, t);
-    page += fmt::format("| {:.0f} | {:.1f} µs | {} |\n", n, t,
-                        last_n > 0 ? fmt::format("{:.2f}", exponent(last_n, last_t, n, t)) : "");
-    last_n = n;
-    last_t = t;
+  csv.print("what,size,microseconds\n");
+  std::string page = "\n| | size | time | exponent since the row above |\n|---|---|---|---|\n";
+  for (const Growth& g : all) {
+    double last_n = 0, last_t = 0;
+    for (const int n : g.sizes) {
+      const double t = g.time(n);
+      csv.print("\"{}\",{},{:.2f}\n", g.name, n, t);
+      page += fmt::format("| {} | {} | {:.1f} µs, {} | {} |\n", g.name, n, t, g.time_of,
+                          last_n > 0 ? fmt::format("{:.2f}", exponent(last_n, last_t, n, t)) : "");
+      last_n = n;
+      last_t = t;
+    }
   }
   return page;
 }

@@ -33,3 +33,27 @@ set key inside top right
 plot folder."/tolerance.csv" every ::1 using 4:2 with linespoints lw 2 pt 7 lt 1 \
        title "ours, Newton alone, tolerance 10^{-2} to 10^{-13}", \
      for [row=2:rows] folder."/solvers.csv" every ::row::row using 6:5 with points pt 2*row+1 ps 2 lt row-1 title name(row)
+
+# Only the rows of one group: others are not numbers, and not drawn.
+way(group, column) = strcol(1)[1:strlen(group)] eq group ? column : NaN
+groups = "resolution|control points|roughness|smoothing|exact"
+titles = "mesh without roughness|knots 1.4 to 8 mm apart|roughness 0.02 to 0.2 mm|smoothing, 0.2 mm|one bone exact, 0.2 mm"
+piece(text, i) = system(sprintf("echo '%s' | cut -d'|' -f%d", text, i))
+set output folder."/whole_way.png"
+set terminal pngcairo size 1200,560 font "DejaVu Sans,12" enhanced
+set multiplot layout 1,2 title "From mesh to pose: root mean square errors, against the exact phantom"
+unset title
+set xlabel "surfaces from the exact ones [mm]"
+set format y "%g"
+set format x "%g"
+set logscale xy
+set xrange [0.0003:0.5]
+set yrange [0.0001:2]
+set ylabel "translation [mm]"
+set key bottom right Left reverse
+set arrow 1 from graph 0,first 0.1 to graph 1,first 0.1 nohead dt 2 lc rgb "#444444"
+plot for [i=1:5] folder."/whole_way.csv" every ::1 using 7:(way(piece(groups, i), $10)) with points pt 2*i+3 ps 1.4 lw 1.5 lt i title piece(titles, i)
+set ylabel "rotation [°]"
+unset key
+plot for [i=1:5] folder."/whole_way.csv" every ::1 using 7:(way(piece(groups, i), $12)) with points pt 2*i+3 ps 1.4 lw 1.5 lt i notitle
+unset multiplot

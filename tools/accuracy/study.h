@@ -17,6 +17,10 @@ namespace condyle::accuracy {
 [[nodiscard]] std::string study_hard_cases(const std::filesystem::path& folder,
                                            const std::filesystem::path& root);
 
+/// From meshes of the phantom to swept poses, against the same sweep on its exact surfaces.
+[[nodiscard]] std::string study_whole_way(const std::filesystem::path& folder,
+                                          const std::filesystem::path& root);
+
 /// How the cost grows with poses, ligaments and contacts, and what each part of a scene costs.
 [[nodiscard]] std::string study_costs(const std::filesystem::path& folder);
 
