@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "elements/contact.h"
+
 namespace condyle {
 namespace {
 
@@ -28,7 +30,8 @@ ContactSighting PairScout::operator()(NetworkState& state) {
 
 void PairScout::scout_pair(int pair, NetworkState& state, ContactSighting& sighting) {
   drop_doubles(pair, state);
-  searches_[pair].find(state.bodies[0].X, kNear, minima_, kSamePlace);
+  set_known(pair, state);
+  searches_[pair].find(state.bodies[0].X, kNear, minima_, kSamePlace, known_);
   for (const GapMinimum& minimum : minima_) {
     if (minimum.edge < 0) continue;
     const int follower = follower_of(pair, minimum, state);
@@ -42,6 +45,19 @@ void PairScout::scout_pair(int pair, NetworkState& state, ContactSighting& sight
     sighting.unseen = std::min(sighting.unseen, minimum.gap);
     const int waiting = waiting_contact(pair, state);
     if (minimum.refined && waiting >= 0) state.contacts[waiting] = {minimum.on_B, minimum.on_A};
+  }
+}
+
+/// Closed contacts are a help to the search, and need not be found.
+void PairScout::set_known(int pair, const NetworkState& state) {
+  known_.clear();
+  const ContactPair& surfaces = model_.pairs[pair];
+  for (std::size_t i = 0; i < knee_.places.size(); ++i) {
+    const ContactPlaces& places = state.contacts[i];
+    if (knee_.places[i] != pair || !places.closed) continue;
+    const ContactLinearization at = linearize_contact(
+        *surfaces.on_B, places.on_ground, *surfaces.on_A, places.on_body, state.bodies[0].X);
+    known_.push_back({at.B.c, at.A.c, at.B.K, at.A.K, at.relative_curvature[0]});
   }
 }
 

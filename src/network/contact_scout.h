@@ -18,6 +18,7 @@ class PairScout {
 
  private:
   void scout_pair(int pair, NetworkState& state, ContactSighting& sighting);
+  void set_known(int pair, const NetworkState& state);
   [[nodiscard]] int follower_of(int pair,
                                 const GapMinimum& minimum,
                                 const NetworkState& state) const;
@@ -29,6 +30,7 @@ class PairScout {
   const KneeNetwork& knee_;
   std::vector<ContactSearch> searches_;  ///< one for each of Model::pairs
   std::vector<GapMinimum> minima_;
+  std::vector<KnownContact> known_;
 };
 
 }  // namespace condyle
