@@ -46,7 +46,7 @@ struct Run {
   std::vector<std::string> start = {};        ///< of a fit: what start_warnings found
   std::optional<Simulation> simulation = {};  ///< of `condyle simulate`; read back without poses
   std::vector<InputFile> inputs = {};         ///< the meshes; none in files of version 0.1.0
-  std::string program = {}, created = {};     ///< read back only: who wrote the file, and when (UTC)
+  std::string program = {}, created = {};  ///< read back only: who wrote the file, and when (UTC)
 };
 
 /// Writes to a temporary file beside `path` and renames it: never a half-written file. Throws
