@@ -9,6 +9,7 @@
 
 #include "elements/contact.h"
 #include "equilibrium/contact_scales.h"
+#include "equilibrium/gap_paraboloid.h"
 #include "equilibrium/line_contact.h"
 #include "math/simd.h"
 
@@ -22,8 +23,11 @@ constexpr double kBeyondEdge = 2;  // how far beyond the known part a minimum ma
 constexpr double kDeepest = 12;    // overlap of a surface with an edge that is still taken for one
 constexpr double kLargest = 40;    // radius of a cluster that is worth a look
 constexpr double kBendingSpacing = 2;
-constexpr double kDoubt = 0.05;  // of the curvatures: a paraboloid is that of a sample nearby
-constexpr double kSteep = 0.7;   // cosine between two normals below which quadrics say nothing
+constexpr double kValley = 0.06;  // a minimum between samples lies lower than both by this at most
+constexpr double kSame = 0.3;     // a minimum predicted nearer to one that is known is that one
+constexpr double kModel = 0.01;   // what the paraboloid of the gap may be wrong by within its reach
+constexpr double kDoubt = 0.05;   // of the curvatures: a paraboloid is that of a sample nearby
+constexpr double kSteep = 0.7;    // cosine between two normals below which quadrics say nothing
 
 /// The greatest principal value off the normal of a curvature tensor: where that of the sum of two
 /// is positive, the gap closes sideways.
@@ -325,6 +329,39 @@ GapMinimum ContactSearch::refine(int sample, const RigidTransform& X_BA) const {
   return minimum;
 }
 
+void ContactSearch::add_minimum(int sample,
+                                const RigidTransform& X_BA,
+                                double cutoff,
+                                std::vector<GapMinimum>& minima) {
+  const GapMinimum minimum = refine(sample, X_BA);
+  found_.push_back(sampled_on_A_ ? minimum.point_B : X_BA.inverse() * minimum.point_B);
+  if (lines_ && add_line_ends(*on_B_, *on_A_, X_BA, minimum, spacing_, cutoff, minima)) return;
+  if (minimum.gap < cutoff) minima.push_back(minimum);
+}
+
+bool ContactSearch::faces_known_part(int sample) const {
+  return other().edge_distance(feet_[sample].place) >= 0;
+}
+
+/// In a shallow valley a second minimum may have no sample that is lowest of its neighbours. Does
+/// the paraboloid at this one lead below the cutoff at a place that is not known yet?
+bool ContactSearch::leads_elsewhere(int sample, const RigidTransform& X_BA, double cutoff) const {
+  if (!feet_[sample].close) return false;
+  const RigidTransform X = from_to(X_BA);
+  const auto minimum = predict_minimum(X * points_[sample], X.R * normals_[sample],
+                                       X.R * curvatures_[sample] * X.R.transpose(),
+                                       feet_[sample].at, gap_[sample], 1.5 * spacing_);
+  if (!minimum || minimum->gap > cutoff + kModel * spacing_) return false;
+  const double near = kSame * spacing_;
+  return std::none_of(found_.begin(), found_.end(), [&](const Eigen::Vector3d& known) {
+    return (known - minimum->point).squaredNorm() < near * near;
+  });
+}
+
+RigidTransform ContactSearch::from_to(const RigidTransform& X_BA) const {
+  return sampled_on_A_ ? X_BA : X_BA.inverse();
+}
+
 double ContactSearch::edge_of(const Place& on_B, const Place& on_A) const {
   return std::min(on_B_->edge_distance(on_B), on_A_->edge_distance(on_A));
 }
@@ -339,16 +376,18 @@ void ContactSearch::find(const RigidTransform& X_BA,
   ++now_;
   if (places_.empty()) return;
   set_discs(known);
-  // A minimum between samples lies lower than both: look a little higher, keep what the refinement
-  // says.
-  visit(0, sampled_on_A_ ? X_BA : X_BA.inverse(), cutoff + 0.06 * spacing_);
-  for (const int sample : near_) {
-    if (other().edge_distance(feet_[sample].place) < 0) continue;
-    if (!is_lowest_of_neighbours(sample)) continue;
-    const GapMinimum minimum = refine(sample, X_BA);
-    if (lines_ && add_line_ends(*on_B_, *on_A_, X_BA, minimum, spacing_, cutoff, minima)) continue;
-    if (minimum.gap < cutoff) minima.push_back(minimum);
-  }
+  // Look a little higher than the cutoff, keep what the refinement says.
+  visit(0, from_to(X_BA), cutoff + kValley * spacing_);
+  found_.clear();
+  for (const KnownContact& contact : known)
+    found_.push_back(sampled_on_A_ ? contact.on_B : contact.on_A);
+  for (const int sample : near_)
+    if (faces_known_part(sample) && is_lowest_of_neighbours(sample))
+      add_minimum(sample, X_BA, cutoff, minima);
+  for (const int sample : near_)
+    if (gap_[sample] < kValley * spacing_ && faces_known_part(sample) &&
+        leads_elsewhere(sample, X_BA, cutoff))
+      add_minimum(sample, X_BA, cutoff, minima);
   std::sort(minima.begin(), minima.end(),
             [](const GapMinimum& a, const GapMinimum& b) { return a.gap < b.gap; });
   std::size_t kept = 0;

@@ -8,8 +8,9 @@
 /// the gap over the whole cluster is bounded from below by a quadratic model less what both
 /// surfaces depart from their quadrics (bending.h). Clusters whose bound stays above the cutoff are
 /// passed over, and so are those within a ball about a known contact in which the surfaces are
-/// shown to be apart. Samples that are left and nearer than all their neighbours are refined by
-/// Newton on the contact conditions at a fixed pose. No pose is trusted that this search has not
+/// shown to be apart. Samples that are left and nearer than all their neighbours, or lead to an
+/// overlap of their own by the paraboloid of the gap (gap_paraboloid.h), are refined by Newton on
+/// the contact conditions at a fixed pose. No pose is trusted that this search has not
 /// seen.
 
 #include <array>
@@ -112,6 +113,13 @@ class ContactSearch {
                                    const Eigen::Vector3d& tangential,
                                    const RigidTransform& X_from_to);
   [[nodiscard]] bool is_lowest_of_neighbours(int sample) const;
+  [[nodiscard]] bool faces_known_part(int sample) const;
+  [[nodiscard]] bool leads_elsewhere(int sample, const RigidTransform& X_BA, double cutoff) const;
+  void add_minimum(int sample,
+                   const RigidTransform& X_BA,
+                   double cutoff,
+                   std::vector<GapMinimum>& minima);
+  [[nodiscard]] RigidTransform from_to(const RigidTransform& X_BA) const;
   [[nodiscard]] GapMinimum refine(int sample, const RigidTransform& X_BA) const;
   [[nodiscard]] double edge_of(const Place& on_B, const Place& on_A) const;
   [[nodiscard]] const Surface& sampled() const { return sampled_on_A_ ? *on_A_ : *on_B_; }
@@ -138,6 +146,7 @@ class ContactSearch {
   std::vector<Disc> discs_;
   int near_contact_B_ = -1, near_contact_A_ = -1;  ///< samples of the bendings
   std::vector<int> near_;                          ///< samples below the cutoff
+  std::vector<Eigen::Vector3d> found_;             ///< minima, in the frame of the other body
   int now_ = 0;
   std::vector<GapMinimum> nearest_;  ///< the last answer of find_nearest, and to what
   RigidTransform nearest_X_;

@@ -63,11 +63,7 @@ TEST_F(CommandLine, TakesTheOptionsInTheUnitOfTheScene) {
 }
 
 TEST_F(CommandLine, ExitsWithTwoWhereAPoseDoesNotSucceed) {
-  // Nothing holds the tibia up: the load pulls it away from the ball and there is no ligament.
-  std::string text = kScene;
-  const std::size_t ligament = text.find("[[ligament]]");
-  text.erase(ligament, text.find("[[condition]]") - ligament);
-  write("knee.toml", with(text, "vector = [0, 100, 0]", "vector = [0, -100, 0]"));
+  write("knee.toml", test::scene_that_falls_apart());
   const Outcome outcome = run("sweep knee.toml -o run.h5");
   EXPECT_EQ(outcome.code, 2);
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 5) << outcome.err;

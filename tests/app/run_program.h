@@ -30,6 +30,14 @@ inline std::string contents(const std::filesystem::path& path) {
 // A ball on a plateau that turns about the ball's centre: the position of equilibrium is known.
 inline const std::string kScene = with(kSmallScene, "to = 120", "to = 20");
 
+/// Nothing holds the tibia up: the load pulls it away from the ball and there is no ligament.
+inline std::string scene_that_falls_apart() {
+  std::string text = kScene;
+  const std::size_t ligament = text.find("[[ligament]]");
+  text.erase(ligament, text.find("[[condition]]") - ligament);
+  return with(text, "vector = [0, 100, 0]", "vector = [0, -100, 0]");
+}
+
 class CommandLine : public testing::Test {
  protected:
   void SetUp() override {

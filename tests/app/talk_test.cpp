@@ -50,10 +50,7 @@ TEST_F(CommandLine, SumsUpASweepAsJson) {
 }
 
 TEST_F(CommandLine, TellsAScriptWhichPosesFailed) {
-  std::string text = kScene;
-  const std::size_t ligament = text.find("[[ligament]]");
-  text.erase(ligament, text.find("[[condition]]") - ligament);
-  write("knee.toml", with(text, "vector = [0, 100, 0]", "vector = [0, -100, 0]"));
+  write("knee.toml", test::scene_that_falls_apart());
   const Outcome outcome = run("sweep knee.toml -o run.h5 --json");
   EXPECT_EQ(outcome.code, 2);
   const Json json = Json::parse(outcome.out);

@@ -17,12 +17,6 @@
 namespace condyle {
 namespace {
 
-std::filesystem::path fresh_folder() {
-  const std::filesystem::path folder = test::scratch_folder("condyle_compare");
-  std::filesystem::create_directories(folder);
-  return folder;
-}
-
 constexpr const char* kKnee = CONDYLE_SOURCE_DIR "/data/wismans-type/knee.toml";
 constexpr const char* kPhantom = CONDYLE_SOURCE_DIR "/data/phantom/knee.toml";
 
@@ -102,7 +96,7 @@ TEST(Compare, ThePhantomDiffersByItsSurfacesAboveAll) {
 
 TEST(Compare, GoesThroughAFileUnchanged) {
   Compared all = compare_scene(kKnee);
-  const std::filesystem::path file = fresh_folder() / "cmp.h5";
+  const std::filesystem::path file = test::fresh_folder("condyle_compare") / "cmp.h5";
   condyle::Run run{all.scene, all.ours, {}, {}};
   run.comparison = all.comparison;
   write_run(file, run);

@@ -15,12 +15,6 @@
 namespace condyle {
 namespace {
 
-std::filesystem::path fresh_folder() {
-  const std::filesystem::path folder = test::scratch_folder("condyle_laxity");
-  std::filesystem::create_directories(folder);
-  return folder;
-}
-
 constexpr const char* kDrawer = CONDYLE_SOURCE_DIR "/data/wismans-type/drawer.toml";
 constexpr double kDegree = M_PI / 180;
 
@@ -66,7 +60,7 @@ TEST(Laxity, GoesThroughAFileUnchanged) {
   Scene scene = read_scene(kDrawer);
   LaxityResult result = test_laxity(scene, fit_surfaces(scene));
   result.curves[5].ours.poses[3].status = PoseStatus::kNoEquilibrium;
-  const std::filesystem::path file = fresh_folder() / "lax.h5";
+  const std::filesystem::path file = test::fresh_folder("condyle_laxity") / "lax.h5";
   condyle::Run run{scene, {}, {}, {}};
   run.laxity = result;
   write_run(file, run);

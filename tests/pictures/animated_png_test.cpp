@@ -12,13 +12,6 @@
 namespace condyle {
 namespace {
 
-std::filesystem::path fresh_folder() {
-  const auto folder = test::scratch_folder("condyle_movies");
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
-
 /// White, with a dark square that walks to the right.
 Image frame(int step) {
   Image image = blank_image(64, 48, {255, 255, 255});
@@ -38,7 +31,7 @@ void write(const std::filesystem::path& file, const std::string& bytes) {
 }
 
 TEST(AnimatedPng, IsAPngOfItsFirstFrameForThoseWhoKnowNoBetter) {
-  const auto file = fresh_folder() / "walk.png";
+  const auto file = test::fresh_folder("condyle_movies") / "walk.png";
   write(file, walk(5).bytes());
   const Image first = read_png(file);
   EXPECT_EQ(first.width, 64);
@@ -57,7 +50,7 @@ TEST(AnimatedPng, KeepsOnlyWhatChanged) {
 TEST(AnimatedPng, AnIndependentReaderFindsEveryFrame) {
   if (run_program({"/usr/bin/python3", "-c", "import PIL"}, "").exit_code != 0)
     GTEST_SKIP() << "python3 with PIL (Debian package python3-pil) is not installed";
-  const auto folder = fresh_folder();
+  const auto folder = test::fresh_folder("condyle_movies");
   write(folder / "walk.png", walk(6).bytes());
   const std::string script =
       "import sys\nfrom PIL import Image\nmovie = Image.open(sys.argv[1])\n"
@@ -74,7 +67,7 @@ TEST(AnimatedPng, AnIndependentReaderFindsEveryFrame) {
 }
 
 TEST(Movie, WritesAnMp4WhereFfmpegIs) {
-  const auto file = fresh_folder() / "walk.mp4";
+  const auto file = test::fresh_folder("condyle_movies") / "walk.mp4";
   if (!run_program({"ffmpeg", "-version"}, "").started) {
     EXPECT_THROW(Movie(file, 10), std::runtime_error);
     GTEST_SKIP() << "ffmpeg is not installed: that much was said";
@@ -93,7 +86,7 @@ TEST(Movie, WritesAnMp4WhereFfmpegIs) {
 }
 
 TEST(Movie, AnAnimatedPngNeedsNoOtherProgram) {
-  const auto folder = fresh_folder();
+  const auto folder = test::fresh_folder("condyle_movies");
   Movie movie(folder / "walk.png", 10);
   movie.add(frame(0));
   movie.add(frame(1));

@@ -18,13 +18,6 @@ namespace {
 
 bool has_gnuplot() { return run_program({"gnuplot", "--version"}, "").exit_code == 0; }
 
-std::filesystem::path fresh_folder() {
-  const auto folder = test::scratch_folder("condyle_plots");
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
-
 TEST(PlotRun, AnglesAreInDegreesAndFailedPosesLeaveGaps) {
   auto run = block_run();
   run.sweep.poses[2].joint.internal_rotation = 0.1;
@@ -58,7 +51,8 @@ TEST(PlotRun, WritesPicturesOfEveryChart) {
   auto run = block_run();
   run.scene.title = "O'Brien's knee `date` \"x\" \\ $HOME_ {a}^2";
   run.sweep.poses[1].status = PoseStatus::kDiverged;
-  const auto files = plot_run(run, fresh_folder(), {PlotFormat::kPng, PlotFormat::kSvg});
+  const auto files =
+      plot_run(run, test::fresh_folder("condyle_plots"), {PlotFormat::kPng, PlotFormat::kSvg});
   ASSERT_EQ(files.size(), 12u);  // six charts: no energy without a motion, no stability
   for (const auto& file : files) {
     if (file.extension() != ".png") continue;
@@ -76,7 +70,7 @@ TEST(PlotRun, ARunWithoutAnyValueStillPlots) {
   if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   auto run = block_run();
   for (PoseResult& pose : run.sweep.poses) pose.status = PoseStatus::kDiverged;
-  EXPECT_EQ(plot_run(run, fresh_folder(), {PlotFormat::kPng}).size(), 3u)
+  EXPECT_EQ(plot_run(run, test::fresh_folder("condyle_plots"), {PlotFormat::kPng}).size(), 3u)
       << "joint coordinates and forces, with empty axes";
 }
 
@@ -179,7 +173,7 @@ TEST(PlotRun, RunsOverDifferentQuantitiesAreRefused) {
 
 TEST(PlotRun, WritesPdf) {
   if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
-  const auto files = plot_run(block_run(), fresh_folder(), {PlotFormat::kPdf});
+  const auto files = plot_run(block_run(), test::fresh_folder("condyle_plots"), {PlotFormat::kPdf});
   ASSERT_FALSE(files.empty());
   std::stringstream pdf;
   pdf << std::ifstream(files[0], std::ios::binary).rdbuf();

@@ -11,18 +11,11 @@
 namespace condyle {
 namespace {
 
-std::filesystem::path fresh_folder() {
-  const auto folder = test::scratch_folder("condyle_png");
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
-
 TEST(PngFile, ComesBackAsItWasWritten) {
   Image image = blank_image(37, 11, {1, 2, 3});
   for (std::size_t i = 0; i < image.rgb.size(); ++i)
     image.rgb[i] = static_cast<std::uint8_t>(31 * i);
-  const auto file = fresh_folder() / "picture.png";
+  const auto file = test::fresh_folder("condyle_png") / "picture.png";
   write_png(file, image);
   const Image back = read_png(file);
   EXPECT_EQ(back.width, 37);
@@ -41,7 +34,7 @@ TEST(PngFile, AFolderThatDoesNotExistIsNamed) {
 
 TEST(PngFile, AFullDiskLeavesNothingBehind) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  const auto folder = fresh_folder();
+  const auto folder = test::fresh_folder("condyle_png");
   // Files are written under this name first (results/output_file.cpp).
   std::filesystem::create_symlink("/dev/full",
                                   folder / ("picture.png.part" + std::to_string(::getpid())));
@@ -50,7 +43,7 @@ TEST(PngFile, AFullDiskLeavesNothingBehind) {
 }
 
 TEST(PngFile, WhatIsNoPictureIsRefused) {
-  const auto file = fresh_folder() / "text.png";
+  const auto file = test::fresh_folder("condyle_png") / "text.png";
   std::ofstream(file) << "not a picture";
   EXPECT_THROW((void)read_png(file), InputError);
 }

@@ -17,4 +17,12 @@ inline std::filesystem::path scratch_folder(const std::string& name) {
   return std::filesystem::path(::testing::TempDir()) / (name + "'s " + std::to_string(::getpid()));
 }
 
+/// There, and empty.
+inline std::filesystem::path fresh_folder(const std::string& name) {
+  const std::filesystem::path folder = scratch_folder(name);
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
 }  // namespace condyle::test
