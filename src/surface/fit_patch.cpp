@@ -20,8 +20,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kMargin = 1;  // of the parameter box around the data [mm]
-constexpr double kEdgeSmoothing = 0.4,
-                 kEdgeBand = 6;  // smoothing length at the edge as a fraction; over [mm]
+constexpr double kEdgeSmoothing = 0.7,
+                 kEdgeBand = 8;  // smoothing length at the edge as a fraction; over [mm]
 
 SplineGrid make_grid(const ArticularRegion& region, const FitOptions& options) {
   Eigen::AlignedBox2d box;

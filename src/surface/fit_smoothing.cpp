@@ -237,7 +237,7 @@ SmoothingChoice choose_smoothing(const SplineGrid& grid,
 
   const double lost = found.shape * lost_over_band(ladder, found.growth);
   const double step = std::log(ladder.length[1] / ladder.length[0]);
-  constexpr int kTries = 80;
+  constexpr int kTries = 16;
   SmoothingChoice choice{.length = 0, .texture = texture, .error = 1e300};
   for (int i = 0; i <= kTries; ++i) {
     const double length =

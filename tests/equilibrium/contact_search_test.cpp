@@ -112,6 +112,49 @@ TEST(ContactSearch, AKnownContactHidesNoOverlapElsewhere) {
   EXPECT_NEAR(minima[0].gap, lowest, 1e-6);
 }
 
+// Two hills 2.4 mm apart, a saddle of 2 micrometres between them, on a ridge that falls off to the
+// sides by ten times as much from one sample to the next: wherever the samples fall (spacing 1.2
+// mm), both hills are found where a plane lies half a micrometre too low.
+TEST(ContactSearch, FindsBothHillsOfAShallowRidgeWhereverTheSamplesFall) {
+  const double d = 1.2, a = 0.002 / std::pow(d, 4);
+  const std::vector<PolynomialTerm> hills = {
+      {0, 0, -a * std::pow(d, 4)}, {2, 0, 2 * a * d * d}, {4, 0, -a}, {0, 2, -0.02}};
+  for (int k = 0; k < 20; ++k) {
+    const Eigen::Matrix3d axes = exp_rotation({0, 0, 0.37 * k});
+    const Eigen::Vector3d origin(0.13 * k, 0.29 * k, 0);
+    const ContactPair pair =
+        pair_of(make_polynomial(origin, axes, hills, true, 8), make_plane({0, 0, 0}, {0, 0, -1}));
+    ContactSearch search(pair);
+    std::vector<GapMinimum> minima;
+    search.find({Eigen::Matrix3d::Identity(), {0, 0, -5e-4}}, 0, minima);
+    ASSERT_EQ(minima.size(), 2u) << k;
+    for (const GapMinimum& minimum : minima) {
+      EXPECT_TRUE(minimum.refined);
+      EXPECT_NEAR(minimum.gap, -5e-4, 1e-12) << k;
+      EXPECT_NEAR(std::abs(axes.col(0).dot(minimum.point_B - origin)), d, 1e-6) << k;
+    }
+  }
+}
+
+// From the saddle between those hills, and from a little beside it.
+TEST(RefineMinimum, IsNotHeldByASaddle) {
+  const double d = 1.2, a = 0.002 / std::pow(d, 4);
+  const auto hills = make_polynomial(
+      {0, 0, 0}, Eigen::Matrix3d::Identity(),
+      {{0, 0, -a * std::pow(d, 4)}, {2, 0, 2 * a * d * d}, {4, 0, -a}, {0, 2, -0.02}}, true, 8);
+  const auto plane = make_plane({0, 0, 0}, {0, 0, -1});
+  const RigidTransform X{Eigen::Matrix3d::Identity(), {0, 0, 0.1}};
+  for (const double x : {1e-3, -0.1, 0.3}) {
+    const Eigen::Vector3d start(x, 0.2, 0);
+    Place on_hills = hills->closest(start, hills->seed(start));
+    Place on_plane = plane->closest(start, plane->seed(start));
+    ASSERT_TRUE(refine_minimum(*hills, on_hills, *plane, on_plane, X, 5)) << x;
+    const Eigen::Vector3d found = hills->evaluate(on_hills).c;
+    EXPECT_NEAR(found.x(), std::copysign(d, x), 1e-9);
+    EXPECT_NEAR(found.y(), 0, 1e-9);
+  }
+}
+
 // A quarter of the spacing at which it was measured: between the samples too.
 TEST(Bending, NoPointOfAnEllipsoidRisesAboveWhatItAllows) {
   const auto surface = make_ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {19, 26, 24}, true);

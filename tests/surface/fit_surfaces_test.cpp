@@ -256,15 +256,14 @@ double curvature_difference(const FittedSurface& a, const FittedSurface& b) {
 }
 
 // Three meshes of one knee, 13, 3 and 1 thousand vertices for the femur: what they differ in must
-// not look like curvature. A prototype with smoothing lengths fixed at 2 and 1.5 mm kept within
-// 0.0006 and 0.003; chosen from the data they are shorter on the plateaus.
+// not look like curvature. Limits from a prototype with smoothing lengths fixed at 2 and 1.5 mm.
 TEST(FitSurfaces, FindsTheSameCurvatureInMeshesOfDifferentResolution) {
   if (!fs::exists(kSpecimens / "lenhart2015")) GTEST_SKIP() << "no specimens here";
   const auto full = fit_surfaces(knee(lenhart_files(".obj"))),
              medium = fit_surfaces(knee(lenhart_files("-medium.stl"))),
              coarse = fit_surfaces(knee(lenhart_files("-coarse.stl")));
   for (std::size_t i = 0; i < full.size(); ++i) {
-    EXPECT_LT(curvature_difference(full[i], medium[i]), 0.0013) << full[i].report->surface;
+    EXPECT_LT(curvature_difference(full[i], medium[i]), 0.0006) << full[i].report->surface;
     EXPECT_LT(curvature_difference(full[i], coarse[i]), 0.003) << full[i].report->surface;
     EXPECT_LT(full[i].report->seconds, 1);
   }
@@ -289,27 +288,16 @@ struct Slabs : testing::Test {
     if (!fs::exists(kSpecimens / "oai_pymskt")) GTEST_SKIP() << "no specimens here";
     scene = read_scene(fs::path(CONDYLE_SOURCE_DIR) / "tests/data/oai_pymskt.toml");
   }
-  void smooth(std::optional<double> condyle, std::optional<double> plateau) {
-    for (SurfaceDescription& surface : scene.surfaces)
-      surface.patch.smoothing = surface.body == 0 ? condyle : plateau;
-  }
 };
 
-// 0.07 mm is wanted; left to itself the fit takes more of the staircase for texture on the plateaus
-// (0.078 and 0.074 mm). Normals of a staircase are those of its steps: 6.7 degrees there.
+// Normals of a staircase are those of its steps: 6.6 degrees on the plateaus.
 TEST_F(Slabs, AreFollowedOnTheirOuterFaces) {
-  smooth({}, {});
+  for (SurfaceDescription& surface : scene.surfaces) surface.patch.smoothing.reset();
   for (const FittedSurface& fitted : fit_surfaces(scene)) {
     const bool condyle = fitted.report->surface.ends_with("condyle");
-    EXPECT_LE(fitted.report->core_rms, condyle ? 0.05 : 0.08) << fitted.report->surface;
+    EXPECT_LE(fitted.report->core_rms, condyle ? 0.055 : 0.07) << fitted.report->surface;
     EXPECT_LE(fitted.report->normal_rms * 180 / M_PI, condyle ? 2.5 : 7) << fitted.report->surface;
   }
-}
-
-TEST_F(Slabs, AreMetWithinSevenHundredthsWithOneAndAHalfMillimetresOnThePlateaus) {
-  smooth(2, 1.5);
-  for (const FittedSurface& fitted : fit_surfaces(scene))
-    EXPECT_LE(fitted.report->core_rms, 0.07) << fitted.report->surface;
 }
 
 // The inner face lies 2 to 4 mm deeper: a patch that mixed both would leave the mesh by a
