@@ -43,14 +43,6 @@ std::vector<unsigned> subsets(std::size_t n) {
   return all;
 }
 
-void add_twists(NetworkState& state, const Eigen::VectorXd& change) {
-  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
-    const auto row = static_cast<Eigen::Index>(6 * b);
-    state.bodies[b].v += change.segment<3>(row);
-    state.bodies[b].omega += change.segment<3>(row + 3);
-  }
-}
-
 /// The velocity along the normal after the impact, from that before.
 double rebound(double speed, const IntegrationOptions& options) {
   const double after = -options.restitution * speed;

@@ -75,6 +75,9 @@ using ContactScout = std::function<ContactSighting(NetworkState&)>;
                                const IntegrationOptions& options,
                                ContactScout scout = {});
 
+/// Adds six numbers for each body to its twist.
+void add_twists(NetworkState& state, const Eigen::VectorXd& change);
+
 /// Puts a state onto its constraints, pose and twists. False where that does not settle.
 bool project(NetworkEquations& equations, NetworkState& state);
 

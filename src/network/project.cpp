@@ -25,6 +25,14 @@ double largest_value(const NetworkEquations& equations) {
 
 }  // namespace
 
+void add_twists(NetworkState& state, const Eigen::VectorXd& change) {
+  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+    const auto row = static_cast<Eigen::Index>(6 * b);
+    state.bodies[b].v += change.segment<3>(row);
+    state.bodies[b].omega += change.segment<3>(row + 3);
+  }
+}
+
 bool project(NetworkEquations& equations, NetworkState& state) {
   constexpr double kSettled = 1e-8;  // [mm], [rad]; a step from there is exact to round-off
   constexpr int kMostSteps = 10;
@@ -36,11 +44,7 @@ bool project(NetworkEquations& equations, NetworkState& state) {
     if (value < kSettled) break;
   }
   const Eigen::VectorXd change = equations.velocity_correction();
-  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
-    const auto row = static_cast<Eigen::Index>(6 * b);
-    state.bodies[b].v += change.segment<3>(row);
-    state.bodies[b].omega += change.segment<3>(row + 3);
-  }
+  add_twists(state, change);
   return change.allFinite();
 }
 

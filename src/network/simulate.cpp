@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "elements/contact.h"
 #include "equilibrium/build_model.h"
@@ -230,9 +231,9 @@ Simulation simulate(const Scene& scene,
   options.restitution = simulation.restitution;
   options.breaks = drive_breaks(simulation.drives);
   options.on_frame = on_frame;
-  const PairScout scout(model, knee);
+  PairScout scout(model, knee);
   const auto begin = std::chrono::steady_clock::now();
-  result.motion = integrate(knee.network, state, options, scout);
+  result.motion = integrate(knee.network, state, options, std::move(scout));
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.contact_of = knee.places;
   const FrameTeller teller(scene, model, knee);
