@@ -8,7 +8,7 @@ namespace condyle {
 namespace {
 
 constexpr double kSteep = 0.5;  // cosine between the normals below which quadrics say nothing
-constexpr double kFlat = 1e-6;  // [1/mm]
+constexpr double kFlat = 1e-6;  // curvature over one reach: no minimum of its own
 
 /// Unit eigenvector of [a b; b d] for the eigenvalue that is not `other`.
 Eigen::Vector2d principal_direction(double a, double b, double d, double other) {
@@ -40,8 +40,9 @@ std::optional<PredictedMinimum> predict_minimum(const Eigen::Vector3d& p,
   for (const bool first : {true, false}) {
     const Eigen::Vector2d along = first ? high : Eigen::Vector2d(-high.y(), high.x());
     const double bend = first ? mean + spread : mean - spread, rise = along.dot(gradient);
+    if (!(std::abs(bend) * reach > kFlat)) return std::nullopt;
     double step = -std::copysign(0.5 * reach, rise);
-    if (bend > kFlat) {
+    if (bend > 0) {
       step = -rise / bend;
       if (std::abs(step) > reach) return std::nullopt;
     }
