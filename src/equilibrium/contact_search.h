@@ -62,6 +62,8 @@ class ContactSearch {
   [[nodiscard]] bool has_samples() const { return !places_.empty(); }
 
  private:
+  /// How far beyond the known part a minimum may lie, in sample spacings.
+  static constexpr double kBeyondEdge = 2;
   /// The other surface near a point, as its osculating quadric at a place that was the point's
   /// foot.
   struct Quadric {
