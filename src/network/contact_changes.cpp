@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "network/project.h"
+
 namespace condyle {
 namespace {
 
@@ -22,7 +24,7 @@ std::vector<int> touching(const Network& network,
     if (!network.contacts[i].opens || !state.contacts[i].followed) continue;
     const int index = static_cast<int>(i);
     if (state.contacts[i].closed || holds(struck, index) ||
-        equations.contacts()[i].gap() < kTouching)
+        equations.contact(i).gap() < kTouching)
       list.push_back(index);
   }
   return list;

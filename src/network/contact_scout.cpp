@@ -7,7 +7,7 @@
 namespace condyle {
 namespace {
 
-constexpr double kNear = 0.5;       // gap [mm] below which a place is followed
+constexpr double kNear = 0.1;       // gap [mm] below which a place is followed
 constexpr double kSamePlace = 0.5;  // [mm]
 constexpr double kDouble = 1e-3;    // [mm]
 constexpr double kOverlap = 1e-6;   // [mm] of an open contact

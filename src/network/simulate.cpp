@@ -15,7 +15,9 @@
 #include "input_error.h"
 #include "network/contact_scout.h"
 #include "network/drive.h"
+#include "network/integrate.h"
 #include "network/knee_network.h"
+#include "network/network_equations.h"
 
 namespace condyle {
 namespace {
