@@ -75,6 +75,7 @@ class Integration {
     ++attempts_;
     if (advance(t, to) && land(t)) {
       const ContactSighting sighting = scout_(moving_.state());
+      if (!sighting.lost.empty()) return end_here(t, sighting.lost);
       if (sighting.unseen >= 0 && sighting.overlapping.empty()) return true;
       if (sighting.unseen >= 0 && sighting.followed > -kTouch)
         return handle_event(t, sighting.overlapping, {});

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "network/motion.h"
@@ -31,6 +32,7 @@ struct ContactSighting {
   double unseen = std::numeric_limits<double>::infinity();
   double followed = unseen;           ///< and of the open contacts that overlap [mm]
   std::vector<int> overlapping = {};  ///< these
+  std::string lost = {};              ///< a closed contact that has left what is known: the end
 };
 /// Lets waiting contacts follow the places at which bodies have come near each other and that no
 /// contact follows yet.

@@ -1,6 +1,7 @@
 #include "network/line_component.h"
 
 #include <algorithm>
+#include <variant>
 
 namespace condyle {
 
@@ -8,7 +9,8 @@ LineState line_state(const LineComponent& line, double length, double rate) {
   LineState s{length, rate, 0, 0, 0};
   double elastic = 0, viscous = line.damping * rate;
   if (line.law) {
-    const Tension t = tension(*line.law, length);
+    const auto* toe_linear = std::get_if<ToeLinearLaw>(&*line.law);  // what most ligaments have
+    const Tension t = toe_linear ? tension(*toe_linear, length) : tension(*line.law, length);
     elastic = t.force;
     s.energy = t.energy;
     if (line.viscous_time > 0) {

@@ -240,6 +240,9 @@ Simulation simulate(const Scene& scene,
   result.contact_of = knee.places;
   const FrameTeller teller(scene, model, knee);
   for (const MotionFrame& frame : result.motion.frames) result.poses.push_back(teller.tell(frame));
+  if (!result.motion.completed && model.joint && !result.poses.empty())
+    result.motion.reason += fmt::format(", {:.4g} deg of flexion at the frame before",
+                                        result.poses.back().joint.flexion * 180 / M_PI);
   return result;
 }
 
