@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -63,6 +64,7 @@ class Integration {
     motion_.events.resize(moment.events);
     motion_.completed = true;
     motion_.reason.clear();
+    released_at_.clear();
     hopeless_ = false;
   }
 
@@ -135,10 +137,17 @@ class Integration {
     return moving_.land(t) || give_up(t, "the constraints could not be met");
   }
 
+  /// One that was released this very moment, a hair before its force had vanished, does not strike:
+  /// it stays open, or it would open and close without end.
   bool handle_root(double t) {
+    constexpr double kSameMoment = 1e-9;  // [s]
     std::vector<int> struck, released;
-    for (const int contact : moving_.found())
-      (moving_.state().contacts[contact].closed ? released : struck).push_back(contact);
+    for (const int contact : moving_.found()) {
+      double& last = released_at_.try_emplace(contact, -INFINITY).first->second;
+      const bool closed = moving_.state().contacts[contact].closed;
+      if (closed) last = t;
+      (closed || t - last < kSameMoment ? released : struck).push_back(contact);
+    }
     return handle_event(t, struck, released);
   }
 
@@ -161,6 +170,7 @@ class Integration {
   double end_ = 0;
   long steps_before_ = 0;  ///< this frame
   int attempts_ = 0;       ///< at this frame
+  std::map<int, double> released_at_;  ///< when a contact's force vanished last [s]
   bool hopeless_ = false;
 };
 

@@ -8,6 +8,7 @@
 #include "network/drive.h"
 #include "network/integrate.h"
 #include "network/knee_network.h"
+#include "network/network_equations.h"
 #include "network/simulate.h"
 #include "scene/read_scene.h"
 #include "support/quadric_knee.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "input_error.h"
+#include "network/network_equations.h"
 #include "network/simulate.h"
 #include "scene/read_scene.h"
 
