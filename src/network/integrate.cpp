@@ -97,8 +97,7 @@ class Integration {
     for (int events = 0; t < to - 2 * kBeforeJump; ++events) {
       if (events == kMostEvents)
         return end_here(t, "contacts open and close without end");
-      if (moving_.ode().steps() - steps_before_ > options_.most_steps)
-        return end_here(t, "too many steps for one frame");
+      if (steps_are_spent()) return end_here(t, "too many steps for one frame");
       const double jump = next_jump(t), stop = std::min(end_, jump - kBeforeJump);
       if (stop <= t) {  // just before a jump: go on behind it
         t = jump;
@@ -107,11 +106,14 @@ class Integration {
       }
       const OdeOutcome outcome = moving_.ode().advance(t, std::min(to, stop), stop);
       if (outcome == OdeOutcome::kEvent && !handle_root(t)) return false;
-      if (outcome == OdeOutcome::kFailed)
-        return give_up(t, moving_.lost_contact().value_or(moving_.ode().reason()));
+      if (outcome != OdeOutcome::kFailed) continue;
+      if (steps_are_spent()) return end_here(t, moving_.ode().reason());
+      return give_up(t, moving_.lost_contact().value_or(moving_.ode().reason()));
     }
     return true;
   }
+
+  bool steps_are_spent() { return moving_.ode().steps() - steps_before_ >= options_.most_steps; }
 
   /// The next time after t at which a driver jumps, or never.
   double next_jump(double t) const {
