@@ -26,8 +26,8 @@ struct Study {
   std::vector<FittedSurface> surfaces;
   Run run;
 };
-/// Reads the scene of a command that writes `output`, lets `check` look at it, and fits its surfaces
-/// aloud. Throws InputError, also where `output` cannot be written.
+/// Reads the scene of a command that writes `output`, lets `check` look at it, and fits its
+/// surfaces aloud. Throws InputError, also where `output` cannot be written.
 [[nodiscard]] Study begin_study(const Talk& talk,
                                 const std::string& scene,
                                 const std::string& output,

@@ -89,7 +89,8 @@ int run_simulate(const SimulateCommand& command) {
   CommandClock clock;
   auto [scene, surfaces, run] = begin_study(talk, command.scene, command.output, [](Scene& s) {
     if (!s.simulation)
-      throw InputError(s.file.string() + ": [simulate] is missing, expected time, rate and gravity");
+      throw InputError(s.file.string() +
+                       ": [simulate] is missing, expected time, rate and gravity");
     s.sweep.reset();  // another command's
   });
   Progress progress(talk, "frames");

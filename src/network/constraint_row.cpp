@@ -142,7 +142,8 @@ void constraint_rows(const Network& network,
                      std::vector<ConstraintRow>& rows) {
   rows.clear();
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (state.contacts[i].closed) rows.push_back(contact_row(network, graph, at, contacts[i].at, i));
+    if (state.contacts[i].closed)
+      rows.push_back(contact_row(network, graph, at, contacts[i].at, i));
   RowMaker maker(network, graph, at, rows);
   for (std::size_t i = 0; i < network.joints.size(); ++i) maker.add_joint(i);
   for (std::size_t i = 0; i < network.motions.size(); ++i) maker.add_driven(i);

@@ -95,8 +95,7 @@ class Integration {
   bool advance(double& t, double to) {
     constexpr int kMostEvents = 1000;
     for (int events = 0; t < to - 2 * kBeforeJump; ++events) {
-      if (events == kMostEvents)
-        return end_here(t, "contacts open and close without end");
+      if (events == kMostEvents) return end_here(t, "contacts open and close without end");
       if (steps_are_spent()) return end_here(t, "too many steps for one frame");
       const double jump = next_jump(t), stop = std::min(end_, jump - kBeforeJump);
       if (stop <= t) {  // just before a jump: go on behind it
@@ -135,9 +134,7 @@ class Integration {
   }
 
   /// The state at t exactly on the constraints: between steps it is interpolated.
-  bool land(double t) {
-    return moving_.land(t) || give_up(t, "the constraints could not be met");
-  }
+  bool land(double t) { return moving_.land(t) || give_up(t, "the constraints could not be met"); }
 
   /// One that was released this very moment, a hair before its force had vanished, does not strike:
   /// it stays open, or it would open and close without end.
@@ -170,8 +167,8 @@ class Integration {
   MovingNetwork moving_;
   Motion motion_;
   double end_ = 0;
-  long steps_before_ = 0;  ///< this frame
-  int attempts_ = 0;       ///< at this frame
+  long steps_before_ = 0;              ///< this frame
+  int attempts_ = 0;                   ///< at this frame
   std::map<int, double> released_at_;  ///< when a contact's force vanished last [s]
   bool hopeless_ = false;
 };

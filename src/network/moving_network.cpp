@@ -117,8 +117,7 @@ bool MovingNetwork::land(double t) {
 void MovingNetwork::change_contacts(const std::vector<int>& struck,
                                     const std::vector<int>& released,
                                     std::vector<ContactEvent>& events) {
-  dissipated_ +=
-      condyle::change_contacts(equations_, state_, struck, released, options_, events);
+  dissipated_ += condyle::change_contacts(equations_, state_, struck, released, options_, events);
 }
 
 void MovingNetwork::restart(double t) {

@@ -77,8 +77,7 @@ int events(realtype t, N_Vector y, realtype* values, void* system) {
   return my.events(t, NV_DATA_S(y), values) ? 0 : kRecoverable;
 }
 
-int project(
-    realtype t, N_Vector y, N_Vector correction, realtype, N_Vector error, void* system) {
+int project(realtype t, N_Vector y, N_Vector correction, realtype, N_Vector error, void* system) {
   const OdeSystem& my = *static_cast<const OdeSystem*>(system);
   double* errors = error == nullptr ? nullptr : NV_DATA_S(error);
   return my.project(t, NV_DATA_S(y), NV_DATA_S(correction), errors) ? 0 : kRecoverable;

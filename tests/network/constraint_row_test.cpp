@@ -69,8 +69,8 @@ TEST(ConstraintRow, TurnsAsItsBodyMoves) {
       const auto index = static_cast<Eigen::Index>(k);
       const double value = row.value + h * here.jacobian().row(index).dot(direction);
       const double rate = here.jacobian().row(index).dot(x) + h * row.turn_to.dot(direction);
-      off = std::max({off, std::abs(next.value - value),
-                      std::abs(there.jacobian().row(index).dot(x) - rate)});
+      off = std::max(
+          {off, std::abs(next.value - value), std::abs(there.jacobian().row(index).dot(x) - rate)});
     }
     if (before > 0) {
       EXPECT_LT(off, 0.02 * before);

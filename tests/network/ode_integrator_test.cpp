@@ -39,7 +39,7 @@ TEST(OdeIntegrator, StopsWhereAFunctionFallsThroughZero) {
   EXPECT_EQ(ode.found(), std::vector<int>{0});
   ASSERT_EQ(ode.advance(t, 5, 10), OdeOutcome::kReached);
   EXPECT_EQ(t, 5);
-  EXPECT_NEAR(ode.y()[0], std::cos(5), 5e-8);  // errors of some 500 steps
+  EXPECT_NEAR(ode.y()[0], std::cos(5), 5e-8);                // errors of some 500 steps
   EXPECT_NEAR(std::hypot(ode.y()[0], ode.y()[1]), 1, 1e-9);  // interpolated
   EXPECT_GT(ode.evaluations(), ode.steps());
 }

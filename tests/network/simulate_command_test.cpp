@@ -86,7 +86,8 @@ TEST_F(SimulateCommand, ADecayingSineSwingsTheShankToAndFro) {
   ASSERT_EQ(flexions.size(), 201U);
   EXPECT_GT(flexions.back(), 45);
   const double before = flexions[60] - flexions[50], after = flexions[105] - flexions[95];
-  EXPECT_GT(before, 1.3 * after);  // 100 to 120 ms, at the end of the push; 190 to 210 ms, of the pull
+  EXPECT_GT(before,
+            1.3 * after);  // 100 to 120 ms, at the end of the push; 190 to 210 ms, of the pull
   const Hdf5Reader reader(at("sine.h5"));
   const Hdf5Group energy = reader.root().open("simulate").open("energy");
   const std::vector<double> work = energy.read("driver_work").values;
@@ -113,8 +114,8 @@ TEST_F(SimulateCommand, AMotionThatLeavesItsSurfacesSaysWhereAndKeepsItsFrames) 
 
 // A scene may hold both tables; each command does its own.
 TEST_F(SimulateCommand, ASceneMayBeSweptAndSimulated) {
-  std::string both = with(kSmallScene, "start.rotation = [0, 0, 0]\n",
-                          "start.rotation = [0, 0, 0]\n" + kMass);
+  std::string both =
+      with(kSmallScene, "start.rotation = [0, 0, 0]\n", "start.rotation = [0, 0, 0]\n" + kMass);
   both += "\n[simulate]\ntime = 0.02\nrate = 50\nflexion = 10\n";
   write("both.toml", both);
   const Outcome motion = run("simulate both.toml -o motion.h5");
@@ -153,8 +154,9 @@ TEST_F(SimulateCommand, BadInputIsNamed) {
   const Outcome drive = run("simulate swing.toml -o swing.h5");
   EXPECT_EQ(drive.code, 1);
   EXPECT_NE(drive.err.find("nobody"), std::string::npos) << drive.err;
-  write("open.stl", "solid open\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 9 0 0\n"
-                    "vertex 0 9 0\nendloop\nendfacet\nendsolid open\n");
+  write("open.stl",
+        "solid open\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 9 0 0\n"
+        "vertex 0 9 0\nendloop\nendfacet\nendsolid open\n");
   write("swing.toml", with(released(), kMass, "mesh = \"open.stl\"\ndensity = 1.9e-6\n"));
   const Outcome open = run("simulate swing.toml -o swing.h5");
   EXPECT_EQ(open.code, 1);
