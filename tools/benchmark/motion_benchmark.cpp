@@ -46,6 +46,12 @@ BENCHMARK_CAPTURE(motion, blow, "blow.toml")
     ->Arg(9)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(motion, decaying_sine, "decaying-sine.toml")
+    ->Arg(5)
+    ->Arg(7)
+    ->Arg(9)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 
 /// A body on as many springs as the argument says.
 Network springs(int count) {
