@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Strikes the phantom's shank with rectangular pulses of 20 to 140 N for 50 to 150 ms and with a decaying sine, the
+# Strikes the phantom's shank with rectangular pulses of 20 to 140 N for 50 to 150 ms and with the decaying sine, the
 # loading of the published impact studies (docs/network.md). Each blow is a scene and a run in out/blows; the table gives
 # the peaks that the runs hold.
 set -euo pipefail
@@ -13,21 +13,26 @@ mkdir -p out/blows
 # peak RUN DATASET: the largest number of a dataset
 peak() { h5dump -y -w 1 -d "$2" "$1" | awk '/^ *-?[0-9.]+(e[-+]?[0-9]+)?,? *$/ { if ($1 + 0 > m) m = $1 + 0 } END { printf "%.1f", m }'; }
 
-# blow NAME NEWTON DRIVE
-blow() {
-  local scene=out/blows/$1.toml run=out/blows/$1.h5 status=0
-  sed -e "s/^vector = \[-50, 0, 0\]$/vector = [-$2, 0, 0]/" -e "s/^drive = .*/drive = [$3]/" -e 's/^time = .*/time = 0.3/' \
-    -e "s/^title = .*/title = \"Phantom, right knee: blow $1\"/" data/phantom/blow.toml >"$scene"
-  build/condyle simulate "$scene" -o "$run" >"out/blows/$1.txt" 2>&1 || status=$?
+# strike NAME SCENE
+strike() {
+  local run=out/blows/$1.h5 status=0
+  build/condyle simulate "$2" -o "$run" >"out/blows/$1.txt" 2>&1 || status=$?
   printf '%-14s %8s %10s %10s %10s %8s  %s\n' "$1" "$(peak "$run" /sweep/joint/flexion)" \
     "$(peak "$run" /sweep/contacts/medial/force)" "$(peak "$run" /sweep/contacts/lateral/force)" \
     "$(grep -c ' closes at ' "out/blows/$1.txt" || true)" "$status" "$(grep -o "condyle: .*" "out/blows/$1.txt" | grep -v axis: | tail -1)"
 }
 
+# pulse NEWTON MILLISECONDS
+pulse() {
+  local name=$1N-$2ms
+  sed -e "s/^vector = \[-50, 0, 0\]$/vector = [-$1, 0, 0]/" -e "s/duration = 0\.1 /duration = 0.$(printf %03d "$2") /" \
+    -e 's/^time = .*/time = 0.3/' \
+    -e "s/^title = .*/title = \"Phantom, right knee: $name\"/" data/phantom/blow.toml >"out/blows/$name.toml"
+  strike "$name" "out/blows/$name.toml"
+}
+
 printf '%-14s %8s %10s %10s %10s %8s\n' 'blow' 'flexion' 'medial N' 'lateral N' 'impacts' 'exit'
 for newton in 20 50 80 110 140; do
-  for ms in 50 100 150; do
-    blow "${newton}N-${ms}ms" "$newton" "{ load = \"blow\", shape = \"pulse\", start = 0.02, duration = 0.$(printf %03d "$ms") }"
-  done
+  for ms in 50 100 150; do pulse "$newton" "$ms"; done
 done
-blow sine 100 '{ load = "blow", shape = "decaying sine", start = 0.02, frequency = 5, decay = 10 }'
+strike sine data/phantom/decaying-sine.toml

@@ -35,6 +35,7 @@ int run_compare(const CompareCommand& command) {
   CommandClock clock;
   check_output_file(command.output);
   Scene scene = read_scene(command.scene);
+  scene.simulation.reset();  // another command's
   refuse_to_overwrite_inputs(command.output, scene);
   override_range(command.scene, command.range, scene);
   check_wismans_scene(scene);

@@ -13,9 +13,7 @@
 #include "app/summary.h"
 #include "app/talk.h"
 #include "input_error.h"
-#include "results/output_file.h"
 #include "results/sweep_table.h"
-#include "scene/read_scene.h"
 
 namespace condyle {
 namespace {
@@ -49,14 +47,12 @@ int report_failures(const Scene& scene, const LaxityResult& result) {
 int run_laxity(const LaxityCommand& command) {
   const Talk& talk = command.talk;
   CommandClock clock;
-  check_output_file(command.output);
-  const Scene scene = read_scene(command.scene);
-  refuse_to_overwrite_inputs(command.output, scene);
-  if (!scene.laxity)
-    throw InputError(command.scene +
-                     ": [laxity] is missing, expected the angles of flexion of the test");
-  const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
-  Run run = make_run(scene, surfaces);
+  auto [scene, surfaces, run] = begin_study(talk, command.scene, command.output, [](Scene& s) {
+    if (!s.laxity)
+      throw InputError(s.file.string() +
+                       ": [laxity] is missing, expected the angles of flexion of the test");
+    s.simulation.reset();  // another command's
+  });
   Progress progress(talk, "curves");
   run.laxity = test_laxity(scene, surfaces, command.options,
                            [&](int done, int total) { progress.at(done, total); });

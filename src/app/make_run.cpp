@@ -3,8 +3,11 @@
 #include <system_error>
 #include <utility>
 
+#include "app/summary.h"
 #include "input_error.h"
 #include "results/digest.h"
+#include "results/output_file.h"
+#include "scene/read_scene.h"
 
 namespace condyle {
 namespace {
@@ -50,6 +53,19 @@ void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene
     if (body.mesh) check(body.mesh->path);
   for (const SurfaceDescription& surface : scene.surfaces)
     if (surface.patch.mesh) check(surface.patch.mesh->path);
+}
+
+Study begin_study(const Talk& talk,
+                  const std::string& scene,
+                  const std::string& output,
+                  const std::function<void(Scene&)>& check) {
+  check_output_file(output);
+  Study study{read_scene(scene), {}, {}};
+  refuse_to_overwrite_inputs(output, study.scene);
+  check(study.scene);
+  study.surfaces = fit_aloud(talk, study.scene);
+  study.run = make_run(study.scene, study.surfaces);
+  return study;
 }
 
 Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces, SweepResult sweep) {

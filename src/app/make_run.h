@@ -5,7 +5,10 @@
 #include <vector>
 
 #include <filesystem>
+#include <functional>
+#include <string>
 
+#include "app/talk.h"
 #include "equilibrium/pose_result.h"
 #include "results/run_file.h"
 #include "scene/fit_surfaces.h"
@@ -16,6 +19,19 @@ namespace condyle {
 [[nodiscard]] Run make_run(const Scene& scene,
                            const std::vector<FittedSurface>& surfaces,
                            SweepResult sweep = {});
+
+/// What a command starts from that computes something from a scene.
+struct Study {
+  Scene scene;
+  std::vector<FittedSurface> surfaces;
+  Run run;
+};
+/// Reads the scene of a command that writes `output`, lets `check` look at it, and fits its
+/// surfaces aloud. Throws InputError, also where `output` cannot be written.
+[[nodiscard]] Study begin_study(const Talk& talk,
+                                const std::string& scene,
+                                const std::string& output,
+                                const std::function<void(Scene&)>& check);
 
 /// Throws InputError where the file to write is the scene or one of its meshes.
 void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene& scene);

@@ -13,9 +13,7 @@
 #include "app/summary.h"
 #include "app/talk.h"
 #include "input_error.h"
-#include "results/output_file.h"
 #include "results/sweep_table.h"
-#include "scene/read_scene.h"
 
 namespace condyle {
 namespace {
@@ -89,13 +87,12 @@ int report_failures(const Simulation& simulation) {
 int run_simulate(const SimulateCommand& command) {
   const Talk& talk = command.talk;
   CommandClock clock;
-  check_output_file(command.output);
-  const Scene scene = read_scene(command.scene);
-  refuse_to_overwrite_inputs(command.output, scene);
-  if (!scene.simulation)
-    throw InputError(command.scene + ": [simulate] is missing, expected time, rate and gravity");
-  const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
-  Run run = make_run(scene, surfaces);
+  auto [scene, surfaces, run] = begin_study(talk, command.scene, command.output, [](Scene& s) {
+    if (!s.simulation)
+      throw InputError(s.file.string() +
+                       ": [simulate] is missing, expected time, rate and gravity");
+    s.sweep.reset();  // another command's
+  });
   Progress progress(talk, "frames");
   run.simulation =
       simulate(scene, surfaces, [&](int done, int total) { progress.at(done, total); });

@@ -86,6 +86,7 @@ int run_sweep(const SweepCommand& command) {
   CommandClock clock;
   check_output_file(command.output);
   Scene scene = read_scene(command.scene);
+  scene.simulation.reset();  // another command's
   if (command.resume && scene.sweep && scene.sweep->arc_length) {
     throw InputError(command.scene +
                      ": [sweep]: path = \"arc length\", expected \"steps\" for --resume");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "network/project.h"
+
 namespace condyle {
 namespace {
 
@@ -21,8 +23,7 @@ std::vector<int> touching(const Network& network,
   for (std::size_t i = 0; i < network.contacts.size(); ++i) {
     if (!network.contacts[i].opens || !state.contacts[i].followed) continue;
     const int index = static_cast<int>(i);
-    if (state.contacts[i].closed || holds(struck, index) ||
-        equations.contacts()[i].gap() < kTouching)
+    if (state.contacts[i].closed || holds(struck, index) || equations.contact(i).gap() < kTouching)
       list.push_back(index);
   }
   return list;

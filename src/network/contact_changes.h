@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "network/integrate.h"
+#include "network/network_equations.h"
 
 namespace condyle {
 

@@ -1,5 +1,7 @@
 #include "network/contact_scout.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "elements/contact.h"
@@ -7,7 +9,7 @@
 namespace condyle {
 namespace {
 
-constexpr double kNear = 0.5;       // gap [mm] below which a place is followed
+constexpr double kNear = 0.1;       // gap [mm] below which a place is followed
 constexpr double kSamePlace = 0.5;  // [mm]
 constexpr double kDouble = 1e-3;    // [mm]
 constexpr double kOverlap = 1e-6;   // [mm] of an open contact
@@ -25,7 +27,22 @@ ContactSighting PairScout::operator()(NetworkState& state) {
     if (model_.pairs[p].mode != ContactMode::kAuto || !searches_[p].has_samples()) continue;
     scout_pair(static_cast<int>(p), state, sighting);
   }
+  sighting.lost = lost_contact(state);
   return sighting;
+}
+
+/// Beyond the edge of a patch its surface is a guess: no motion goes on there.
+std::string PairScout::lost_contact(const NetworkState& state) const {
+  for (std::size_t i = 0; i < knee_.places.size(); ++i) {
+    const ContactPlaces& places = state.contacts[i];
+    if (!places.closed) continue;
+    const ContactPair& pair = model_.pairs[knee_.places[i]];
+    const double edge = edge_distance(pair, places.on_ground, places.on_body);
+    if (edge < 0)
+      return fmt::format("contact \"{}\" lies {:.2g} mm beyond the edge of its surface", pair.name,
+                         -edge);
+  }
+  return "";
 }
 
 void PairScout::scout_pair(int pair, NetworkState& state, ContactSighting& sighting) {

@@ -24,6 +24,7 @@ class PairScout {
                                 const NetworkState& state) const;
   [[nodiscard]] int waiting_contact(int pair, const NetworkState& state) const;
   void drop_doubles(int pair, NetworkState& state) const;
+  [[nodiscard]] std::string lost_contact(const NetworkState& state) const;
   [[nodiscard]] Eigen::Vector3d point_of(int contact, const NetworkState& state) const;
 
   const Model& model_;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "network/network_equations.h"
+#include "network/motion.h"
 #include "on_progress.h"
 
 namespace condyle {
@@ -26,41 +26,13 @@ struct IntegrationOptions {
   OnProgress on_frame = {};         ///< told of each frame after the first
 };
 
-struct MotionFrame {
-  NetworkState state;
-  std::vector<double> contact_force, contact_gap;              ///< [N], [mm]
-  std::vector<Eigen::Vector3d> contact_point, contact_normal;  ///< ground frame [mm]
-  std::vector<LineState> lines;
-  std::vector<double> condition_multiplier;  ///< σ [N] or [N mm]
-  EnergySum energy;
-  double dissipated = 0, driver_work = 0;  ///< since the start [N mm]; impacts dissipate too
-  /// Constant along a motion.
-  [[nodiscard]] double balance() const { return energy.stored() + dissipated - driver_work; }
-};
-
-struct ContactEvent {
-  double t = 0;
-  int contact = 0;
-  bool closing = false;
-  double speed = 0;  ///< at which the gap closed [mm/s]
-};
-
-struct Motion {
-  bool completed = false;
-  std::string reason;  ///< where it is not completed: time and cause
-  std::vector<MotionFrame> frames;
-  std::vector<ContactEvent> events;
-  long steps = 0, evaluations = 0;  ///< of the integrator
-  /// Largest departure of the balance from its start, and the largest energy that was met [N mm].
-  double largest_imbalance = 0, energy_scale = 0;
-};
-
 /// What a scout has seen.
 struct ContactSighting {
   /// Smallest gap at places that no contact followed [mm].
   double unseen = std::numeric_limits<double>::infinity();
   double followed = unseen;           ///< and of the open contacts that overlap [mm]
   std::vector<int> overlapping = {};  ///< these
+  std::string lost = {};              ///< a closed contact that has left what is known: the end
 };
 /// Lets waiting contacts follow the places at which bodies have come near each other and that no
 /// contact follows yet.
@@ -74,11 +46,5 @@ using ContactScout = std::function<ContactSighting(NetworkState&)>;
                                NetworkState start,
                                const IntegrationOptions& options,
                                ContactScout scout = {});
-
-/// Adds six numbers for each body to its twist.
-void add_twists(NetworkState& state, const Eigen::VectorXd& change);
-
-/// Puts a state onto its constraints, pose and twists. False where that does not settle.
-bool project(NetworkEquations& equations, NetworkState& state);
 
 }  // namespace condyle

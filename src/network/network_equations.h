@@ -12,39 +12,14 @@
 
 #include <Eigen/Core>
 
-#include <limits>
 #include <vector>
 
-#include "elements/contact.h"
-#include "network/network_graph.h"
-#include "network/rigid_body_component.h"
+#include "network/constraint_row.h"
+#include "network/motion.h"
+#include "network/multiplier_solver.h"
+#include "network/settle_contacts.h"
 
 namespace condyle {
-
-/// One scalar constraint: direction.x_edge + ... = rate.
-struct ConstraintRow {
-  int edge = -1;
-  int vertex_to = 0, vertex_from = 0;
-  Vector6 direction = Vector6::Zero();
-  double value = 0;  ///< what has to vanish [mm] or [rad]
-  double rate = 0;   ///< direction.(twist to - twist from) has to be this
-  double acceleration = 0;
-  double bias = 0;  ///< of the second derivative: all that is not J times acceleration
-  int contact = -1, condition = -1;
-};
-
-struct LineState {
-  double length = 0, rate = 0;   ///< [mm], [mm/s]
-  double force = 0, energy = 0;  ///< [N], [N mm]
-  double dissipation = 0;        ///< [N mm/s]
-};
-
-struct EnergySum {
-  double kinetic = 0, gravity = 0, elastic = 0;  ///< [N mm]
-  double dissipation = 0;                        ///< [N mm/s]
-  double driver_power = 0;                       ///< [N mm/s], after solve()
-  [[nodiscard]] double stored() const { return kinetic + gravity + elastic; }
-};
 
 class NetworkEquations {
  public:
@@ -57,9 +32,12 @@ class NetworkEquations {
   /// Throws InputError for a body without mass, which has a place in statics but not in dynamics.
   void require_mass() const;
 
-  /// Kinematics, wrenches and constraint rows; settles the contacts. False where a contact is lost
-  /// or a line has no length.
-  bool assemble(NetworkState& state);
+  /// Kinematics, wrenches and constraint rows; settles the contacts, or only the closed ones, which
+  /// is all that solve() asks for. False where a contact is lost or a line has no length.
+  bool assemble(NetworkState& state, bool open_contacts_too = true);
+
+  /// One contact that is followed, at the state's pose; false where it is lost.
+  bool settle(std::size_t contact, NetworkState& state);
 
   /// Accelerations and multipliers, after assemble(). False for dependent constraints.
   bool solve();
@@ -68,6 +46,14 @@ class NetworkEquations {
   /// (translation of the reference port, rotation vector) and of the twist, six for each body.
   [[nodiscard]] Eigen::VectorXd position_correction() const;
   [[nodiscard]] Eigen::VectorXd velocity_correction() const;
+  /// The same for twists `twists` at poses `moved` from those assembled (Kinematics::displacement),
+  /// to first order in what they differ.
+  [[nodiscard]] Eigen::VectorXd position_correction_after(const Eigen::VectorXd& moved) const;
+  [[nodiscard]] Eigen::VectorXd velocity_correction_after(const Eigen::VectorXd& moved,
+                                                          const Eigen::VectorXd& twists) const;
+  /// What is left of small motions and changes of the twists when they are put onto the
+  /// constraints.
+  void keep_admissible(Eigen::VectorXd& motion, Eigen::VectorXd& change) const;
   /// The change of the twists by impulses that give each row the rate `after`; `impulse` is the
   /// multiplier.
   [[nodiscard]] Eigen::VectorXd impact(const Eigen::VectorXd& after,
@@ -77,11 +63,11 @@ class NetworkEquations {
   [[nodiscard]] const std::vector<ConstraintRow>& rows() const { return rows_; }
   [[nodiscard]] const Eigen::MatrixXd& jacobian() const { return J_; }
   [[nodiscard]] Eigen::VectorXd rates() const;  ///< J x of all rows
-  [[nodiscard]] const Eigen::VectorXd& twists() const { return twists_; }
+  [[nodiscard]] const Kinematics& kinematics() const { return at_; }
   /// w = Σ K_j y_j of all that is no constraint; the statics of a network is w - Jᵀ μ = 0.
   [[nodiscard]] const Eigen::VectorXd& wrenches() const { return wrenches_; }
   [[nodiscard]] const std::vector<LineState>& lines() const { return lines_; }
-  [[nodiscard]] const std::vector<ContactLinearization>& contacts() const { return contacts_; }
+  [[nodiscard]] const ContactLinearization& contact(std::size_t i) const { return contacts_[i].at; }
   /// n.(velocity of the contact point of the body) of any contact [mm/s]
   [[nodiscard]] double gap_rate(std::size_t contact) const;
 
@@ -101,38 +87,35 @@ class NetworkEquations {
   void edge_variables(EdgeVariables& across, EdgeVariables& through) const;
 
  private:
-  void place_vertices(const NetworkState& state);
+  /// A chord whose wrench a port of a body takes in.
+  struct Feed {
+    int body, vertex, edge;
+    double sign;
+  };
+  void list_feeds();
   bool add_lines();
   void add_forces(const NetworkState& state);
-  void add_rows(const NetworkState& state);
-  [[nodiscard]] ConstraintRow contact_row(std::size_t contact) const;
-  void add_point_rows(int edge, int to, int from, const Eigen::Vector3d& apart);
-  void add_driven_rows(std::size_t motion);
-  [[nodiscard]] Eigen::Vector3d port_point(int port) const;
-  void add_condition_row(std::size_t i, const NetworkState& state);
   void collect_wrenches();
   void fill_jacobian();
+  void set_inertia(const NetworkState& state);
   void factor_inertia();
-  template <typename Add>
-  void carry_row(const ConstraintRow& row, Add add) const;
   [[nodiscard]] Eigen::VectorXd inverse_inertia(const Eigen::VectorXd& w) const;
-  [[nodiscard]] Eigen::VectorXd multipliers_for(const Eigen::VectorXd& right_side) const;
-  [[nodiscard]] Vector6 convective(int vertex) const;
+  [[nodiscard]] Eigen::VectorXd prescribed_rates() const;
+  [[nodiscard]] Eigen::VectorXd turned(const Eigen::VectorXd& moved) const;
 
   const Network& network_;
   NetworkGraph graph_;
-  std::vector<DrivenPoint> driven_;  ///< of each across driver
-  std::vector<RigidTransform> poses_;
-  std::vector<Eigen::Vector3d> points_;  ///< of each vertex, ground frame
-  std::vector<Eigen::Vector3d> arms_;    ///< from the reference port of its body
-  EdgeVariables vertex_twist_;
+  Kinematics at_;
+  std::vector<Feed> feeds_;
   EdgeVariables through_;  ///< of the chords that are no constraints
   std::vector<InertiaTerms> inertia_;
+  std::vector<Eigen::Matrix3d> inverse_J_;  ///< of each body about its mass centre, body frame
   std::vector<Matrix6> inverse_P_;
   std::vector<LineState> lines_;
-  std::vector<ContactLinearization> contacts_;
+  std::vector<SettledContact> contacts_;
   std::vector<ConstraintRow> rows_;
-  Eigen::VectorXd twists_, wrenches_, free_accelerations_, accelerations_, multipliers_;
+  MultiplierSolver solver_;
+  Eigen::VectorXd wrenches_, accelerations_, multipliers_;
   Eigen::MatrixXd J_, J_weighted_, compliance_;  ///< J, P⁻¹ Jᵀ, J P⁻¹ Jᵀ
 };
 

@@ -1,7 +1,8 @@
+#include "network/project.h"
+
 #include <Eigen/Geometry>
 
 #include "math/rotation.h"
-#include "network/integrate.h"
 
 namespace condyle {
 namespace {
@@ -23,6 +24,24 @@ double largest_value(const NetworkEquations& equations) {
   return largest;
 }
 
+/// Surfaces and joints of a knee depart from their tangents by d²/2r, r no less than a few mm.
+bool is_small(const Eigen::VectorXd& moved, double remainder) {
+  constexpr double kLeastRadius = 10, kLever = 100;  // [mm]
+  for (Eigen::Index row = 0; row < moved.size(); row += 6) {
+    const double square = moved.segment<3>(row).squaredNorm() +
+                          kLever * kLever * moved.segment<3>(row + 3).squaredNorm();
+    if (!(square < 2 * kLeastRadius * remainder)) return false;
+  }
+  return true;
+}
+
+Eigen::VectorXd twists_of(const NetworkState& state) {
+  Eigen::VectorXd twists(static_cast<Eigen::Index>(6 * state.bodies.size()));
+  for (std::size_t b = 0; b < state.bodies.size(); ++b)
+    twists.segment<6>(static_cast<Eigen::Index>(6 * b)) << state.bodies[b].v, state.bodies[b].omega;
+  return twists;
+}
+
 }  // namespace
 
 void add_twists(NetworkState& state, const Eigen::VectorXd& change) {
@@ -33,19 +52,36 @@ void add_twists(NetworkState& state, const Eigen::VectorXd& change) {
   }
 }
 
-bool project(NetworkEquations& equations, NetworkState& state) {
-  constexpr double kSettled = 1e-8;  // [mm], [rad]; a step from there is exact to round-off
-  constexpr int kMostSteps = 10;
-  for (int step = 0;; ++step) {
-    if (!equations.assemble(state)) return false;
-    if (step == kMostSteps) return false;
-    const double value = largest_value(equations);
-    if (value > 0) move(equations.network(), equations.position_correction(), state);
-    if (value < kSettled) break;
-  }
-  const Eigen::VectorXd change = equations.velocity_correction();
+bool is_nearby(const NetworkEquations& equations, double remainder, const NetworkState& state) {
+  Eigen::VectorXd moved;
+  equations.kinematics().displacement(state, moved);
+  return is_small(moved, remainder);
+}
+
+bool project_nearby(const NetworkEquations& equations, double remainder, NetworkState& state) {
+  Eigen::VectorXd moved;
+  equations.kinematics().displacement(state, moved);
+  if (!is_small(moved, remainder)) return false;
+  const Eigen::VectorXd step = equations.position_correction_after(moved);
+  moved += step;
+  if (!is_small(moved, remainder)) return false;
+  const Eigen::VectorXd change = equations.velocity_correction_after(moved, twists_of(state));
+  if (!change.allFinite()) return false;
+  move(equations.network(), step, state);
   add_twists(state, change);
-  return change.allFinite();
+  return true;
+}
+
+bool project(NetworkEquations& equations, NetworkState& state) {
+  constexpr double kNearby = 1e-12;  // [mm]: a step from there is exact to round-off
+  constexpr int kMostSteps = 10;
+  for (int step = 0; step < kMostSteps; ++step) {
+    if (!equations.assemble(state)) return false;
+    if (project_nearby(equations, kNearby, state)) return true;
+    if (!(largest_value(equations) > 0)) return false;
+    move(equations.network(), equations.position_correction(), state);
+  }
+  return false;
 }
 
 }  // namespace condyle

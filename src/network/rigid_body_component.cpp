@@ -53,14 +53,19 @@ InertiaTerms inertia_terms(const MassProperties& mass,
   return terms;
 }
 
-Matrix6 inverse_inertia(const MassProperties& mass,
+Matrix6 inverse_inertia(double mass,
+                        const Eigen::Matrix3d& inverse_J,
                         const Eigen::Matrix3d& R,
                         const Eigen::Vector3d& arm) {
-  const Eigen::Matrix3d S = skew(arm);
-  const Eigen::Matrix3d J = turned(R, mass.inertia.llt().solve(Eigen::Matrix3d::Identity()));
-  Matrix6 inverse;
-  inverse << Eigen::Matrix3d::Identity() / mass.mass + S * J * S.transpose(), S * J,
-      J * S.transpose(), J;
+  const Eigen::Matrix3d J = turned(R, inverse_J);
+  Matrix6 inverse = Matrix6::Zero();
+  inverse.topLeftCorner<3, 3>().diagonal().setConstant(1 / mass);
+  inverse.bottomRightCorner<3, 3>() = J;
+  if (arm.isZero(0)) return inverse;
+  const Eigen::Matrix3d S = skew(arm), SJ = S * J;
+  inverse.topLeftCorner<3, 3>() += SJ * S.transpose();
+  inverse.topRightCorner<3, 3>() = SJ;
+  inverse.bottomLeftCorner<3, 3>() = SJ.transpose();
   return inverse;
 }
 

@@ -57,9 +57,11 @@ struct InertiaTerms {
                                          const Vector6& x_0,
                                          const Eigen::Vector3d& gravity);
 
-/// P⁻¹ for the mass centre at `arm` from the reference port (ground frame): no factorization of P,
-/// and no loss of digits where the port is far from the centre.
-[[nodiscard]] Matrix6 inverse_inertia(const MassProperties& mass,
+/// P⁻¹ for the mass centre at `arm` from the reference port (ground frame), from J_G⁻¹ in the
+/// body's frame: no factorization of P, and no loss of digits where the port is far from the
+/// centre.
+[[nodiscard]] Matrix6 inverse_inertia(double mass,
+                                      const Eigen::Matrix3d& inverse_J,
                                       const Eigen::Matrix3d& R,
                                       const Eigen::Vector3d& arm);
 

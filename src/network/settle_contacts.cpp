@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/rotation.h"
+
 namespace condyle {
 namespace {
 
@@ -24,6 +26,17 @@ ContactLinearization linearize(const ContactComponent& contact,
                                const ContactPlaces& places) {
   return linearize_contact(*contact.on_ground, places.on_ground, *contact.on_body, places.on_body,
                            X);
+}
+
+/// Where the contact slides to, to first order, from where it was settled last.
+void extrapolate(const ContactComponent& contact,
+                 const RigidTransform& X,
+                 const SettledContact& last,
+                 ContactPlaces& places) {
+  constexpr double kLongest = 1;  // [mm]
+  if (places.on_ground != last.on_ground || places.on_body != last.on_body) return;
+  slide_contact(*contact.on_ground, places.on_ground, *contact.on_body, places.on_body, last.at,
+                last.X, X.p - last.X.p, cayley_vector(X.R * last.X.R.transpose()), kLongest);
 }
 
 /// Newton on opposite normals and no tangential distance; it takes the surfaces to be near.
@@ -60,26 +73,40 @@ bool settle_near(const ContactComponent& contact,
 
 }  // namespace
 
+bool settle_contact(const ContactComponent& contact,
+                    const RigidTransform& X,
+                    ContactPlaces& places,
+                    SettledContact& settled) {
+  ContactPlaces trial = places;
+  extrapolate(contact, X, settled, trial);
+  if (settle_near(contact, X, trial, settled.at)) {
+    places = trial;
+  } else {
+    settled.on_ground.setConstant(NAN);
+    if (places.closed) return false;
+    if (contact.scouted) {
+      places.followed = false;
+      return true;
+    }
+    if (!settle_far(contact, X, places)) return false;
+    settled.at = linearize(contact, X, places);
+  }
+  settled.X = X;
+  settled.on_ground = places.on_ground;
+  settled.on_body = places.on_body;
+  return true;
+}
+
 bool settle_contacts(const Network& network,
+                     bool open_ones_too,
                      NetworkState& state,
-                     std::vector<ContactLinearization>& settled) {
+                     std::vector<SettledContact>& settled) {
   settled.resize(network.contacts.size());
   for (std::size_t i = 0; i < network.contacts.size(); ++i) {
-    if (!state.contacts[i].followed) continue;
+    ContactPlaces& places = state.contacts[i];
+    if (!places.followed || !(places.closed || open_ones_too)) continue;
     const ContactComponent& contact = network.contacts[i];
-    const RigidTransform& X = state.bodies[contact.body].X;
-    ContactPlaces places = state.contacts[i];
-    if (settle_near(contact, X, places, settled[i])) {
-      state.contacts[i] = places;
-      continue;
-    }
-    if (state.contacts[i].closed) return false;
-    if (contact.scouted)
-      state.contacts[i].followed = false;
-    else if (!settle_far(contact, X, state.contacts[i]))
-      return false;
-    else
-      settled[i] = linearize(contact, X, state.contacts[i]);
+    if (!settle_contact(contact, state.bodies[contact.body].X, places, settled[i])) return false;
   }
   return true;
 }

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "equilibrium/pose_result.h"
-#include "network/integrate.h"
+#include "network/motion.h"
+#include "on_progress.h"
 #include "scene/fit_surfaces.h"
 #include "scene/scene.h"
 

@@ -43,7 +43,13 @@ Scene read_head(const Hdf5Group& root) {
   const std::string format = root.read_attribute("format");
   if (format != kRunFormat)
     root.fail(fmt::format("format = \"{}\", expected \"{}\"", format, kRunFormat));
-  return parse_scene(root.read_attribute("scene"), root.read_attribute("scene_file"));
+  Scene scene = parse_scene(root.read_attribute("scene"), root.read_attribute("scene_file"));
+  // A scene may have both; a run is of one of them.
+  if (root.has("simulate"))
+    scene.sweep.reset();
+  else if (scene.sweep)
+    scene.simulation.reset();
+  return scene;
 }
 
 void read_status(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {

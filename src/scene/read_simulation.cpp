@@ -77,7 +77,6 @@ void read_start(const Section& section, const Scene& scene, SimulationDescriptio
 void read_simulation(const Section& root, Scene& scene) {
   if (!root.has("simulate")) return;
   const Section section = root.table("simulate", "a table [simulate] with time, rate and gravity");
-  if (scene.sweep) section.fail_with("stands beside [sweep], expected one of the two");
   SimulationDescription simulation;
   simulation.time = section.number("time", "a time in s", Range::kPositive);
   simulation.rate = section.number_or("rate", 100, "frames per second", Range::kPositive);

@@ -10,6 +10,7 @@
 #include "math/rotation.h"
 #include "network/integrate.h"
 #include "network/integration_options.h"
+#include "network/network_equations.h"
 #include "support/random.h"
 
 namespace condyle {

@@ -92,7 +92,8 @@ TEST(FreeBody, SymmetricTopPrecesses) {
   for (const MotionFrame& frame : motion.frames) {
     const Eigen::Vector3d axis = frame.state.bodies[0].X.R.col(2);
     const Eigen::Vector3d expected = exp_rotation(frame.state.t * L / 4) * Eigen::Vector3d::UnitZ();
-    EXPECT_LT((axis - expected).norm(), 1e-9) << frame.state.t;
+    // 30 rad at a tolerance of 1e-12: errors add up to some 1e-9.
+    EXPECT_LT((axis - expected).norm(), 3e-9) << frame.state.t;
   }
 }
 

@@ -8,6 +8,9 @@
 #include "network/drive.h"
 #include "network/integrate.h"
 #include "network/knee_network.h"
+#include "network/network_equations.h"
+#include "network/simulate.h"
+#include "scene/read_scene.h"
 #include "support/quadric_knee.h"
 
 namespace condyle {
@@ -50,6 +53,36 @@ TEST(KneeMotion, ComesToRestAtTheEnginesPose) {
   EXPECT_LT(motion.largest_imbalance, 1e-6 * motion.energy_scale);
 }
 
+// The phantom, held at 20 degrees: compressed half as much again at first, it comes to rest where
+// the engine puts it.
+TEST(KneeMotion, ThePhantomComesToRestAtTheEnginesPose) {
+  Scene scene = read_scene(CONDYLE_SOURCE_DIR "/data/phantom/pendulum.toml");
+  ConditionDescription flexion;
+  flexion.name = "flexion";
+  flexion.kind = ConditionKind::kFlexion;
+  scene.conditions.push_back(flexion);
+  SimulationDescription& simulation = *scene.simulation;
+  simulation.hold = {0};
+  simulation.viscous_time = 0.1;
+  simulation.rate = 1;
+  simulation.time = 1;
+  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
+  const RigidTransform rest = simulate(scene, surfaces).poses.front().X_BA;
+
+  DriveDescription drive;
+  drive.load = 0;
+  drive.shape = DriveDescription::Shape::kTable;
+  drive.times = {0, 0.1};
+  drive.factors = {1.5, 1};
+  simulation.drives = {drive};
+  simulation.time = 12;
+  const Simulation motion = simulate(scene, surfaces);
+  ASSERT_TRUE(motion.motion.completed) << motion.motion.reason;
+  EXPECT_GT((motion.poses.front().X_BA.p - rest.p).norm(), 1e-3);
+  EXPECT_LT((motion.poses.back().X_BA.p - rest.p).norm(), 1e-6);
+  EXPECT_LT((motion.poses.back().X_BA.R - rest.R).norm(), 1e-6 / 30);
+}
+
 // Undamped and with the flexion free, the energy stays what it was.
 TEST(KneeMotion, KeepsItsEnergyWhileItSwings) {
   const Model model = test::quadric_knee();
@@ -75,6 +108,68 @@ TEST(KneeMotion, KeepsItsEnergyWhileItSwings) {
     double weights = 4e-3 * 9810 * state.bodies[0].v.norm();
     EXPECT_LE(std::abs(power.sum), 1e-12 * (power.scale + weights)) << frame.state.t;
   }
+}
+
+// Ten seconds of an undamped swing, in the mission's figure: 1e-8 of the total energy.
+TEST(KneeMotion, KeepsItsEnergyForTenSeconds) {
+  const Model model = test::quadric_knee();
+  KneeNetwork knee = make_knee_network(model, leg());
+  knee.network.gravity = {0, -9810, 0};
+  IntegrationOptions options;
+  options.end = 10;
+  options.interval = 0.1;
+  options.tolerance = 1e-12;
+  const Motion motion =
+      integrate(knee.network, state_at_rest(model, knee, equilibrium(1)), options);
+  ASSERT_TRUE(motion.completed) << motion.reason;
+  EXPECT_GT(motion.energy_scale, 10);
+  EXPECT_LT(motion.largest_imbalance, 1e-8 * motion.energy_scale);
+}
+
+// An integrator that fails says when and why, keeps what it has stored, and a scout that lets
+// frames be tried again in halves does not multiply what is lost already.
+TEST(KneeMotion, TooManyStepsEndItAtOnce) {
+  const Model model = test::quadric_knee();
+  KneeNetwork knee = make_knee_network(model, leg());
+  knee.network.conditions.clear();
+  knee.network.gravity = {0, -9810, 0};
+  IntegrationOptions options;
+  options.end = 0.1;
+  options.interval = 0.01;
+  options.tolerance = 1e-12;
+  options.most_steps = 120;
+  long scouted = 0;
+  const Motion motion = integrate(knee.network, state_at_rest(model, knee, equilibrium(1)), options,
+                                  [&](NetworkState&) {
+                                    ++scouted;
+                                    return ContactSighting{};
+                                  });
+  EXPECT_FALSE(motion.completed);
+  EXPECT_NE(motion.reason.find("too many steps for one frame"), std::string::npos) << motion.reason;
+  EXPECT_EQ(motion.reason.find("at 0"), 0U) << motion.reason;
+  EXPECT_GE(motion.frames.size(), 1U);
+  EXPECT_EQ(static_cast<std::size_t>(scouted), motion.frames.size());  // no frame twice
+  EXPECT_LT(motion.steps, 130 * static_cast<long>(motion.frames.size() + 1));
+}
+
+// Frames that are always overlapped are tried in halves, but not without end.
+TEST(KneeMotion, AnOverlapThatStaysEndsTheMotionInBoundedTime) {
+  const Model model = test::quadric_knee();
+  const KneeNetwork knee = make_knee_network(model, leg());
+  IntegrationOptions options;
+  options.end = options.interval = 0.01;
+  long asked = 0;
+  const Motion motion = integrate(knee.network, state_at_rest(model, knee, equilibrium(1)), options,
+                                  [&](NetworkState& state) {
+                                    ++asked;
+                                    ContactSighting sighting;
+                                    if (state.t > 0.002) sighting.unseen = -1;
+                                    return sighting;
+                                  });
+  EXPECT_FALSE(motion.completed);
+  EXPECT_NE(motion.reason.find("overlap where no contact could be followed"), std::string::npos);
+  EXPECT_LT(asked, 250);
+  EXPECT_EQ(motion.frames.size(), 1U);
 }
 
 // A pulse of 3 ms in a second of rest is not stepped over: m v = F d.

@@ -72,7 +72,7 @@ TEST(RigidBodyComponent, InverseOfTheInertiaNeedsNoFactorization) {
     const Eigen::Matrix3d R = random.rotation();
     const InertiaTerms terms =
         inertia_terms(mass, random.vector(300), R, Vector6::Zero(), Eigen::Vector3d::Zero());
-    const Matrix6 unit = inverse_inertia(mass, R, terms.arm) * terms.P;
+    const Matrix6 unit = inverse_inertia(mass.mass, mass.inertia.inverse(), R, terms.arm) * terms.P;
     EXPECT_LT((unit - Matrix6::Identity()).cwiseAbs().maxCoeff(), 1e-9);
   }
 }

@@ -77,6 +77,58 @@ TEST_F(SimulateCommand, ABlowOpensAndClosesTheCompartments) {
   EXPECT_GT(work.back(), 0.5);  // [J]
 }
 
+// 100 N e^(-10 t) sin(10 π t) pushes the shank back first, then forward: it gains and loses speed.
+TEST_F(SimulateCommand, ADecayingSineSwingsTheShankToAndFro) {
+  const Outcome outcome =
+      run("simulate '" CONDYLE_SOURCE_DIR "/data/phantom/decaying-sine.toml' -o sine.h5");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::vector<double> flexions = flexions_of(at("sine.h5"));
+  ASSERT_EQ(flexions.size(), 201U);
+  EXPECT_GT(flexions.back(), 45);
+  const double before = flexions[60] - flexions[50], after = flexions[105] - flexions[95];
+  EXPECT_GT(before,
+            1.3 * after);  // 100 to 120 ms, at the end of the push; 190 to 210 ms, of the pull
+  const Hdf5Reader reader(at("sine.h5"));
+  const Hdf5Group energy = reader.root().open("simulate").open("energy");
+  const std::vector<double> work = energy.read("driver_work").values;
+  EXPECT_GT(*std::max_element(work.begin(), work.end()), work.back() + 0.05);  // [J]
+}
+
+// What leaves the surfaces ends with its reason and angle, and what was computed is kept.
+TEST_F(SimulateCommand, AMotionThatLeavesItsSurfacesSaysWhereAndKeepsItsFrames) {
+  const std::string source = contents(CONDYLE_SOURCE_DIR "/data/phantom/blow.toml");
+  std::string scene = with(source, "vector = [-50, 0, 0]", "vector = [-140, 0, 0]");
+  scene = with(scene, "duration = 0.1", "duration = 0.15");
+  scene = with(scene, "time = 0.2", "time = 0.3");
+  for (int k = 0; k < 2; ++k)
+    scene = with(scene, "\"../../meshes", "\"" CONDYLE_SOURCE_DIR "/meshes");
+  write("hard.toml", scene);
+  const Outcome outcome = run("simulate hard.toml -o hard.h5");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("deg of flexion at the frame before"), std::string::npos)
+      << outcome.err;
+  const std::vector<double> flexions = flexions_of(at("hard.h5"));
+  EXPECT_GT(flexions.size(), 100U);
+  EXPECT_GT(flexions.back(), 90);
+}
+
+// A scene may hold both tables; each command does its own.
+TEST_F(SimulateCommand, ASceneMayBeSweptAndSimulated) {
+  std::string both =
+      with(kSmallScene, "start.rotation = [0, 0, 0]\n", "start.rotation = [0, 0, 0]\n" + kMass);
+  both += "\n[simulate]\ntime = 0.02\nrate = 50\nflexion = 10\n";
+  write("both.toml", both);
+  const Outcome motion = run("simulate both.toml -o motion.h5");
+  ASSERT_EQ(motion.code, 0) << motion.err;
+  const Outcome sweep = run("sweep both.toml -o sweep.h5");
+  ASSERT_EQ(sweep.code, 0) << sweep.err;
+  const condyle::Run moved = read_run(at("motion.h5")), swept = read_run(at("sweep.h5"));
+  EXPECT_TRUE(moved.scene.simulation && !moved.scene.sweep);
+  EXPECT_TRUE(swept.scene.sweep && !swept.scene.simulation);
+  EXPECT_NEAR(moved.sweep.poses.back().value, 0.02, 1e-12);
+  EXPECT_FALSE(swept.simulation);
+}
+
 // The numbers that the scene gives: a leg of 4 kg.
 TEST_F(SimulateCommand, CheckSaysTheMass) {
   const Outcome outcome = run("check '" CONDYLE_SOURCE_DIR "/data/phantom/blow.toml'");
@@ -102,6 +154,13 @@ TEST_F(SimulateCommand, BadInputIsNamed) {
   const Outcome drive = run("simulate swing.toml -o swing.h5");
   EXPECT_EQ(drive.code, 1);
   EXPECT_NE(drive.err.find("nobody"), std::string::npos) << drive.err;
+  write("open.stl",
+        "solid open\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 9 0 0\n"
+        "vertex 0 9 0\nendloop\nendfacet\nendsolid open\n");
+  write("swing.toml", with(released(), kMass, "mesh = \"open.stl\"\ndensity = 1.9e-6\n"));
+  const Outcome open = run("simulate swing.toml -o swing.h5");
+  EXPECT_EQ(open.code, 1);
+  EXPECT_NE(open.err.find("expected a closed mesh for its mass"), std::string::npos) << open.err;
   const Outcome none = run("simulate knee.toml -o swing.h5");
   expect_bad_input(none, "knee.toml: [simulate] is missing, expected time, rate and gravity");
 }

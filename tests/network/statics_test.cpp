@@ -47,8 +47,8 @@ TEST(Statics, NetworkWithoutInertiaHasTheEnginesResidual) {
     // Both look at the contact points of this pose.
     const KneeNetwork knee = make_knee_network(model, {});
     NetworkState at = state_at_rest(model, knee, state);
-    std::vector<ContactLinearization> settled;
-    ASSERT_TRUE(settle_contacts(knee.network, at, settled));
+    std::vector<SettledContact> settled;
+    ASSERT_TRUE(settle_contacts(knee.network, true, at, settled));
     for (std::size_t i = 0; i < knee.places.size(); ++i)
       for (ClosedContact& contact : state.contacts)
         if (at.contacts[i].closed && contact.pair == knee.places[i]) {

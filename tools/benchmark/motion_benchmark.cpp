@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "input_error.h"
+#include "network/network_equations.h"
 #include "network/simulate.h"
 #include "scene/read_scene.h"
 
@@ -40,6 +41,12 @@ BENCHMARK_CAPTURE(motion, pendulum, "pendulum.toml")
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(motion, blow, "blow.toml")
+    ->Arg(5)
+    ->Arg(7)
+    ->Arg(9)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(motion, decaying_sine, "decaying-sine.toml")
     ->Arg(5)
     ->Arg(7)
     ->Arg(9)
