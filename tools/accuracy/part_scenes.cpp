@@ -1,6 +1,7 @@
 #include "accuracy/part_scenes.h"
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "benchmark/patch_knee.h"
@@ -12,8 +13,8 @@ constexpr double kStep = 5 * M_PI / 180;
 
 Model knee(bool patches) { return patches ? benchmarks::patch_knee() : test::quadric_knee(); }
 
-/// What the ligaments leave to prescribe: with two contacts and the flexion nothing is free.
-std::vector<KinematicCondition> in_place_of_ligaments(const Model& model) {
+/// With two contacts and the flexion they leave nothing free.
+std::vector<KinematicCondition> more_motions(const Model& model) {
   std::vector<KinematicCondition> conditions;
   for (const ConditionKind kind : {ConditionKind::kInternalRotation, ConditionKind::kLateralShift,
                                    ConditionKind::kAnteriorDrawer}) {
@@ -26,13 +27,14 @@ std::vector<KinematicCondition> in_place_of_ligaments(const Model& model) {
 
 Model make_model(const Parts& parts) {
   Model model = knee(parts.patches);
+  if (parts.prescribed)
+    for (const KinematicCondition& condition : more_motions(model)) {
+      model.conditions.push_back(condition);
+      model.condition_names.emplace_back("prescribed");
+    }
   if (!parts.ligaments) {
     model.elements.clear();
     model.element_names.clear();
-    for (const KinematicCondition& condition : in_place_of_ligaments(model)) {
-      model.conditions.push_back(condition);
-      model.condition_names.emplace_back("in place of ligaments");
-    }
   }
   if (!parts.joint) model.joint.reset();
   if (!parts.search)
@@ -40,16 +42,16 @@ Model make_model(const Parts& parts) {
   return model;
 }
 
-/// The flexions, and where ligaments are left out what the knee does with them.
+/// The flexions, and what the knee with its ligaments does.
 std::vector<std::vector<double>> make_values(const Parts& parts) {
   std::vector<std::vector<double>> values;
   EquilibriumSolver solver(knee(parts.patches));
   for (int pose = 0; pose <= PartSweep::kPoses; ++pose) {
     std::vector<double>& here = values.emplace_back(1, pose * kStep);
-    if (parts.ligaments) continue;
+    if (!parts.prescribed) continue;
     solver.model().conditions[0].value = here[0];
     const RigidTransform X = solver.solve().X_BA;
-    for (const KinematicCondition& condition : in_place_of_ligaments(solver.model()))
+    for (const KinematicCondition& condition : more_motions(solver.model()))
       here.push_back(evaluate(condition, X).coordinate);
   }
   return values;
@@ -69,15 +71,31 @@ Model at_first(Model model, const std::vector<double>& values) {
 }  // namespace
 
 const std::vector<PartScene>& part_scenes() {
+  const Parts none{.patches = false,
+                   .ligaments = false,
+                   .joint = false,
+                   .stability = false,
+                   .search = false,
+                   .prescribed = true};
   static const std::vector<PartScene> all{
       {"all", "patches, ligaments, joint frame, stability, search", {}},
-      {"patches", "without patches: exact surfaces", {.patches = false}},
-      {"ligaments", "without ligaments: prescribed in their place", {.ligaments = false}},
-      {"joint", "without joint frame", {.joint = false}},
-      {"stability", "without stability", {.stability = false}},
-      {"search", "without search for contacts: held closed", {.search = false}},
-      {"none", "without all of these", {false, false, false, false, false}}};
+      {"patches", "without patches: exact surfaces", {.patches = false}, "all"},
+      {"joint", "without joint frame", {.joint = false}, "all"},
+      {"stability", "without stability", {.stability = false}, "all"},
+      {"search", "without search for contacts: held closed", {.search = false}, "all"},
+      {"prescribed", "and three more motions prescribed", {.prescribed = true}},
+      {"ligaments",
+       "these prescribed, without ligaments",
+       {.ligaments = false, .prescribed = true},
+       "prescribed"},
+      {"none", "these prescribed, without all the rest", none, "ligaments"}};
   return all;
+}
+
+const PartScene& part_scene(const std::string& name) {
+  for (const PartScene& scene : part_scenes())
+    if (scene.name == name) return scene;
+  throw std::invalid_argument("no scene " + name);
 }
 
 PartSweep::PartSweep(const Parts& parts)

@@ -1,7 +1,9 @@
 #pragma once
 
 /// One sweep of a knee with and without the parts that a scene may or may not use: the quadric knee
-/// from 0 to 90 degrees in steps of 5, its poses the same in all (on patches: nearly).
+/// from 0 to 90 degrees in steps of 5, its poses the same in all (on patches: nearly). Without
+/// ligaments the motions that they leave are prescribed; so that it can be told what the ligaments
+/// alone cost, there is a scene with both.
 
 #include <string>
 #include <vector>
@@ -12,20 +14,25 @@ namespace condyle::accuracy {
 
 struct Parts {
   bool patches = true;    ///< else the exact surfaces that they were fitted to
-  bool ligaments = true;  ///< else what they leave free is prescribed
+  bool ligaments = true;
   bool joint = true;      ///< joint coordinates of each pose
   bool stability = true;
-  bool search = true;  ///< for contacts; else they are held closed
+  bool search = true;       ///< for contacts; else they are held closed
+  bool prescribed = false;  ///< three more motions than flexion: nothing is free
 };
 
 struct PartScene {
   std::string name;  ///< one word, for the command line
   std::string what;  ///< for a table
   Parts parts;
+  std::string more = {};  ///< the scene that is the same but for what this one does without
 };
 
 /// All parts, each part left out, and none.
 [[nodiscard]] const std::vector<PartScene>& part_scenes();
+
+/// Of part_scenes, by its name. Throws where there is none.
+[[nodiscard]] const PartScene& part_scene(const std::string& name);
 
 class PartSweep {
  public:
