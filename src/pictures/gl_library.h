@@ -1,8 +1,8 @@
 #pragma once
 
 /// OpenGL and OSMesa, opened when the first picture is drawn. OSMesa brings a compiler (LLVM) that
-/// weighs more than all the rest of the program, and most commands draw nothing: they do not pay for
-/// it. Within condyle the functions below stand in for those of their names.
+/// weighs more than all the rest of the program, and most commands draw nothing: they do not pay
+/// for it. Within condyle the functions below stand in for those of their names.
 
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>

@@ -281,8 +281,16 @@ std::vector<HardCase> motion_cases() {
        1e-9,
        wheel,
        "turns back at 90"},
-      {"one step", "one-step.toml", {}, "a knee from 0 to 120 degrees at once",
-       "where 24 small steps lead", "cc", 1e-10, nullptr, "", 24},
+      {"one step",
+       "one-step.toml",
+       {},
+       "a knee from 0 to 120 degrees at once",
+       "where 24 small steps lead",
+       "cc",
+       1e-10,
+       nullptr,
+       "",
+       24},
   };
 }
 

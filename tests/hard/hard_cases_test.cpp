@@ -8,7 +8,6 @@
 #include <cctype>
 #include <string>
 
-
 namespace condyle::hard {
 
 void PrintTo(const HardCase& hard, std::ostream* out) { *out << hard.name; }

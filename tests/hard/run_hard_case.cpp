@@ -74,19 +74,24 @@ bool is_finite(const PoseResult& pose) {
 }
 
 /// The largest of the poses that converged; of the solver's own state where none did.
-double largest_condition(EquilibriumSolver& solver, const SweptValue& swept, const SweepResult& sweep) {
+double largest_condition(EquilibriumSolver& solver,
+                         const SweptValue& swept,
+                         const SweepResult& sweep) {
   double largest = 0;
   for (const PoseResult& pose : sweep.poses) {
     if (!pose.converged() || !can_restore(solver.model(), pose)) continue;
     swept.in(solver.model()) = pose.value;
-    largest = std::max(largest,
-                       condition_number(solver.model(), restore_state(solver.model(), pose)));
+    largest =
+        std::max(largest, condition_number(solver.model(), restore_state(solver.model(), pose)));
   }
   return largest > 0 ? largest : condition_number(solver.model(), solver.state());
 }
 
 /// How far the last pose is from where as many equal steps lead: |Δa|/L or the angle.
-double far_from_steps(const Model& model, const SweptValue& swept, const SweepResult& sweep, int steps) {
+double far_from_steps(const Model& model,
+                      const SweptValue& swept,
+                      const SweepResult& sweep,
+                      int steps) {
   EquilibriumSolver solver(model);
   PoseResult pose;
   for (int k = 0; k <= steps; ++k) {

@@ -19,8 +19,8 @@ class AllocationCount {
   long start_;
 };
 
-/// Heap that all threads hold beyond what they held at construction [bytes], as malloc hands it out.
-/// Where one of these counts, no other does: they share the peak.
+/// Heap that all threads hold beyond what they held at construction [bytes], as malloc hands it
+/// out. Where one of these counts, no other does: they share the peak.
 class HeapUse {
  public:
   HeapUse();

@@ -30,8 +30,7 @@ std::optional<long> step_through(const std::function<void()>& work) {
   if (waitpid(child, &status, 0) == child && WIFSTOPPED(status)) {
     long steps = 0;
     while (ptrace(PTRACE_SINGLESTEP, child, nullptr, nullptr) == 0 &&
-           waitpid(child, &status, 0) == child && WIFSTOPPED(status) &&
-           WSTOPSIG(status) == SIGTRAP)
+           waitpid(child, &status, 0) == child && WIFSTOPPED(status) && WSTOPSIG(status) == SIGTRAP)
       ++steps;
     if (WIFSTOPPED(status) && WSTOPSIG(status) == SIGSTOP) count = steps;
     kill(child, SIGKILL);

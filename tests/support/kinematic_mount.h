@@ -1,7 +1,7 @@
 #pragma once
 
-/// A body that stands with one to six contacts: three balls, each in a groove of two walls (Kelvin's
-/// clamp), with a weight and springs that hold what the contacts leave free.
+/// A body that stands with one to six contacts: three balls, each in a groove of two walls
+/// (Kelvin's clamp), with a weight and springs that hold what the contacts leave free.
 
 #include <Eigen/Geometry>
 

@@ -1,8 +1,8 @@
 /// Measures what an answer costs and how wrong it is. Arguments: the folder to write into, the
 /// folder of the project, and the studies to run, all where none is named.
 ///
-/// Writes docs/accuracy.md with the figures of this run into the folder. Ends with 2 where something
-/// that was to hold does not.
+/// Writes docs/accuracy.md with the figures of this run into the folder. Ends with 2 where
+/// something that was to hold does not.
 
 #include <fmt/os.h>
 
@@ -26,10 +26,10 @@ struct Chapter {
   Study (*study)(const Setting&);
 };
 
-constexpr Chapter kChapters[] = {
-    {"surfaces", study_surfaces}, {"smoothing", study_smoothing}, {"solver", study_solvers},
-    {"way", study_whole_way},     {"parts", study_parts},         {"growth", study_growth},
-    {"hard", study_hard_cases}};
+constexpr Chapter kChapters[] = {{"surfaces", study_surfaces}, {"smoothing", study_smoothing},
+                                 {"solver", study_solvers},    {"way", study_whole_way},
+                                 {"parts", study_parts},       {"growth", study_growth},
+                                 {"hard", study_hard_cases}};
 
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream stream(file);

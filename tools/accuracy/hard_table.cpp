@@ -36,9 +36,9 @@ Study study_hard_cases(const Setting& setting) {
     const std::string condition = fmt::format("{:.0e}", outcome.condition);
     csv.print("\"{}\",{},{},{},{},{},{}\n", one.name, one.file, outcome.statuses,
               outcome.iterations, residual, condition, error);
-    study.page += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", one.name, one.why,
-                              one.wanted, counted(outcome.statuses), outcome.iterations, residual,
-                              condition, error);
+    study.page +=
+        fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", one.name, one.why, one.wanted,
+                    counted(outcome.statuses), outcome.iterations, residual, condition, error);
     const bool good = outcome.as_expected(one) && outcome.finite && outcome.has_words &&
                       outcome.error <= one.tolerance;
     study.require(good, fmt::format("hard case \"{}\": {}", one.name, one.wanted));
@@ -46,14 +46,16 @@ Study study_hard_cases(const Setting& setting) {
     ++count;
   }
   study.page +=
-      "\nStatuses, poses and their letter: c converged, l left patch, n no equilibrium, s singular, "
+      "\nStatuses, poses and their letter: c converged, l left patch, n no equilibrium, s "
+      "singular, "
       "z zero length, i iteration limit. Iterations include those of the descent and of parts of a "
       "step. Condition: of Newton's matrix (rows in N and mm), the largest of the poses that "
       "converged.\n";
-  study.in_short = {fmt::format(
-      "**{} of {} hard cases behave as they should**: nothing crashes, hangs or is wrong and called "
-      "converged. Each is a scene of `data/hard`; the tests check the table below.",
-      as_expected, count)};
+  study.in_short = {
+      fmt::format("**{} of {} hard cases behave as they should**: nothing crashes, hangs or is "
+                  "wrong and called "
+                  "converged. Each is a scene of `data/hard`; the tests check the table below.",
+                  as_expected, count)};
   return study;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// docs/accuracy.md holds, between `<!-- measured: NAME -->` and `<!-- end -->`, what one run of the
-/// studies found; the rest is written by hand.
+/// docs/accuracy.md holds, between `<!-- measured: NAME -->` and `<!-- end -->`, what one run of
+/// the studies found; the rest is written by hand.
 
 #include <string>
 

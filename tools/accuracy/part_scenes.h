@@ -13,9 +13,9 @@
 namespace condyle::accuracy {
 
 struct Parts {
-  bool patches = true;    ///< else the exact surfaces that they were fitted to
+  bool patches = true;  ///< else the exact surfaces that they were fitted to
   bool ligaments = true;
-  bool joint = true;      ///< joint coordinates of each pose
+  bool joint = true;  ///< joint coordinates of each pose
   bool stability = true;
   bool search = true;       ///< for contacts; else they are held closed
   bool prescribed = false;  ///< three more motions than flexion: nothing is free

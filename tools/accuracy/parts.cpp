@@ -56,13 +56,11 @@ Cost cost_of(const Parts& parts) {
   cost.refused = kVisits - scene.there_and_back(pose);
   cost.allocations = static_cast<double>(allocations.since_start()) / kVisits;
   cost.sweep_kB = static_cast<double>(sweeping.peak()) / 1024;
-  cost.microseconds =
-      least_microseconds(200, [&] { scene.there_and_back(pose); }) / kVisits;
+  cost.microseconds = least_microseconds(200, [&] { scene.there_and_back(pose); }) / kVisits;
 
   constexpr int kMiddle = PartSweep::kPoses / 2;
   for (int k = 1; k < kMiddle; ++k) scene.solve(k, pose);
-  cost.instructions =
-      test::count_instructions([&] { scene.solve(kMiddle, pose); }).value_or(-1);
+  cost.instructions = test::count_instructions([&] { scene.solve(kMiddle, pose); }).value_or(-1);
   count_questions(scene, cost);
   return cost;
 }
@@ -85,8 +83,8 @@ struct Row {
 std::vector<Row> measure(Study& study) {
   std::vector<Row> rows;
   for (const PartScene& scene : part_scenes()) {
-    const Process process = run_process(
-        {"/proc/self/exe", "-", "-", std::string(kPartPrefix) + scene.name});
+    const Process process =
+        run_process({"/proc/self/exe", "-", "-", std::string(kPartPrefix) + scene.name});
     const std::optional<Cost> cost = parse(process.output);
     if (!process.good || !cost) throw std::runtime_error("cannot measure " + scene.name);
     study.require(cost->refused == 0, "all poses converge: " + scene.what);
@@ -112,7 +110,7 @@ void require_less(const std::vector<Row>& rows, Study& study) {
 }
 
 /// The command line's own cost: what a scene draws, and what it does not.
-std::string commands(const Setting& setting) {
+std::string commands(const Setting& setting, std::vector<double>& megabytes) {
   const std::string program = (setting.root / "build/condyle").string();
   const std::string scene = (setting.root / "data/phantom/knee.toml").string();
   const std::string run = (setting.folder / "parts.h5").string();
@@ -136,9 +134,10 @@ std::string commands(const Setting& setting) {
       if (k == 0 || (process.good && process.seconds < best.seconds)) best = process;
     }
     if (!best.good) continue;
+    megabytes.push_back(best.megabytes);
     csv.print("\"{}\",{:.1f},{:.1f}\n", name, best.seconds * 1e3, best.megabytes);
-    page += fmt::format("| {} | {:.0f} ms | {:.0f} MB |\n", name, best.seconds * 1e3,
-                        best.megabytes);
+    page +=
+        fmt::format("| {} | {:.0f} ms | {:.0f} MB |\n", name, best.seconds * 1e3, best.megabytes);
   }
   return page;
 }
@@ -162,7 +161,8 @@ Study study_parts(const Setting& setting) {
       "megabytes\n");
   study.page =
       "The quadric knee from 0 to 90° in steps of 5°, warm, two contacts and eight ligaments; each "
-      "row in a process of its own. Instructions: of the pose at 45°, counted one by one. Asked: how "
+      "row in a process of its own. Instructions: of the pose at 45°, counted one by one. Asked: "
+      "how "
       "often a surface is asked for a point, an element for its force. Heap: of model and solver, "
       "and what a sweep takes beside it.\n\n"
       "| scene | time per pose | instructions | surfaces asked | elements asked | allocations per "
@@ -174,11 +174,26 @@ Study study_parts(const Setting& setting) {
               c.sweep_kB, megabytes);
     study.page += fmt::format(
         "| {} | {:.1f} µs | {} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} |\n",
-        scene.what, c.microseconds,
-        c.instructions < 0 ? "" : fmt::format("{}", c.instructions), c.surfaces, c.elements,
-        c.allocations, c.set_up_kB, c.sweep_kB, megabytes);
+        scene.what, c.microseconds, c.instructions < 0 ? "" : fmt::format("{}", c.instructions),
+        c.surfaces, c.elements, c.allocations, c.set_up_kB, c.sweep_kB, megabytes);
   }
-  study.page += commands(setting);
+  std::vector<double> megabytes;
+  study.page += commands(setting, megabytes);
+  std::string less;
+  for (const Row& row : rows)
+    if (row.scene.more == "all")
+      less += fmt::format("{} {} ({:.1f} µs)", less.empty() ? "" : ",", row.scene.what,
+                          row.cost.microseconds);
+  study.in_short.push_back(fmt::format(
+      "**A scene pays for what it uses.** A warm pose allocates nothing and takes {:.1f} µs with "
+      "everything;{}. The tests count instructions, questions to surfaces and elements, and "
+      "allocations.",
+      rows.front().cost.microseconds, less));
+  if (megabytes.size() == 5)
+    study.in_short.push_back(fmt::format(
+        "**Memory:** the program starts with {:.0f} MB, sweeps the phantom in {:.0f} MB, and takes "
+        "{:.0f} MB once it draws.",
+        megabytes[0], megabytes[2], megabytes[3]));
   return study;
 }
 

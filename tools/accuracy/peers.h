@@ -29,7 +29,7 @@ struct ExactPose {
   Vec3<long double> a;
   Mat3<long double> R;
   std::array<long double, 2> contacts;  ///< their forces [N]
-  double residual = 0;  ///< largest of the equations' [N] or [mm]
+  double residual = 0;                  ///< largest of the equations' [N] or [mm]
 };
 
 /// The solution in long double, from one in double.

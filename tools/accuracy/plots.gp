@@ -1,5 +1,5 @@
 # Plots of the accuracy study; `folder` is where its tables are. What was not measured is not drawn.
-exists(name) = system(sprintf("test -f '%s/%s.csv' && echo 1 || echo 0", folder, name)) + 0
+is_there(name) = system(sprintf("test -f '%s/%s.csv' && echo 1 || echo 0", folder, name)) + 0
 set datafile separator ","
 set terminal pngcairo size 900,560 font "DejaVu Sans,12" enhanced
 set linetype 1 lc rgb "#0072b2"
@@ -14,7 +14,7 @@ set logscale y
 set format y "10^{%T}"
 set key samplen 2 opaque
 
-if (exists("convergence")) {
+if (is_there("convergence")) {
 set output folder."/images/accuracy_convergence.png"
 set title "Newton's method from the pose five degrees before"
 set xlabel "iterations"
@@ -30,14 +30,14 @@ set output folder."/images/accuracy_solvers.png"
 set title "Error against time of one pose: two contacts, eight ligaments"
 set xlabel "time per pose [µs]"
 set logscale x
-set xrange [1:1000]
+set xrange [1:2000]
 set key inside top right
 plot folder."/tolerance.csv" every ::1 using 4:2 with linespoints lw 2 pt 7 lt 1 \
        title "ours, Newton alone, tolerance 10^{-2} to 10^{-13}", \
      for [row=2:rows] folder."/solvers.csv" every ::row::row using 6:5 with points pt 2*row+1 ps 2 lt row-1 title name(row)
 }
 
-if (exists("whole_way")) {
+if (is_there("whole_way")) {
 # Only the rows of one group: others are not numbers, and not drawn.
 way(group, column) = strcol(1)[1:strlen(group)] eq group ? column : NaN
 groups = "resolution|control points|roughness|smoothing|exact"

@@ -72,8 +72,7 @@ Process run_process(const std::vector<std::string>& command) {
     const int status = follow(child, process.megabytes);
     process.good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   }
-  process.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  process.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   process.output = read_all(ends[0]);
   close(ends[0]);
   return process;

@@ -96,13 +96,13 @@ std::vector<Shape> of_phantom(double noise) {
   std::vector<Shape> all;
   for (std::size_t i = 0; i < exact.size(); ++i) {
     const Bone bone = exact[i].bone;
-    all.push_back({exact[i].name, false, std::move(exact[i].region), std::move(noisy[i].region),
-                   [bone](const Patch& patch) {
-                     PatchErrors errors;
-                     errors.add(bone, patch);
-                     return FitErrors{errors.position.rms(), errors.normal.rms(),
-                                      errors.curvature.rms()};
-                   }});
+    all.push_back(
+        {exact[i].name, false, std::move(exact[i].region), std::move(noisy[i].region),
+         [bone](const Patch& patch) {
+           PatchErrors errors;
+           errors.add(bone, patch);
+           return FitErrors{errors.position.rms(), errors.normal.rms(), errors.curvature.rms()};
+         }});
   }
   return all;
 }

@@ -19,7 +19,7 @@
 namespace condyle::accuracy {
 namespace {
 
-constexpr double kGrid = 1.4;  // [mm]
+constexpr double kGrid = 1.4;                                                             // [mm]
 constexpr double kAmplitudes[] = {0.05, 0.1, 0.2, 0.3}, kCorrelations[] = {0.5, 1.5, 3};  // [mm]
 constexpr std::uint64_t kSeeds = 2;
 constexpr int kLengths = 9;  // of the scan, from 1 to 6 mm
@@ -137,8 +137,7 @@ Study study_smoothing(const Setting& setting) {
         ratios.add(one.ratio(&PatchErrors::position));
         best += one.least(&PatchErrors::position) / 4;
       }
-      study.page +=
-          fmt::format(" {:.2f}, {:.2f} ({:.3f} mm) |", ratios.mean(), ratios.worst, best);
+      study.page += fmt::format(" {:.2f}, {:.2f} ({:.3f} mm) |", ratios.mean(), ratios.worst, best);
     }
     study.page += "\n";
   }

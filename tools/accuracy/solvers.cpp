@@ -238,7 +238,8 @@ void beside_others(const std::vector<Task>& tasks, const Setting& setting, Study
   study.require(whole.converged == kPoses && whole.worst.pose < 1e-11,
                 "the solver's poses are those in long double");
   study.in_short.push_back(fmt::format(
-      "**A pose of two contacts and eight ligaments costs {:.0f} µs**, with the search for contacts "
+      "**A pose of two contacts and eight ligaments costs {:.0f} µs**, with the search for "
+      "contacts "
       "anywhere on the surfaces, and is right to {:.0e} (forces to {:.0e} N). Convergence is "
       "quadratic: the last digits of the tolerance cost next to nothing.",
       whole.time, whole.worst.pose, whole.worst.force));
@@ -255,7 +256,8 @@ Study study_solvers(const Setting& setting) {
       "The quadric knee, 18 steps of 5 degrees. Truth: implicit equations in long double, 17 "
       "unknowns, residual {:.0e}. Pose error: the larger of |Δa|/L and the angle. Force error: of "
       "contacts and ligaments, under a load of 200 N.\n\n"
-      "![Newton's convergence](images/accuracy_convergence.png)\n\nNewton from the pose before:\n\n",
+      "![Newton's convergence](images/accuracy_convergence.png)\n\nNewton from the pose "
+      "before:\n\n",
       residual);
   convergence(tasks, setting, study);
   study.page += "\nWhat a tolerance buys:\n\n";

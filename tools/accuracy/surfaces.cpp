@@ -65,17 +65,18 @@ Orders add_orders(const Shape& shape, int degree, fmt::ostream& csv, Study& stud
     options.knot_spacing = 4 / ratio;
     if (shape.smooth) options.control_points = {{cells + degree, cells + degree}};
     const Fitted now = fit(shape, shape.exact, options);
-    if (ratio > 1) observed = orders(first, now.errors, ratio);
-    else first = now.errors;
+    if (ratio > 1)
+      observed = orders(first, now.errors, ratio);
+    else
+      first = now.errors;
     const auto with_order = [&](double error, double order) {
       return fmt::format("{:.1e}", error) + (ratio > 1 ? fmt::format(" ({:.1f})", order) : "");
     };
-    study.page += fmt::format("| {} | {} | {} x {} | {} | {} | {} | {:.0f} ms |\n", shape.name,
-                              degree, now.fit.patch.nu, now.fit.patch.nv,
-                              with_order(now.errors.position, observed.position),
-                              with_order(now.errors.normal, observed.normal),
-                              with_order(now.errors.curvature, observed.curvature),
-                              now.milliseconds);
+    study.page += fmt::format(
+        "| {} | {} | {} x {} | {} | {} | {} | {:.0f} ms |\n", shape.name, degree, now.fit.patch.nu,
+        now.fit.patch.nv, with_order(now.errors.position, observed.position),
+        with_order(now.errors.normal, observed.normal),
+        with_order(now.errors.curvature, observed.curvature), now.milliseconds);
     write(shape, 0, degree, now, csv);
   }
   return observed;
@@ -97,11 +98,12 @@ Fitted best_fit(const Shape& shape, FitOptions options) {
   return best;
 }
 
-void add_row(const Shape& shape, const Fitted& fitted, const char* smoothing, int degree, Study& study) {
-  study.page += fmt::format("| {} | {} | {} x {} | {:.1f}, {} | {:.4f} | {:.2f} | {:.4f} | {:.0f} ms |\n",
-                            shape.name, degree, fitted.fit.patch.nu, fitted.fit.patch.nv,
-                            fitted.fit.smoothing_length, smoothing, fitted.errors.position,
-                            fitted.errors.normal, fitted.errors.curvature, fitted.milliseconds);
+void add_row(
+    const Shape& shape, const Fitted& fitted, const char* smoothing, int degree, Study& study) {
+  study.page += fmt::format(
+      "| {} | {} | {} x {} | {:.1f}, {} | {:.4f} | {:.2f} | {:.4f} | {:.0f} ms |\n", shape.name,
+      degree, fitted.fit.patch.nu, fitted.fit.patch.nv, fitted.fit.smoothing_length, smoothing,
+      fitted.errors.position, fitted.errors.normal, fitted.errors.curvature, fitted.milliseconds);
 }
 
 void add_noise(const Shape& shape, int degree, double knots, fmt::ostream& csv, Study& study) {
@@ -127,7 +129,8 @@ Study study_surfaces(const Setting& setting) {
       "Sheets of 24 mm with 9,409 vertices, errors in the middle 16 mm against the exact surface; "
       "and the phantom's articular surfaces on a grid of 0.7 mm, errors farther than 4 mm from the "
       "edge. All root mean squares. Without noise, in brackets the order observed since the "
-      "first of the three:\n\n| shape | degree | control points | position [mm] | normal [°] | curvature [1/mm] | "
+      "first of the three:\n\n| shape | degree | control points | position [mm] | normal [°] | "
+      "curvature [1/mm] | "
       "fit |\n|---|---|---|---|---|---|---|\n";
   const std::vector<Shape> all = shapes(kNoise);
   Orders cubic;

@@ -144,7 +144,7 @@ Study study_whole_way(const Setting& setting) {
     write(way, outcome, csv);
     all.emplace_back(way, std::move(outcome));
   }
-  study.page += exponents(all) + price(all);
+  study.page += price(all);
   study.in_short = in_short(all);
   return study;
 }

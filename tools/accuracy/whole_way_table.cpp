@@ -80,23 +80,6 @@ void write(const Way& way, const Outcome& outcome, fmt::ostream& csv) {
             outcome.patches_ms, outcome.mean_sweep_ms(), outcome.pose_us);
 }
 
-std::string exponents(const std::vector<std::pair<Way, Outcome>>& all) {
-  const Outcome* first = nullptr;
-  const Outcome* last = nullptr;
-  for (const auto& [way, outcome] : all) {
-    if (way.group != all.front().first.group) continue;
-    if (!first) first = &outcome;
-    last = &outcome;
-  }
-  if (!first) return "";
-  const double grown = std::log(last->triangles / first->triangles);
-  return fmt::format(
-      "\nFrom {:.0f} to {:.0f} triangles reading grows with the exponent {:.2f}, and all until the "
-      "patches with {:.2f}.\n",
-      first->triangles, last->triangles, std::log(last->read_ms / first->read_ms) / grown,
-      std::log(last->patches_ms / first->patches_ms) / grown);
-}
-
 namespace {
 
 using Ways = std::vector<std::pair<Way, Outcome>>;
@@ -133,7 +116,8 @@ std::vector<std::string> in_short(const Ways& all) {
   const std::pair<Way, Outcome>* best = cheapest(all);
   if (!best || rough == all.end()) return {};
   return {fmt::format(
-      "**From mesh to pose the mesh's roughness limits the answer**, not its resolution, the spline "
+      "**From mesh to pose the mesh's roughness limits the answer**, not its resolution, the "
+      "spline "
       "or the solver. Below 0.1 mm and 0.1° at every pose takes a mesh without roughness and a "
       "short smoothing length, and costs {:.0f} ms from two files to ten poses, nearly all of it "
       "reading and fitting. With a roughness of 0.2 mm the same way ends {:.1f} mm and {:.1f}° off "
