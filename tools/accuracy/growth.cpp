@@ -169,7 +169,8 @@ std::vector<std::string> mesh_growth(const Setting& setting, fmt::ostream& csv, 
       for (const BodyDescription& body : scene.bodies)
         triangles += static_cast<double>(load_body_mesh(body).triangles.size());
     });
-    const double fitted = least_microseconds(3, [&] { static_cast<void>(fit_surfaces(scene)); });
+    const double fitted =
+        least_wall_microseconds(3, [&] { static_cast<void>(fit_surfaces(scene)); });
     measured.push_back({triangles, read, fitted});
   }
   for (const auto& [triangles, read, fitted] : measured) reading.add(triangles, read);

@@ -2,11 +2,11 @@
 
 #include <fcntl.h>
 #include <sys/ptrace.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
-#include <chrono>
 #include <csignal>
 #include <fstream>
 
@@ -32,18 +32,25 @@ double peak_megabytes(pid_t process) {
   return 0;
 }
 
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) / 1e6;
+}
+
 /// Lets the child run to its end, and looks at it just before.
-int follow(pid_t child, double& megabytes) {
+int follow(pid_t child, Process& process) {
   int status = 0;
   bool first = true;
-  while (waitpid(child, &status, 0) == child && WIFSTOPPED(status)) {
+  rusage use{};
+  while (wait4(child, &status, 0, &use) == child && WIFSTOPPED(status)) {
     long signal = WSTOPSIG(status);
     if (signal == SIGTRAP) signal = 0;  // exec, or the end
-    if (status >> 8 == (SIGTRAP | (PTRACE_EVENT_EXIT << 8))) megabytes = peak_megabytes(child);
+    if (status >> 8 == (SIGTRAP | (PTRACE_EVENT_EXIT << 8)))
+      process.megabytes = peak_megabytes(child);
     if (first) ptrace(PTRACE_SETOPTIONS, child, nullptr, PTRACE_O_TRACEEXIT | PTRACE_O_EXITKILL);
     first = false;
     ptrace(PTRACE_CONT, child, nullptr, signal);
   }
+  process.seconds = seconds(use.ru_utime) + seconds(use.ru_stime);
   return status;
 }
 
@@ -64,15 +71,13 @@ Process run_process(const std::vector<std::string>& command) {
   words.push_back(nullptr);
   int ends[2];
   if (pipe(ends) != 0) return process;
-  const auto begin = std::chrono::steady_clock::now();
   const pid_t child = fork();
   if (child == 0) become(words, ends[1]);
   close(ends[1]);
   if (child > 0) {
-    const int status = follow(child, process.megabytes);
+    const int status = follow(child, process);
     process.good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   }
-  process.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   process.output = read_all(ends[0]);
   close(ends[0]);
   return process;
