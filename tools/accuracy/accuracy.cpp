@@ -51,9 +51,9 @@ int run(const Setting& setting, const std::vector<std::string>& wanted) {
     for (const std::string& line : study.in_short) in_short += "- " + line + "\n";
     page = with_block(page, chapter.name, "\n" + study.page + "\n");
     page = with_block(page, std::string(chapter.name) + " in short", in_short);
+    fmt::output_file((setting.folder / "accuracy.md").string()).print("{}", page);
     broken.insert(broken.end(), study.broken.begin(), study.broken.end());
   }
-  fmt::output_file((setting.folder / "accuracy.md").string()).print("{}", page);
   for (const std::string& what : broken) fmt::print(stderr, "does not hold: {}\n", what);
   return broken.empty() ? 0 : 2;
 }

@@ -127,8 +127,7 @@ class Rows {
     std::string since;
     if (last_size_ > 0)
       since = fmt::format("{:.2f}", exponent(last_size_, last_time_, size, microseconds));
-    else
-      first_size_ = size, first_time_ = microseconds;
+    all_.emplace_back(size, microseconds);
     csv_.print("\"{}\",{},{:.2f}\n", name_, size, microseconds);
     const std::string time = microseconds > 1e4 ? fmt::format("{:.0f} ms", microseconds / 1e3)
                                                 : fmt::format("{:.1f} µs", microseconds);
@@ -137,10 +136,11 @@ class Rows {
     last_size_ = size;
     last_time_ = microseconds;
   }
-  /// From the first size to the last.
+  /// Over the upper half of the sizes.
   [[nodiscard]] std::string in_short() const {
-    return fmt::format("{} {:.1f}", name_,
-                       exponent(first_size_, first_time_, last_size_, last_time_));
+    const auto& [size, time] = all_[all_.size() / 2];
+    const double e = exponent(size, time, last_size_, last_time_);
+    return fmt::format("{} {:.1f}", name_, std::abs(e) < 0.05 ? 0 : e);
   }
 
  private:
@@ -151,13 +151,14 @@ class Rows {
   std::string name_, time_of_;
   fmt::ostream& csv_;
   Study& study_;
-  double first_size_ = 0, first_time_ = 0, last_size_ = 0, last_time_ = 0;
+  std::vector<std::pair<double, double>> all_;  // sizes and times
+  double last_size_ = 0, last_time_ = 0;
 };
 
 /// Reading and cleaning the phantom's two meshes, and that with four patches.
 std::vector<std::string> mesh_growth(const Setting& setting, fmt::ostream& csv, Study& study) {
-  Rows reading("triangles of both meshes", "reading and cleaning", csv, study);
-  Rows patches("triangles of both meshes", "until four patches", csv, study);
+  Rows reading("triangles read", "reading and cleaning", csv, study);
+  Rows patches("triangles fitted", "until four patches", csv, study);
   std::vector<std::array<double, 3>> measured;
   MeshFiles files(setting.folder / "meshes");
   Scene scene = phantom_scene(setting.root, 10);
@@ -175,8 +176,7 @@ std::vector<std::string> mesh_growth(const Setting& setting, fmt::ostream& csv, 
   }
   for (const auto& [triangles, read, fitted] : measured) reading.add(triangles, read);
   for (const auto& [triangles, read, fitted] : measured) patches.add(triangles, fitted);
-  return {"reading and cleaning with the " + reading.in_short(),
-          "reading and fitting with the " + patches.in_short()};
+  return {reading.in_short(), patches.in_short()};
 }
 
 }  // namespace
@@ -197,9 +197,9 @@ Study study_growth(const Setting& setting) {
     exponents.push_back(rows.in_short());
   }
   for (const std::string& more : mesh_growth(setting, csv, study)) exponents.push_back(more);
-  study.in_short = {
-      fmt::format("**Time grows** with these exponents, over all sizes of the table below: {}.",
-                  fmt::join(exponents, "; "))};
+  study.in_short = {fmt::format(
+      "**Time grows** with these exponents, over the upper half of the sizes below: {}.",
+      fmt::join(exponents, "; "))};
   return study;
 }
 
