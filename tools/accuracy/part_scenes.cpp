@@ -83,12 +83,12 @@ const std::vector<PartScene>& part_scenes() {
       {"joint", "without joint frame", {.joint = false}, "all"},
       {"stability", "without stability", {.stability = false}, "all"},
       {"search", "without search for contacts: held closed", {.search = false}, "all"},
-      {"prescribed", "and three more motions prescribed", {.prescribed = true}},
+      {"prescribed", "with three more motions prescribed", {.prescribed = true}},
       {"ligaments",
-       "these prescribed, without ligaments",
+       "with these, without ligaments",
        {.ligaments = false, .prescribed = true},
        "prescribed"},
-      {"none", "these prescribed, without all the rest", none, "ligaments"}};
+      {"none", "with these, without all the rest", none, "ligaments"}};
   return all;
 }
 

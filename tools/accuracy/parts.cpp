@@ -56,12 +56,13 @@ Cost cost_of(const Parts& parts) {
   cost.refused = kVisits - scene.there_and_back(pose);
   cost.allocations = static_cast<double>(allocations.since_start()) / kVisits;
   cost.sweep_kB = static_cast<double>(sweeping.peak()) / 1024;
-  cost.microseconds = least_microseconds(200, [&] { scene.there_and_back(pose); }) / kVisits;
-
   constexpr int kMiddle = PartSweep::kPoses / 2;
   for (int k = 1; k < kMiddle; ++k) scene.solve(k, pose);
   cost.instructions = test::count_instructions([&] { scene.solve(kMiddle, pose); }).value_or(-1);
   count_questions(scene, cost);
+  cost.microseconds = least_microseconds(
+                          100000, [&] { scene.there_and_back(pose); }, 1.5) /
+                      kVisits;
   return cost;
 }
 
@@ -180,18 +181,18 @@ Study study_parts(const Setting& setting) {
   }
   std::vector<double> megabytes;
   study.page += commands(setting, megabytes);
-  const Cost& all = rows.front().cost;
-  std::string less;
+  const auto all = static_cast<double>(rows.front().cost.instructions);
+  std::vector<std::string> shares;
   for (const Row& row : rows)
     if (row.scene.more == "all")
-      less += fmt::format("{} {:.0f} % {}", less.empty() ? "" : ",",
-                          100 * (1 - static_cast<double>(row.cost.instructions) /
-                                         static_cast<double>(all.instructions)),
-                          row.scene.what);
+      shares.push_back(fmt::format("{} {:.0f} %", row.scene.name,
+                                   100 * (1 - static_cast<double>(row.cost.instructions) / all)));
   study.in_short.push_back(fmt::format(
-      "**A scene pays for what it uses.** A warm pose allocates nothing. Of its instructions fall "
-      "away{}. The tests count instructions, questions to surfaces and elements, and allocations.",
-      less));
+      "**A scene pays for what it uses.** A warm pose allocates nothing, and what a scene leaves "
+      "out "
+      "it does not pay for; of the instructions of a pose with everything that is: {}. The tests "
+      "count instructions, questions to surfaces and elements, and allocations.",
+      fmt::join(shares, ", ")));
   if (megabytes.size() == 5)
     study.in_short.push_back(fmt::format(
         "**Memory:** the program starts with {:.0f} MB, sweeps the phantom in {:.0f} MB, and takes "

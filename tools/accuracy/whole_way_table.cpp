@@ -41,8 +41,7 @@ std::string introduction(const PoseErrors& solver) {
       "by the program), `auto` all chosen, else one length for all. Surface: root mean square of "
       "the four patches, farther than 4 mm from the edge. Time: from the files to four patches on "
       "two threads (in brackets reading and cleaning alone) + the sweep of ten poses, mean of the "
-      "seeds; and the median pose.\n\n![Error of the pose against error of the surfaces]"
-      "(images/accuracy_whole_way.png)\n\n| varied | grid [mm] | roughness [mm] | knots [mm] | "
+      "seeds; and the median pose.\n\n| varied | grid [mm] | roughness [mm] | knots [mm] | "
       "smoothing [mm] | surface [mm] | normal [°] | curvature [1/mm] | translation [mm] | rotation "
       "[°] | contact place [mm] | contact force [%] | ligament force [N] | poses | time |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
