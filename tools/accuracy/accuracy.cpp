@@ -45,7 +45,7 @@ int run(const Setting& setting, const std::vector<std::string>& wanted) {
     if (!wanted.empty() && std::count(wanted.begin(), wanted.end(), chapter.name) == 0) continue;
     fmt::print(stderr, "{} ...", chapter.name);
     Study study;
-    const double time = least_wall_microseconds(1, [&] { study = chapter.study(setting); });
+    const double time = least_microseconds(1, [&] { study = chapter.study(setting); });
     fmt::print(stderr, " {:.0f} s\n", time / 1e6);
     std::string in_short;
     for (const std::string& line : study.in_short) in_short += "- " + line + "\n";

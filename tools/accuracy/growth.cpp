@@ -165,13 +165,12 @@ std::vector<std::string> mesh_growth(const Setting& setting, fmt::ostream& csv, 
   for (const double grid : {2.0, 1.4, 1.0, 0.7}) {
     files.write({grid, 0, 0, 0}, scene);
     double triangles = 0;
-    const double read = least_microseconds(3, [&] {
+    const double read = processor_microseconds([&] {
       triangles = 0;
       for (const BodyDescription& body : scene.bodies)
         triangles += static_cast<double>(load_body_mesh(body).triangles.size());
     });
-    const double fitted =
-        least_wall_microseconds(3, [&] { static_cast<void>(fit_surfaces(scene)); });
+    const double fitted = least_microseconds(3, [&] { static_cast<void>(fit_surfaces(scene)); });
     measured.push_back({triangles, read, fitted});
   }
   for (const auto& [triangles, read, fitted] : measured) reading.add(triangles, read);

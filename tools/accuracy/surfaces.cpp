@@ -21,7 +21,7 @@ struct Fitted {
 Fitted fit(const Shape& shape, const ArticularRegion& region, const FitOptions& options) {
   Fitted fitted;
   fitted.milliseconds =
-      least_microseconds(1, [&] { fitted.fit = fit_patch(region, options); }) / 1000;
+      processor_microseconds([&] { fitted.fit = fit_patch(region, options); }) / 1000;
   fitted.errors = shape.errors(Patch(fitted.fit.patch));
   return fitted;
 }

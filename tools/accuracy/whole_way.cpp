@@ -58,13 +58,13 @@ SweepResult plain_sweep(const Scene& scene, const std::vector<FittedSurface>& su
 
 /// Reading, cleaning and fitting, with the time of each.
 std::vector<FittedSurface> make_surfaces(const Scene& scene, Outcome& outcome) {
-  const double read = least_microseconds(1, [&] {
+  const double read = processor_microseconds([&] {
     outcome.triangles = 0;
     for (const BodyDescription& body : scene.bodies)
       outcome.triangles += static_cast<double>(load_body_mesh(body).triangles.size());
   });
   std::vector<FittedSurface> surfaces;
-  const double patches = least_wall_microseconds(1, [&] { surfaces = fit_surfaces(scene); });
+  const double patches = least_microseconds(1, [&] { surfaces = fit_surfaces(scene); });
   outcome.read_ms = std::min(outcome.read_ms, read / 1000);
   outcome.patches_ms = std::min(outcome.patches_ms, patches / 1000);
   return surfaces;
@@ -83,7 +83,7 @@ void go(const Way& way, Scene scene, const SweepResult& truth, Outcome& outcome)
       outcome.patch.add(bone, *surfaces[i].surface);
   }
   SweepResult result;
-  const double time = least_microseconds(1, [&] { result = plain_sweep(scene, surfaces); });
+  const double time = processor_microseconds([&] { result = plain_sweep(scene, surfaces); });
   outcome.sweep_ms += time / 1000;
   ++outcome.sweeps;
   outcome.pose_us = std::min(outcome.pose_us, median_pose_time(result));
