@@ -25,6 +25,7 @@ const void* byte_offset(std::size_t bytes) { return reinterpret_cast<const void*
 }  // namespace
 
 OffscreenContext::OffscreenContext() : context_(nullptr), buffer_(4 * 4 * 4) {
+  open_gl();
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_DEPTH_BITS,

@@ -4,17 +4,13 @@
 /// here. Private to the room: include it in .cpp files only. Everything throws PictureError when
 /// OpenGL refuses.
 
-#define GL_GLEXT_PROTOTYPES
-#include <GL/gl.h>
-#include <GL/glext.h>
-#include <GL/osmesa.h>
-
 #include <Eigen/Geometry>
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "pictures/gl_library.h"
 #include "pictures/shaded_mesh.h"
 
 namespace condyle {

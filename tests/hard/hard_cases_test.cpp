@@ -6,9 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
-
-#include "equilibrium/sweep.h"
-#include "scene/read_scene.h"
+#include <string>
 
 namespace condyle::hard {
 
@@ -21,12 +19,11 @@ class HardCases : public testing::TestWithParam<HardCase> {};
 TEST_P(HardCases, BehaveAsExpected) {
   const HardCase& hard = GetParam();
   const HardOutcome outcome = run(hard, CONDYLE_SOURCE_DIR);
-  if (!hard.expected.empty()) {
-    EXPECT_EQ(outcome.statuses, hard.expected) << hard.why;
-  }
+  EXPECT_TRUE(outcome.as_expected(hard))
+      << outcome.statuses << " in place of " << hard.expected << ": " << hard.wanted;
   EXPECT_TRUE(outcome.finite);
   EXPECT_TRUE(outcome.has_words) << hard.words;
-  EXPECT_LE(outcome.error, hard.tolerance) << hard.why;
+  EXPECT_LE(outcome.error, hard.tolerance) << hard.wanted;
   for (const PoseResult& pose : outcome.sweep.poses)
     EXPECT_EQ(pose.converged(), pose.reason.empty());
 }
@@ -40,17 +37,10 @@ std::string name_of(const testing::TestParamInfo<HardCase>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Table, HardCases, testing::ValuesIn(hard_cases()), name_of);
 
-TEST(HardCases, OneStepOf120DegreesEndsWhereSmallStepsDo) {
-  const auto file = std::filesystem::path(CONDYLE_SOURCE_DIR) / "data/hard/one-step.toml";
-  Scene scene = read_scene(file);
-  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
-  const PoseResult once = sweep(scene, surfaces).poses.back();
-  scene.sweep->values.clear();
-  for (int k = 0; k <= 24; ++k) scene.sweep->values.push_back(5 * k * M_PI / 180);
-  const PoseResult steps = sweep(scene, surfaces).poses.back();
-  ASSERT_TRUE(once.converged() && steps.converged());
-  EXPECT_LT((once.X_BA.p - steps.X_BA.p).norm(), 1e-9);
-  EXPECT_LT((once.X_BA.R - steps.X_BA.R).norm(), 1e-10);
+TEST(HardCases, EachHasATruthUnlessNothingIsToConverge) {
+  for (const HardCase& hard : hard_cases())
+    EXPECT_TRUE(hard.error || hard.steps > 0 || hard.expected.find('c') == std::string::npos)
+        << hard.name;
 }
 
 }  // namespace

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 
 #include "equilibrium/build_model.h"
 #include "equilibrium/path_system.h"
+#include "equilibrium/restore_state.h"
 #include "equilibrium/sweep.h"
 #include "hard/hard_cases.h"
 #include "scene/read_scene.h"
@@ -71,7 +73,56 @@ bool is_finite(const PoseResult& pose) {
   return finite;
 }
 
+/// The largest of the poses that converged; of the solver's own state where none did.
+double largest_condition(EquilibriumSolver& solver,
+                         const SweptValue& swept,
+                         const SweepResult& sweep) {
+  double largest = 0;
+  for (const PoseResult& pose : sweep.poses) {
+    if (!pose.converged() || !can_restore(solver.model(), pose)) continue;
+    swept.in(solver.model()) = pose.value;
+    largest =
+        std::max(largest, condition_number(solver.model(), restore_state(solver.model(), pose)));
+  }
+  return largest > 0 ? largest : condition_number(solver.model(), solver.state());
+}
+
+/// How far the last pose is from where as many equal steps lead: |Δa|/L or the angle.
+double far_from_steps(const Model& model,
+                      const SweptValue& swept,
+                      const SweepResult& sweep,
+                      int steps) {
+  EquilibriumSolver solver(model);
+  PoseResult pose;
+  for (int k = 0; k <= steps; ++k) {
+    const double from = sweep.poses.front().value, to = sweep.poses.back().value;
+    swept.in(solver.model()) = from + (to - from) * k / steps;
+    solver.solve(pose);
+    if (!pose.converged()) return std::numeric_limits<double>::infinity();
+  }
+  const PoseResult& last = sweep.poses.back();
+  return std::max((last.X_BA.p - pose.X_BA.p).norm() / model.length,
+                  (last.X_BA.R - pose.X_BA.R).norm());
+}
+
+void solve(const Scene& scene, const HardCase& hard, HardOutcome& outcome) {
+  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
+  const Model model = build_model(scene, surfaces);
+  EquilibriumSolver solver(model);
+  const SweptValue swept{scene.sweep->varies_load, static_cast<std::size_t>(scene.sweep->index)};
+  outcome.sweep = scene.sweep->arc_length
+                      ? sweep(scene, surfaces)
+                      : sweep(solver, swept.in(solver.model()), scene.sweep->values);
+  outcome.condition = largest_condition(solver, swept, outcome.sweep);
+  if (hard.error) outcome.error = hard.error(outcome.sweep);
+  if (hard.steps > 0) outcome.error = far_from_steps(model, swept, outcome.sweep, hard.steps);
+}
+
 }  // namespace
+
+bool HardOutcome::as_expected(const HardCase& hard) const {
+  return std::regex_match(statuses, std::regex(hard.expected));
+}
 
 HardOutcome run(const HardCase& hard, const std::filesystem::path& root) {
   const std::filesystem::path file = root / "data/hard" / hard.file;
@@ -81,17 +132,8 @@ HardOutcome run(const HardCase& hard, const std::filesystem::path& root) {
     if (at == std::string::npos) throw std::runtime_error(file.string() + " has no " + from);
     text.replace(at, from.size(), to);
   }
-  const Scene scene = parse_scene(text, file);
-  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
   HardOutcome outcome;
-  if (scene.sweep->arc_length) {
-    outcome.sweep = sweep(scene, surfaces);
-  } else {
-    EquilibriumSolver solver(build_model(scene, surfaces));
-    const SweptValue swept{scene.sweep->varies_load, static_cast<std::size_t>(scene.sweep->index)};
-    outcome.sweep = sweep(solver, swept.in(solver.model()), scene.sweep->values);
-    outcome.condition = condition_number(solver.model(), solver.state());
-  }
+  solve(parse_scene(text, file), hard, outcome);
   outcome.has_words = hard.words.empty();
   for (const PoseResult& pose : outcome.sweep.poses) {
     outcome.statuses += letter(pose.status);
@@ -102,7 +144,6 @@ HardOutcome run(const HardCase& hard, const std::filesystem::path& root) {
     outcome.residual = std::max(outcome.residual, pose.residual);
     outcome.finite &= is_finite(pose);
   }
-  if (hard.error) outcome.error = hard.error(outcome.sweep);
   return outcome;
 }
 

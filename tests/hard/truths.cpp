@@ -254,6 +254,15 @@ double bob(const SweepResult& sweep) {
   });
 }
 
+double swinging_bob(const SweepResult& sweep) {
+  return over(sweep, [](const PoseResult& pose, Worst& worst) {
+    const Vector3d load(0.01, 0, 10 * pose.value);
+    worst.take(pose.X_BA.p, 30 * load.normalized(), 30);
+    worst.take(std::abs(pose.conditions[0].multiplier), load.norm(), 10);
+    worst.require(pose.stability == 1);
+  });
+}
+
 double wheel(const SweepResult& sweep) {
   // The spring's end turns in a circle of 10 about the origin, 30 under the other one.
   return over(sweep, [](const PoseResult& pose, Worst& worst) {

@@ -26,6 +26,7 @@ double snapping_truss(const SweepResult& sweep);
 double path_of_truss(const SweepResult& sweep);
 double column(const SweepResult& sweep);
 double bob(const SweepResult& sweep);
+double swinging_bob(const SweepResult& sweep);
 double wheel(const SweepResult& sweep);
 
 }  // namespace condyle::hard

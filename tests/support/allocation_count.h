@@ -19,6 +19,18 @@ class AllocationCount {
   long start_;
 };
 
+/// Heap that all threads hold beyond what they held at construction [bytes], as malloc hands it
+/// out. Where one of these counts, no other does: they share the peak.
+class HeapUse {
+ public:
+  HeapUse();
+  [[nodiscard]] long bytes() const;  ///< now
+  [[nodiscard]] long peak() const;   ///< the most since construction
+
+ private:
+  long start_;
+};
+
 /// False where the count is always 0.
 [[nodiscard]] bool allocations_are_counted();
 

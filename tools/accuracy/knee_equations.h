@@ -66,18 +66,25 @@ struct KneeEquations {
   Eigen::Matrix<long double, 3, 3> R0 = Eigen::Matrix<long double, 3, 3>::Identity();
   double flexion = 0;  ///< [rad]
 
+  /// Of a ligament of that length.
+  template <class T>
+  static T tension(const LineElement& element, const T& length) {
+    const auto& law = std::get<ToeLinearLaw>(element.law);
+    const T strain = length / T(law.slack_length) - T(1);
+    if (!(strain > T(0))) return T(0);
+    const T transition(law.transition_strain), k(law.stiffness);
+    return strain < transition ? k * strain * strain / (T(2) * transition)
+                               : k * (strain - transition / T(2));
+  }
+
   template <class T>
   void add_ligaments(const Vec3<T>& a, const Mat3<T>& R, Vec3<T>& f, Vec3<T>& m) const {
     using std::sqrt;
     for (const LineElement& element : model.elements) {
-      const auto& law = std::get<ToeLinearLaw>(element.law);
       const Vec3<T> s = R * element.s_D.template cast<T>();
       const Vec3<T> d = a + s - element.x_C.template cast<T>();
-      const T length = sqrt(d.squaredNorm()), strain = length / T(law.slack_length) - T(1);
-      if (!(strain > T(0))) continue;
-      const T transition(law.transition_strain), k(law.stiffness);
-      const T force = strain < transition ? k * strain * strain / (T(2) * transition)
-                                          : k * (strain - transition / T(2));
+      const T length = sqrt(d.squaredNorm()), force = tension(element, length);
+      if (!(force > T(0))) continue;
       const Vec3<T> F = d * (-force / length);
       f += F;
       m += s.cross(F);

@@ -182,7 +182,9 @@ ExactPose solve_exactly(const KneeEquations& equations, const Unknowns<double>& 
     x -= jacobian.partialPivLu().solve(r);
   }
   const Vec3<long double> turn = x.segment<3>(3);
-  return {x.segment<3>(0), cayley<long double>(turn) * equations.R0,
+  return {x.segment<3>(0),
+          cayley<long double>(turn) * equations.R0,
+          {x[11], x[16]},
           static_cast<double>(equations.residual<long double>(x).cwiseAbs().maxCoeff())};
 }
 
@@ -200,6 +202,32 @@ Unknowns<double> unknowns_of(const EquilibriumState& state,
     x[at + 4] = state.contacts[k].p;
   }
   return x;
+}
+
+double force_error(const KneeEquations& equations,
+                   const ExactPose& truth,
+                   const RigidTransform& X,
+                   const std::array<double, 2>& contacts) {
+  long double worst = 0;
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    worst = std::max(worst, std::abs(contacts[i] - truth.contacts[i]));
+  for (const LineElement& element : equations.model.elements) {
+    const Vec3<long double> from = element.x_C.cast<long double>();
+    const Vec3<long double> exact = truth.a + truth.R * element.s_D.cast<long double>() - from;
+    const double length = (X * element.s_D - element.x_C).norm();
+    worst = std::max(worst, std::abs(KneeEquations::tension(element, length) -
+                                     KneeEquations::tension(element, exact.norm())));
+  }
+  return static_cast<double>(worst);
+}
+
+std::array<double, 2> contact_forces(const Unknowns<double>& x) { return {x[11], x[16]}; }
+
+std::array<double, 2> contact_forces(const EquilibriumState& state) {
+  std::array<double, 2> forces{};
+  for (const ClosedContact& contact : state.contacts)
+    forces[static_cast<std::size_t>(contact.pair)] += contact.p;
+  return forces;
 }
 
 RigidTransform pose_of(const KneeEquations& equations, const Unknowns<double>& x) {

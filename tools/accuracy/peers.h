@@ -2,7 +2,7 @@
 
 /// Ways to solve the equations of the quadric knee, to set beside ours.
 
-#include <optional>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -28,7 +28,8 @@ struct Peer {
 struct ExactPose {
   Vec3<long double> a;
   Mat3<long double> R;
-  double residual = 0;  ///< largest of the equations' [N] or [mm]
+  std::array<long double, 2> contacts;  ///< their forces [N]
+  double residual = 0;                  ///< largest of the equations' [N] or [mm]
 };
 
 /// The solution in long double, from one in double.
@@ -42,7 +43,15 @@ struct ExactPose {
 /// Largest of |Δa|/L and the angle between the rotations [rad].
 [[nodiscard]] double pose_error(const ExactPose& truth, const RigidTransform& X, double L);
 
-/// The pose that unknowns stand for.
+/// Largest error of the forces of contacts and ligaments [N].
+[[nodiscard]] double force_error(const KneeEquations& equations,
+                                 const ExactPose& truth,
+                                 const RigidTransform& X,
+                                 const std::array<double, 2>& contacts);
+
+/// The pose that unknowns stand for, and the forces of its contacts.
 [[nodiscard]] RigidTransform pose_of(const KneeEquations& equations, const Unknowns<double>& x);
+[[nodiscard]] std::array<double, 2> contact_forces(const Unknowns<double>& x);
+[[nodiscard]] std::array<double, 2> contact_forces(const EquilibriumState& state);
 
 }  // namespace condyle::accuracy

@@ -58,7 +58,7 @@ SweepResult plain_sweep(const Scene& scene, const std::vector<FittedSurface>& su
 
 /// Reading, cleaning and fitting, with the time of each.
 std::vector<FittedSurface> make_surfaces(const Scene& scene, Outcome& outcome) {
-  const double read = least_microseconds(1, [&] {
+  const double read = processor_microseconds([&] {
     outcome.triangles = 0;
     for (const BodyDescription& body : scene.bodies)
       outcome.triangles += static_cast<double>(load_body_mesh(body).triangles.size());
@@ -83,7 +83,7 @@ void go(const Way& way, Scene scene, const SweepResult& truth, Outcome& outcome)
       outcome.patch.add(bone, *surfaces[i].surface);
   }
   SweepResult result;
-  const double time = least_microseconds(1, [&] { result = plain_sweep(scene, surfaces); });
+  const double time = processor_microseconds([&] { result = plain_sweep(scene, surfaces); });
   outcome.sweep_ms += time / 1000;
   ++outcome.sweeps;
   outcome.pose_us = std::min(outcome.pose_us, median_pose_time(result));
@@ -118,16 +118,16 @@ std::vector<Way> ways() {
 
 }  // namespace
 
-std::string study_whole_way(const std::filesystem::path& folder,
-                            const std::filesystem::path& root) {
-  const Scene fine = phantom_scene(root, 5), scene = phantom_scene(root, 10);
+Study study_whole_way(const Setting& setting) {
+  const Scene fine = phantom_scene(setting.root, 5), scene = phantom_scene(setting.root, 10);
   const SweepResult truth = plain_sweep(fine, exact_surfaces(fine));
   PoseErrors solver;
   solver.add(plain_sweep(scene, exact_surfaces(scene)), truth);
-  fmt::ostream csv = fmt::output_file((folder / "whole_way.csv").string());
+  fmt::ostream csv = setting.table("whole_way");
   write_head(csv);
-  std::string page = introduction(solver);
-  MeshFiles files(folder / "meshes");
+  Study study;
+  study.page = introduction(solver);
+  MeshFiles files(setting.folder / "meshes");
   std::vector<std::pair<Way, Outcome>> all;
   for (const Way& way : ways()) {
     Outcome outcome;
@@ -140,11 +140,13 @@ std::string study_whole_way(const std::filesystem::path& folder,
         outcome.refused = error.what();
       }
     }
-    page += row(way, outcome);
+    study.page += row(way, outcome);
     write(way, outcome, csv);
     all.emplace_back(way, std::move(outcome));
   }
-  return page + exponents(all) + price(all) + "\n";
+  study.page += price(all);
+  study.in_short = in_short(all);
+  return study;
 }
 
 }  // namespace condyle::accuracy

@@ -53,10 +53,10 @@ struct Outcome {
 void write_head(fmt::ostream& csv);
 void write(const Way& way, const Outcome& outcome, fmt::ostream& csv);
 
-/// How reading and fitting grow with the triangles.
-[[nodiscard]] std::string exponents(const std::vector<std::pair<Way, Outcome>>& all);
-
 /// What an answer good to 0.1 mm and 0.1 degrees at every pose costs: the cheapest of the rows.
 [[nodiscard]] std::string price(const std::vector<std::pair<Way, Outcome>>& all);
+
+/// What limits the answer.
+[[nodiscard]] std::vector<std::string> in_short(const std::vector<std::pair<Way, Outcome>>& all);
 
 }  // namespace condyle::accuracy

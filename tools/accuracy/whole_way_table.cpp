@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "accuracy/whole_way.h"
@@ -30,7 +31,7 @@ std::string poses_of(const Outcome& outcome) {
 
 std::string introduction(const PoseErrors& solver) {
   return fmt::format(
-      "### The whole way\n\nThe phantom knee from mesh files to poses at 0 to 90° in steps of 10°, "
+      "The phantom knee from mesh files to poses at 0 to 90° in steps of 10°, "
       "against the same sweep on its exact surfaces: root mean square / greatest error of the "
       "poses "
       "that converge. On the exact surfaces themselves steps of 10° and of 5° agree to {:.0e} mm "
@@ -40,8 +41,7 @@ std::string introduction(const PoseErrors& solver) {
       "by the program), `auto` all chosen, else one length for all. Surface: root mean square of "
       "the four patches, farther than 4 mm from the edge. Time: from the files to four patches on "
       "two threads (in brackets reading and cleaning alone) + the sweep of ten poses, mean of the "
-      "seeds; and the median pose.\n\n![Error of the pose against error of the surfaces]"
-      "(images/accuracy_whole_way.png)\n\n| varied | grid [mm] | roughness [mm] | knots [mm] | "
+      "seeds; and the median pose.\n\n| varied | grid [mm] | roughness [mm] | knots [mm] | "
       "smoothing [mm] | surface [mm] | normal [°] | curvature [1/mm] | translation [mm] | rotation "
       "[°] | contact place [mm] | contact force [%] | ligament force [N] | poses | time |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
@@ -79,24 +79,12 @@ void write(const Way& way, const Outcome& outcome, fmt::ostream& csv) {
             outcome.patches_ms, outcome.mean_sweep_ms(), outcome.pose_us);
 }
 
-std::string exponents(const std::vector<std::pair<Way, Outcome>>& all) {
-  const Outcome* first = nullptr;
-  const Outcome* last = nullptr;
-  for (const auto& [way, outcome] : all) {
-    if (way.group != all.front().first.group) continue;
-    if (!first) first = &outcome;
-    last = &outcome;
-  }
-  if (!first) return "";
-  const double grown = std::log(last->triangles / first->triangles);
-  return fmt::format(
-      "\nFrom {:.0f} to {:.0f} triangles reading grows with the exponent {:.2f}, and all until the "
-      "patches with {:.2f}.\n",
-      first->triangles, last->triangles, std::log(last->read_ms / first->read_ms) / grown,
-      std::log(last->patches_ms / first->patches_ms) / grown);
-}
+namespace {
 
-std::string price(const std::vector<std::pair<Way, Outcome>>& all) {
+using Ways = std::vector<std::pair<Way, Outcome>>;
+
+/// The cheapest row that is good to 0.1 mm and 0.1 degrees at every pose.
+const std::pair<Way, Outcome>* cheapest(const Ways& all) {
   const std::pair<Way, Outcome>* best = nullptr;
   for (const auto& candidate : all) {
     const auto& [way, outcome] = candidate;
@@ -104,6 +92,13 @@ std::string price(const std::vector<std::pair<Way, Outcome>>& all) {
     if (outcome.pose.translation.greatest > 0.1 || outcome.pose.rotation.greatest > 0.1) continue;
     if (!best || outcome.total_ms() < best->second.total_ms()) best = &candidate;
   }
+  return best;
+}
+
+}  // namespace
+
+std::string price(const Ways& all) {
+  const std::pair<Way, Outcome>* best = cheapest(all);
   if (!best) return "\nNo row is good to 0.1 mm and 0.1° at every pose.\n";
   return fmt::format(
       "\nThe cheapest row that is good to 0.1 mm and 0.1° at every pose: a grid of {:.1f} mm, "
@@ -111,6 +106,23 @@ std::string price(const std::vector<std::pair<Way, Outcome>>& all) {
       "poses.\n",
       best->first.cell, best->first.roughness, best->first.knots, smoothing_of(best->first),
       best->second.total_ms());
+}
+
+std::vector<std::string> in_short(const Ways& all) {
+  const auto rough = std::find_if(all.begin(), all.end(), [](const auto& candidate) {
+    return candidate.first.group == "roughness" && candidate.first.roughness == 0.2;
+  });
+  const std::pair<Way, Outcome>* best = cheapest(all);
+  if (!best || rough == all.end()) return {};
+  return {fmt::format(
+      "**From mesh to pose the mesh's roughness limits the answer**, not its resolution, the "
+      "spline "
+      "or the solver. Below 0.1 mm and 0.1° at every pose takes a mesh without roughness and a "
+      "short smoothing length, and costs {:.0f} ms from two files to ten poses, nearly all of it "
+      "reading and fitting. With a roughness of 0.2 mm the same way ends {:.1f} mm and {:.1f}° off "
+      "(root mean square).",
+      best->second.total_ms(), rough->second.pose.translation.rms(),
+      rough->second.pose.rotation.rms())};
 }
 
 }  // namespace condyle::accuracy
