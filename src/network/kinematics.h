@@ -20,7 +20,7 @@ class Kinematics {
   [[nodiscard]] const std::vector<RigidTransform>& poses() const { return poses_; }
   [[nodiscard]] const std::vector<DrivenPoint>& driven() const { return driven_; }
   [[nodiscard]] const Eigen::VectorXd& twists() const { return twists_; }  ///< six for each body
-  [[nodiscard]] Vector6 twist(int body) const { return twists_.segment<6>(6 * body); }
+  [[nodiscard]] Vector6 twist(int body) const { return twists_.segment<6>(Eigen::Index{6} * body); }
   [[nodiscard]] const Eigen::Vector3d& point(int port) const {  ///< ground frame
     const int vertex = graph_.port_vertex[port];
     return vertex == 0 ? network_.ports[port].at : points_[vertex];
