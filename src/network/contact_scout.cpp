@@ -38,9 +38,10 @@ std::string PairScout::lost_contact(const NetworkState& state) const {
     if (!places.closed) continue;
     const ContactPair& pair = model_.pairs[knee_.places[i]];
     const double edge = edge_distance(pair, places.on_ground, places.on_body);
-    if (edge < 0)
+    if (edge < 0) {
       return fmt::format("contact \"{}\" lies {:.2g} mm beyond the edge of its surface", pair.name,
                          -edge);
+    }
   }
   return "";
 }
