@@ -23,7 +23,7 @@ struct Texture {
 };
 
 struct SmoothingOptions {
-  double least = 1, greatest = 6;       ///< lengths allowed [mm]
+  double least = 1, greatest = 6;        ///< lengths allowed [mm]
   Texture least_texture = {0.135, 1.5};  ///< that every segmentation has, smoothed as it may be
 };
 
