@@ -129,7 +129,7 @@ bool ContactSearch::is_lowest_of_neighbours(int sample) const {
   for (const int other : neighbours_[sample]) {
     if (other < 0 || stamp_[other] != now_) continue;
     // One that faces nothing known stands for nothing, however low it is.
-    if (this->other().edge_distance(feet_[other].place) < 0) continue;
+    if (!faces_known_part(other)) continue;
     if (gap_[other] < gap_[sample] || (gap_[other] == gap_[sample] && other < sample)) return false;
   }
   return true;

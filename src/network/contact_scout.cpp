@@ -31,17 +31,19 @@ ContactSighting PairScout::operator()(NetworkState& state) {
   return sighting;
 }
 
-/// Beyond the edge of a patch its surface is a guess: no motion goes on there.
+std::string beyond_edge(const ContactPair& pair, double edge_distance) {
+  if (edge_distance >= 0) return "";
+  return fmt::format("contact \"{}\" lies {:.2g} mm beyond the edge of its surface", pair.name,
+                     -edge_distance);
+}
+
 std::string PairScout::lost_contact(const NetworkState& state) const {
   for (std::size_t i = 0; i < knee_.places.size(); ++i) {
     const ContactPlaces& places = state.contacts[i];
     if (!places.closed) continue;
     const ContactPair& pair = model_.pairs[knee_.places[i]];
-    const double edge = edge_distance(pair, places.on_ground, places.on_body);
-    if (edge < 0) {
-      return fmt::format("contact \"{}\" lies {:.2g} mm beyond the edge of its surface", pair.name,
-                         -edge);
-    }
+    std::string reason = beyond_edge(pair, edge_distance(pair, places.on_ground, places.on_body));
+    if (!reason.empty()) return reason;
   }
   return "";
 }

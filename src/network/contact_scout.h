@@ -34,4 +34,8 @@ class PairScout {
   std::vector<KnownContact> known_;
 };
 
+/// Why a closed contact so far from the edge of its patch [mm] is none: beyond it the surface is a
+/// guess. Empty where it is not beyond.
+[[nodiscard]] std::string beyond_edge(const ContactPair& pair, double edge_distance);
+
 }  // namespace condyle

@@ -1,11 +1,11 @@
 #include "network/motion_poses.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <utility>
 
 #include "elements/contact.h"
 #include "equilibrium/describe_pose.h"
+#include "network/contact_scout.h"
 
 namespace condyle {
 namespace {
@@ -82,10 +82,10 @@ class FrameTeller {
   }
 
   void check_edge(int pair, const ContactPointResult& point, PoseResult& pose) const {
-    if (point.edge_distance >= 0) return;
+    std::string reason = beyond_edge(model_.pairs[pair], point.edge_distance);
+    if (reason.empty()) return;
     pose.status = PoseStatus::kLeftPatch;
-    pose.reason = fmt::format("contact \"{}\" lies {:.2g} mm beyond the edge of its surface",
-                              model_.pairs[pair].name, -point.edge_distance);
+    pose.reason = std::move(reason);
   }
 
   const Scene& scene_;

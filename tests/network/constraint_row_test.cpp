@@ -11,24 +11,17 @@
 #include "network/knee_network.h"
 #include "network/network_equations.h"
 #include "network/project.h"
+#include "support/leg.h"
 #include "support/quadric_knee.h"
 #include "support/random.h"
 
 namespace condyle {
 namespace {
 
-MassProperties leg() {
-  MassProperties mass;
-  mass.mass = 4e-3;
-  mass.center = {0, 0, -200};
-  mass.inertia = Eigen::Vector3d(100, 100, 8).asDiagonal();
-  return mass;
-}
-
 /// Two closed contacts and a flexion condition, moving at random.
 struct MovingKnee {
   Model model = test::quadric_knee();
-  KneeNetwork knee = make_knee_network(model, leg());
+  KneeNetwork knee = make_knee_network(model, test::leg());
   NetworkState state;
 
   MovingKnee() {
@@ -58,7 +51,7 @@ TEST(ConstraintRow, TurnsAsItsBodyMoves) {
   double before = 0;
   for (const double h : {1e-2, 1e-3, 1e-4}) {
     NetworkEquations here(at.knee.network), there(at.knee.network);
-    NetworkState state = at.state, other = moved(at.state, h * direction, leg().center);
+    NetworkState state = at.state, other = moved(at.state, h * direction, test::leg().center);
     ASSERT_TRUE(here.assemble(state) && there.assemble(other));
     ASSERT_EQ(here.rows().size(), there.rows().size());
     ASSERT_GE(here.rows().size(), 3U);
@@ -88,7 +81,7 @@ TEST(ConstraintRow, NearbyStatesAreProjectedAlongTheTangents) {
   test::Random random(6);
   Vector6 direction;
   direction << random.vector(1e-5), random.vector(1e-7);
-  NetworkState off = moved(state, direction, leg().center);
+  NetworkState off = moved(state, direction, test::leg().center);
   off.bodies[0].v += random.vector(1e-3);
   ASSERT_TRUE(equations.assemble(state));
   ASSERT_TRUE(project_nearby(equations, 1e-9, off));
@@ -96,7 +89,7 @@ TEST(ConstraintRow, NearbyStatesAreProjectedAlongTheTangents) {
   ASSERT_TRUE(equations.assemble(off));
   for (const ConstraintRow& row : equations.rows()) EXPECT_LT(std::abs(row.value), 1e-11);
   EXPECT_LT(equations.velocity_correction().norm(), 1e-9);
-  NetworkState far = moved(state, 1e3 * direction, leg().center);
+  NetworkState far = moved(state, 1e3 * direction, test::leg().center);
   const Eigen::Vector3d p = far.bodies[0].X.p;
   ASSERT_TRUE(equations.assemble(state));
   EXPECT_FALSE(project_nearby(equations, 1e-9, far));

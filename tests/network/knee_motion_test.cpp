@@ -11,19 +11,11 @@
 #include "network/network_equations.h"
 #include "network/simulate.h"
 #include "scene/read_scene.h"
+#include "support/leg.h"
 #include "support/quadric_knee.h"
 
 namespace condyle {
 namespace {
-
-/// Shank and foot, hanging along -z of the tibia.
-MassProperties leg() {
-  MassProperties mass;
-  mass.mass = 4e-3;
-  mass.center = {0, 0, -200};
-  mass.inertia = Eigen::Vector3d(100, 100, 8).asDiagonal();
-  return mass;
-}
 
 EquilibriumState equilibrium(double load_scale) {
   Model model = test::quadric_knee();
@@ -37,7 +29,7 @@ EquilibriumState equilibrium(double load_scale) {
 // engine says it is in equilibrium.
 TEST(KneeMotion, ComesToRestAtTheEnginesPose) {
   const Model model = test::quadric_knee();
-  KneeNetwork knee = make_knee_network(model, leg());
+  KneeNetwork knee = make_knee_network(model, test::leg());
   for (LineComponent& line : knee.network.lines) line.viscous_time = 0.05;
   IntegrationOptions options;
   options.end = 6;
@@ -86,7 +78,7 @@ TEST(KneeMotion, ThePhantomComesToRestAtTheEnginesPose) {
 // Undamped and with the flexion free, the energy stays what it was.
 TEST(KneeMotion, KeepsItsEnergyWhileItSwings) {
   const Model model = test::quadric_knee();
-  KneeNetwork knee = make_knee_network(model, leg());
+  KneeNetwork knee = make_knee_network(model, test::leg());
   knee.network.conditions.clear();
   knee.network.gravity = {0, -9810, 0};
   IntegrationOptions options;
@@ -113,7 +105,7 @@ TEST(KneeMotion, KeepsItsEnergyWhileItSwings) {
 // Ten seconds of an undamped swing, in the mission's figure: 1e-8 of the total energy.
 TEST(KneeMotion, KeepsItsEnergyForTenSeconds) {
   const Model model = test::quadric_knee();
-  KneeNetwork knee = make_knee_network(model, leg());
+  KneeNetwork knee = make_knee_network(model, test::leg());
   knee.network.gravity = {0, -9810, 0};
   IntegrationOptions options;
   options.end = 10;
@@ -130,7 +122,7 @@ TEST(KneeMotion, KeepsItsEnergyForTenSeconds) {
 // frames be tried again in halves does not multiply what is lost already.
 TEST(KneeMotion, TooManyStepsEndItAtOnce) {
   const Model model = test::quadric_knee();
-  KneeNetwork knee = make_knee_network(model, leg());
+  KneeNetwork knee = make_knee_network(model, test::leg());
   knee.network.conditions.clear();
   knee.network.gravity = {0, -9810, 0};
   IntegrationOptions options;
@@ -155,7 +147,7 @@ TEST(KneeMotion, TooManyStepsEndItAtOnce) {
 // Frames that are always overlapped are tried in halves, but not without end.
 TEST(KneeMotion, AnOverlapThatStaysEndsTheMotionInBoundedTime) {
   const Model model = test::quadric_knee();
-  const KneeNetwork knee = make_knee_network(model, leg());
+  const KneeNetwork knee = make_knee_network(model, test::leg());
   IntegrationOptions options;
   options.end = options.interval = 0.01;
   long asked = 0;
@@ -175,10 +167,10 @@ TEST(KneeMotion, AnOverlapThatStaysEndsTheMotionInBoundedTime) {
 // A pulse of 3 ms in a second of rest is not stepped over: m v = F d.
 TEST(KneeMotion, AShortPulseIsSeen) {
   Network network;
-  network.bodies = {{"leg", leg(), leg().center, false}};
+  network.bodies = {{"leg", test::leg(), test::leg().center, false}};
   Load push;
   push.vector = {100, 0, 0};
-  push.at = leg().center;
+  push.at = test::leg().center;
   DriveDescription pulse;
   pulse.load = 0;
   pulse.start = 0.5;
