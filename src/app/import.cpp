@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "exchange/osim_scene.h"
+#include "exchange/ply_file.h"
 #include "input_error.h"
 #include "results/output_file.h"
 #include "scene/read_scene.h"
@@ -40,12 +41,17 @@ int run_import(ImportCommand& command) {
   const OsimModel model = read_osim(command.model);
   const OsimKnee knee = find_knee(model, command.model, command.knee);
   const OsimScene scene = osim_scene(model, knee, command.model, command.output, command.scene);
+  for (const OsimMovedMesh& moved : scene.meshes) {
+    check_output_file(moved.file);
+    write_output_file(moved.file, ply(moved.mesh));
+  }
   (void)parse_scene(scene.text, command.output);  // what is written can be read
   write_output_file(command.output, scene.text);
   fmt::print("{}: joint {}, femur {}, tibia {}, {} ligaments\n", command.model, knee.joint,
              knee.femur.name, knee.tibia.name, knee.ligaments.size());
   fmt::print("Not taken over as it is:\n");
   for (const std::string& note : scene.notes) fmt::print("  {}\n", note);
+  for (const OsimMovedMesh& moved : scene.meshes) fmt::print("wrote {}\n", moved.file.string());
   fmt::print("wrote {}\n", command.output);
   return 0;
 }

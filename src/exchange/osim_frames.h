@@ -21,8 +21,11 @@ class OsimFrames {
  public:
   OsimFrames(const OsimModel& model, std::string file);
 
-  /// The frame at `path` ("/bodyset/femur_r", "/jointset/knee_r/femur_r_offset", or a frame's own
-  /// name within `owner`). Throws InputError, saying that `who` asks for it, where there is none.
+  /// The frame that the socket of the component at `owner` names by `path`, as OpenSim looks for
+  /// it:
+  /// "/bodyset/femur_r" from the model, "femur_r_offset", ".." and "../../bodyset/femur_r" from the
+  /// component; where nothing stands there, the only frame of that name. Throws InputError, saying
+  /// that `who` asks for it, where there is none, or several.
   [[nodiscard]] OsimPlace find(const std::string& path,
                                const std::string& owner,
                                const std::string& who) const;
@@ -35,6 +38,8 @@ class OsimFrames {
                                const std::string& owner,
                                const std::string& who,
                                int depth) const;
+  [[nodiscard]] OsimPlace at(const OsimFrame& frame, int depth) const;
+  [[nodiscard]] bool is_body(const std::string& name) const;
 
   const OsimModel& model_;
   std::string file_;

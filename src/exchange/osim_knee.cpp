@@ -64,10 +64,10 @@ class KneeFinder {
   }
 
   [[nodiscard]] OsimPlace parent_of(const OsimJoint& joint) const {
-    return frames_.find(joint.parent, joint.name, joint.type + " \"" + joint.name + "\"");
+    return frames_.find(joint.parent, joint.path, joint.type + " \"" + joint.name + "\"");
   }
   [[nodiscard]] OsimPlace child_of(const OsimJoint& joint) const {
-    return frames_.find(joint.child, joint.name, joint.type + " \"" + joint.name + "\"");
+    return frames_.find(joint.child, joint.path, joint.type + " \"" + joint.name + "\"");
   }
 
   [[nodiscard]] int spanning_ligaments(const OsimJoint& joint) const {
@@ -119,8 +119,13 @@ class KneeFinder {
                      contact.name, path));
   }
 
+  [[nodiscard]] OsimPlace place_of_mesh(const OsimMesh& mesh, const char* type) const {
+    const OsimPlace frame =
+        frames_.find(mesh.frame, mesh.path, fmt::format("{} \"{}\"", type, mesh.name));
+    return {frame.body, frame.X * mesh.X_frame};
+  }
   [[nodiscard]] std::string body_of(const OsimMesh& mesh) const {
-    return frames_.find(mesh.frame, "", "Smith2018ContactMesh \"" + mesh.name + "\"").body;
+    return place_of_mesh(mesh, "Smith2018ContactMesh").body;
   }
 
   void find_contacts() {
@@ -141,13 +146,17 @@ class KneeFinder {
       std::optional<Compartment> compartment = compartment_of(contact.name);
       if (!compartment) compartment = compartment_of(b->name);
       if (!compartment) compartment = compartment_of(a->name);
-      knee_.contacts.push_back({compartment, *a, *b});
+      knee_.contacts.push_back({compartment, {*a, {}}, {*b, {}}});
     }
     check_contacts();
-    knee_.femur.name = body_of(knee_.contacts[0].femur);
-    knee_.tibia.name = body_of(knee_.contacts[0].tibia);
+    knee_.femur.name = body_of(knee_.contacts[0].femur.mesh);
+    knee_.tibia.name = body_of(knee_.contacts[0].tibia.mesh);
     in_femur_ = frames_.welded_to(knee_.femur.name);
     in_tibia_ = frames_.welded_to(knee_.tibia.name);
+    for (OsimPair& pair : knee_.contacts) {
+      pair.femur.X = in(in_femur_, place_of_mesh(pair.femur.mesh, "Smith2018ContactMesh"));
+      pair.tibia.X = in(in_tibia_, place_of_mesh(pair.tibia.mesh, "Smith2018ContactMesh"));
+    }
   }
 
   void check_contacts() {
@@ -166,16 +175,6 @@ class KneeFinder {
           fmt::format("{} contacts between femur and tibia, expected one, or two whose names say "
                       "medial and lateral",
                       knee_.contacts.size()));
-    }
-    for (const OsimPair& pair : knee_.contacts) {
-      for (const OsimMesh* mesh : {&pair.femur, &pair.tibia}) {
-        if (mesh->shifted) {
-          fail(
-              fmt::format("Smith2018ContactMesh \"{}\": is shifted in its body, expected location "
-                          "and orientation 0 0 0",
-                          mesh->name));
-        }
-      }
     }
   }
 
@@ -250,13 +249,15 @@ class KneeFinder {
                        [&](const OsimMesh& m) { return m.file == mesh.file; });
   }
 
-  /// The mesh attached to the body that says bone, else the first that is no contact mesh.
+  /// The mesh attached to the body, or to a frame on it, that says bone, else the first that is no
+  /// contact mesh.
   void find_bones() {
     for (OsimBody* body : {&knee_.femur, &knee_.tibia}) {
       const auto choose = [&](const auto& suits) {
         for (const OsimMesh& mesh : model_.bone_meshes) {
-          if (!body->bone && mesh.frame == "/bodyset/" + body->name && suits(mesh))
-            body->bone = mesh;
+          if (body->bone || !suits(mesh)) continue;
+          const OsimPlace place = place_of_mesh(mesh, "Mesh");
+          if (place.body == body->name) body->bone = OsimPlacedMesh{mesh, place.X};
         }
       };
       choose([](const OsimMesh& mesh) { return contains(mesh.name + mesh.file, "bone"); });
@@ -273,6 +274,10 @@ class KneeFinder {
   }
 
   void note_rest() {
+    if (joint_->type != "CustomJoint") {
+      knee_.notes.push_back(fmt::format("coordinates of {} {}, taken as 0 in the start pose",
+                                        joint_->type, joint_->name));
+    }
     for (const auto& [type, count] : model_.other_forces)
       knee_.notes.push_back(fmt::format("{} {}", count, type));
     std::vector<std::string> others;

@@ -18,16 +18,22 @@ struct OsimOptions {
   std::optional<Side> side;  ///< where names do not tell
 };
 
+/// A mesh in the frame of its bone.
+struct OsimPlacedMesh {
+  OsimMesh mesh;
+  RigidTransform X;  ///< of the scaled mesh in the bone's frame [mm]
+};
+
 struct OsimBody {
   std::string name;                                     ///< in the model
   Eigen::Vector3d origin, lateral, anterior, proximal;  ///< anatomical frame; [mm]
-  std::optional<OsimMesh> bone;
+  std::optional<OsimPlacedMesh> bone;
 };
 
 /// A contact of two compartments, or of one.
 struct OsimPair {
   std::optional<Compartment> compartment;
-  OsimMesh femur, tibia;
+  OsimPlacedMesh femur, tibia;
 };
 
 struct OsimKnee {

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cctype>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -21,7 +22,7 @@ using pugi::xml_node;
 
 constexpr double kMillimetre = 1e3;   // per m
 constexpr double kMegapascal = 1e-6;  // per Pa; N/mm²
-constexpr int kFirstVersionWithFrames = 40000;
+constexpr int kFirstVersionWithFrames = 30505;
 
 class OsimReader {
  public:
@@ -49,7 +50,11 @@ class OsimReader {
     expect_unit(model, "length_units", {"m", "meters"});
     expect_unit(model, "force_units", {"N", "newtons"});
     out_.name = model.attribute("name").value();
-    for (const xml_node body : objects(model, "BodySet")) read_body(body);
+    for (const xml_node body : objects(model, "BodySet"))
+      out_.bodies.push_back(body.attribute("name").value());
+    for (const auto& found : model.select_nodes(".//PhysicalOffsetFrame")) read_frame(found.node());
+    for (const auto& found : model.select_nodes(".//attached_geometry/Mesh"))
+      read_bone_mesh(found.node());
     for (const xml_node joint : objects(model, "JointSet")) read_joint(joint);
     for (const xml_node mesh : objects(model, "ContactGeometrySet")) read_contact_mesh(mesh);
     for (const xml_node force : objects(model, "ForceSet")) read_force(force);
@@ -121,37 +126,59 @@ class OsimReader {
         .toRotationMatrix();
   }
 
-  void read_frames(const xml_node& owner, const char* list) {
-    for (const xml_node frame : owner.child(list).children("PhysicalOffsetFrame")) {
-      RigidTransform X;
-      X.p = kMillimetre * vector_or(frame, "translation", Vector3d::Zero());
-      X.R = rotation_xyz(vector_or(frame, "orientation", Vector3d::Zero()));
-      out_.frames.push_back({frame.attribute("name").value(), owner.attribute("name").value(),
-                             text(frame, "socket_parent"), X});
-    }
+  [[nodiscard]] RigidTransform pose(const xml_node& node, const char* shift) const {
+    return {rotation_xyz(vector_or(node, "orientation", Vector3d::Zero())),
+            kMillimetre * vector_or(node, shift, Vector3d::Zero())};
   }
 
-  void read_body(const xml_node& body) {
-    const std::string name = body.attribute("name").value();
-    out_.bodies.push_back(name);
-    read_frames(body, "components");
-    for (const xml_node node : body.child("attached_geometry").children("Mesh")) {
-      OsimMesh mesh;
-      mesh.name = node.attribute("name").value();
-      mesh.frame = "/bodyset/" + name;
-      mesh.file = text(node, "mesh_file");
-      mesh.scale = vector_or(node, "scale_factors", Vector3d::Ones());
-      out_.bone_meshes.push_back(mesh);
+  /// Where a component stands: the names of those that hold it. A set of the model is called by its
+  /// type, whatever its name.
+  [[nodiscard]] static std::string path_of(const xml_node& node) {
+    std::string path;
+    for (xml_node at = node; at && std::strcmp(at.name(), "Model") != 0; at = at.parent()) {
+      std::string name = at.attribute("name").value();
+      if (std::strcmp(at.parent().name(), "Model") == 0 && at.child("objects")) {
+        name = at.name();
+        for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      }
+      if (!name.empty()) path.insert(0, "/" + name);
     }
+    return path;
+  }
+
+  /// The path that a socket holds, in the spelling of OpenSim 4 or of its development versions.
+  [[nodiscard]] static std::string socket(const xml_node& node, const std::string& name) {
+    for (const std::string& key : {"socket_" + name, "socket_" + name + "_connectee_name",
+                                   "connector_" + name + "_connectee_name"})
+      if (node.child(key.c_str())) return text(node, key.c_str());
+    for (const xml_node connector : node.child("connectors").children())
+      if (connector.attribute("name").value() == name) return text(connector, "connectee_name");
+    return "";
+  }
+
+  void read_frame(const xml_node& frame) {
+    out_.frames.push_back({frame.attribute("name").value(), path_of(frame), socket(frame, "parent"),
+                           pose(frame, "translation")});
+  }
+
+  void read_bone_mesh(const xml_node& node) {
+    OsimMesh mesh;
+    mesh.name = node.attribute("name").value();
+    mesh.path = path_of(node);
+    mesh.frame = socket(node, "frame");
+    if (mesh.frame.empty()) mesh.frame = "..";
+    mesh.file = text(node, "mesh_file");
+    mesh.scale = vector_or(node, "scale_factors", Vector3d::Ones());
+    out_.bone_meshes.push_back(mesh);
   }
 
   void read_joint(const xml_node& node) {
     OsimJoint joint;
     joint.type = node.name();
     joint.name = node.attribute("name").value();
-    joint.parent = text(node, "socket_parent_frame");
-    joint.child = text(node, "socket_child_frame");
-    read_frames(node, "frames");
+    joint.path = path_of(node);
+    joint.parent = socket(node, "parent_frame");
+    joint.child = socket(node, "child_frame");
     std::map<std::string, double> coordinates;
     for (const xml_node c : node.child("coordinates").children())
       coordinates[c.attribute("name").value()] = number_or(c, "default_value", 0);
@@ -201,11 +228,11 @@ class OsimReader {
     if (std::strcmp(node.name(), "Smith2018ContactMesh") != 0) return;
     OsimMesh mesh;
     mesh.name = node.attribute("name").value();
-    mesh.frame = text(node, "socket_frame");
+    mesh.path = path_of(node);
+    mesh.frame = socket(node, "frame");
     mesh.file = text(node, "mesh_file");
     mesh.scale = vector_or(node, "scale_factors", Vector3d::Ones());
-    mesh.shifted = !vector_or(node, "location", Vector3d::Zero()).isZero() ||
-                   !vector_or(node, "orientation", Vector3d::Zero()).isZero();
+    mesh.X_frame = pose(node, "location");
     mesh.modulus = kMegapascal * number_or(node, "elastic_modulus", 0);
     mesh.poisson = number_or(node, "poissons_ratio", 0.5);
     mesh.layer = kMillimetre * number_or(node, "thickness", 0);
@@ -218,8 +245,8 @@ class OsimReader {
     if (type == "Blankevoort1991Ligament") {
       read_ligament(node);
     } else if (type == "Smith2018ArticularContactForce") {
-      out_.contacts.push_back({node.attribute("name").value(), text(node, "socket_target_mesh"),
-                               text(node, "socket_casting_mesh")});
+      out_.contacts.push_back({node.attribute("name").value(), socket(node, "target_mesh"),
+                               socket(node, "casting_mesh")});
     } else {
       ++out_.other_forces[type];
     }
@@ -237,7 +264,7 @@ class OsimReader {
                      path.child("PathWrapSet").child("objects").first_child();
     for (const xml_node point : path.child("PathPointSet").child("objects").children()) {
       if (!point.child("location")) fail(point, "has no location");
-      ligament.points.push_back({point.name(), text(point, "socket_parent_frame"),
+      ligament.points.push_back({point.name(), path_of(point), socket(point, "parent_frame"),
                                  kMillimetre * vector_or(point, "location", Vector3d::Zero())});
     }
     if (ligament.points.size() < 2) fail(node, "has fewer than two points in its PathPointSet");

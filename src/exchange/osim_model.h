@@ -1,8 +1,9 @@
 #pragma once
 
 /// What an OpenSim 4 model file (.osim, XML) says about bones, joints, contact meshes and
-/// ligaments, as plain data in mm, rad and N; names and paths as they stand there. pugixml stays
-/// behind this door.
+/// ligaments, as plain data in mm, rad and N; names and paths of frames as they stand there. `path`
+/// is where a component itself stands: "/jointset/knee_r/femur_r_offset". pugixml stays behind this
+/// door.
 
 #include <array>
 #include <filesystem>
@@ -14,10 +15,11 @@
 
 namespace condyle {
 
-/// A frame fixed to another one.
+/// A PhysicalOffsetFrame: fixed to another frame, by a translation and angles about its x, y and z
+/// axes as turned so far.
 struct OsimFrame {
-  std::string name, owner;  ///< owner: the joint or body that holds it
-  std::string parent;       ///< path of the frame that it is fixed to
+  std::string name, path;
+  std::string parent;       ///< the frame that it is fixed to
   RigidTransform X_parent;  ///< [mm]
 };
 
@@ -28,15 +30,15 @@ struct OsimAxis {
 };
 
 struct OsimJoint {
-  std::string type, name, parent, child;  ///< paths of the frames
+  std::string type, name, path, parent, child;  ///< parent, child: frames
   std::array<OsimAxis, 3> rotations, translations;
 };
 
 struct OsimMesh {
-  std::string name, frame, file;
-  Eigen::Vector3d scale = Eigen::Vector3d::Ones();
-  bool shifted = false;                        ///< has a location or orientation of its own
-  double modulus = 0, poisson = 0, layer = 0;  ///< [N/mm²], [-], [mm]; contact meshes only
+  std::string name, path, frame, file;
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< of the file's numbers, to m; comes first
+  RigidTransform X_frame;                           ///< location and orientation in the frame [mm]
+  double modulus = 0, poisson = 0, layer = 0;       ///< [N/mm²], [-], [mm]; contact meshes only
 };
 
 /// Two contact meshes that may touch.
@@ -45,7 +47,7 @@ struct OsimContact {
 };
 
 struct OsimPathPoint {
-  std::string type, frame;
+  std::string type, path, frame;
   Eigen::Vector3d at;  ///< [mm]
 };
 
@@ -64,15 +66,15 @@ struct OsimModel {
   std::vector<std::string> bodies;
   std::vector<OsimFrame> frames;
   std::vector<OsimJoint> joints;
-  std::vector<OsimMesh> bone_meshes;  ///< frame: the body
+  std::vector<OsimMesh> bone_meshes;  ///< what is drawn
   std::vector<OsimMesh> contact_meshes;
   std::vector<OsimContact> contacts;
   std::vector<OsimLigament> ligaments;
   std::map<std::string, int> other_forces;  ///< how many of each type
 };
 
-/// Throws InputError where the file is missing, no XML, no OpenSim 4 model, in other units than m
-/// and N, or lacks a number.
+/// Throws InputError where the file is missing, no XML, no model with frames (OpenSim 4 and its
+/// development versions from 30505 on), in other units than m and N, or lacks a number.
 [[nodiscard]] OsimModel read_osim(const std::filesystem::path& file);
 
 }  // namespace condyle

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <system_error>
 
+#include "exchange/stl_run.h"
 #include "input_error.h"
 #include "math/rotation.h"
+#include "mesh/load_mesh.h"
 
 namespace condyle {
 namespace {
@@ -99,9 +102,49 @@ class SceneText {
     return (error || path.empty() ? fs::absolute(mesh) : path).generic_string();
   }
 
-  void add_mesh(const OsimMesh& mesh) {
-    line("mesh = {}", quoted(relative(found(mesh))));
-    line("mesh_units = \"{}\"", unit(mesh.scale));
+  /// Stands in its body as it is in the file.
+  [[nodiscard]] static bool unmoved(const OsimPlacedMesh& placed) {
+    return !unit(placed.mesh.scale).empty() && placed.X.p.isZero(1e-9) &&
+           (placed.X.R - Eigen::Matrix3d::Identity()).isZero(1e-12);
+  }
+
+  void add_mesh(const OsimPlacedMesh& placed) {
+    line("mesh = {}", quoted(relative(unmoved(placed) ? found(placed.mesh) : moved(placed))));
+    line("mesh_units = \"{}\"", unmoved(placed) ? unit(placed.mesh.scale) : "mm");
+  }
+
+  /// The file that will hold the mesh where the model puts it.
+  fs::path moved(const OsimPlacedMesh& placed) {
+    const auto known = moved_.find(placed.mesh.path);
+    if (known != moved_.end()) return known->second;
+    const fs::path folder = scene_.has_parent_path() ? scene_.parent_path() : fs::path(".");
+    const std::string stem = scene_.stem().string() + "_" + file_word(placed.mesh.name);
+    fs::path path = folder / (stem + ".ply");
+    const auto taken = [&] {
+      return std::any_of(moved_.begin(), moved_.end(),
+                         [&](const auto& entry) { return entry.second == path; });
+    };
+    for (int k = 2; taken(); ++k) path = folder / fmt::format("{}_{}.ply", stem, k);
+    std::error_code unknown;
+    if (fs::equivalent(path, found(placed.mesh), unknown)) {
+      throw InputError(path.string() +
+                       ": is read by this command and would be overwritten, "
+                       "expected another name of the scene");
+    }
+    moved_[placed.mesh.path] = path;
+    out_.meshes.push_back({path, placed_mesh(placed)});
+    return path;
+  }
+
+  /// Scaled, then moved; a scale that mirrors turns the triangles round.
+  [[nodiscard]] TriangleMesh placed_mesh(const OsimPlacedMesh& placed) const {
+    const Vector3d& scale = placed.mesh.scale;
+    const double largest = scale.cwiseAbs().maxCoeff();
+    TriangleMesh mesh = load_mesh(found(placed.mesh), 1e3 * largest);
+    for (Vector3d& v : mesh.vertices) v = placed.X * Vector3d((scale / largest).cwiseProduct(v));
+    if (scale.prod() < 0)
+      for (std::array<int, 3>& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+    return mesh;
   }
 
   void check_contact_mesh(const OsimMesh& mesh) const {
@@ -115,21 +158,22 @@ class SceneText {
           "{}mesh_file = {} is neither beside the model nor in the folder Geometry there", who,
           mesh.file));
     }
-    if (unit(mesh.scale).empty()) {
-      throw InputError(
-          fmt::format("{}scale_factors = {:g} {:g} {:g}, expected 1, 0.01 or 0.001 "
-                      "three times",
-                      who, mesh.scale.x(), mesh.scale.y(), mesh.scale.z()));
+    if (!sized(mesh)) {
+      throw InputError(fmt::format("{}scale_factors = {:g} {:g} {:g}, expected none that is 0", who,
+                                   mesh.scale.x(), mesh.scale.y(), mesh.scale.z()));
     }
+  }
+
+  [[nodiscard]] static bool sized(const OsimMesh& mesh) {
+    return mesh.scale.allFinite() && (mesh.scale.array() != 0).all();
   }
 
   void add_bone(const OsimBody& body) {
     if (!body.bone) return;
-    if (readable(*body.bone) && !found(*body.bone).empty() && !unit(body.bone->scale).empty())
-      return add_mesh(*body.bone);
+    const OsimMesh& mesh = body.bone->mesh;
+    if (readable(mesh) && !found(mesh).empty() && sized(mesh)) return add_mesh(*body.bone);
     out_.notes.push_back(fmt::format(
-        "the bone mesh {}: not found, scaled, or of another format than stl, obj, ply, off",
-        body.bone->file));
+        "the bone mesh {}: not found, or of another format than stl, obj, ply, off", mesh.file));
   }
 
   void add_bodies() {
@@ -151,12 +195,13 @@ class SceneText {
     }
   }
 
-  void add_surface(const char* compartment, const char* part, const OsimMesh& mesh) {
+  void add_surface(const char* compartment, const char* part, const OsimPlacedMesh& placed) {
+    const OsimMesh& mesh = placed.mesh;
     check_contact_mesh(mesh);
     line("\n[[surface]]\nname = \"{} {}\"                   # {}\nbody = \"{}\"\nkind = \"patch\"",
          compartment, part, mesh.name, std::string(part) == "condyle" ? "femur" : "tibia");
     line("compartment = \"{}\"", compartment);
-    add_mesh(mesh);
+    add_mesh(placed);
     if (!(mesh.modulus > 0)) return;
     line("modulus = {}", number(mesh.modulus));
     line("poisson = {}", number(std::min(mesh.poisson, 0.499)));
@@ -200,6 +245,7 @@ class SceneText {
   fs::path file_, scene_;
   OsimSceneOptions options_;
   std::string body_;
+  std::map<std::string, fs::path> moved_;  ///< by the path of the mesh in the model
   OsimScene out_;
 };
 

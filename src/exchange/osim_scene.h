@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "exchange/osim_knee.h"
+#include "mesh/triangle_mesh.h"
 
 namespace condyle {
 
@@ -15,15 +16,23 @@ struct OsimSceneOptions {
   double to = 90;            ///< of the sweep over flexion from 0, by 5 [deg]
 };
 
+/// A mesh where the model puts it, to be written beside the scene.
+struct OsimMovedMesh {
+  std::filesystem::path file;  ///< PLY, mm
+  TriangleMesh mesh;
+};
+
 struct OsimScene {
-  std::string text;                ///< of the scene (TOML)
-  std::vector<std::string> notes;  ///< what was left out, one line each
+  std::string text;                   ///< of the scene (TOML)
+  std::vector<OsimMovedMesh> meshes;  ///< that the scene names and that are not there yet
+  std::vector<std::string> notes;     ///< what was left out, one line each
 };
 
 /// `scene` is where the text will stand; meshes are named relative to its folder. A mesh is looked
-/// for beside the model and in Geometry beside it, as OpenSim does. Throws InputError where a
-/// contact mesh is not there, is of a format that cannot be read, or is scaled by anything but 1,
-/// 0.01 or 0.001 (m, cm, mm).
+/// for beside the model and in Geometry beside it, as OpenSim does; one that stands in its body as
+/// it is, in m, cm or mm, is named, any other is moved and scaled. Throws InputError where a
+/// contact mesh is not there, is of a format that cannot be read, is scaled to nothing, or would be
+/// overwritten.
 [[nodiscard]] OsimScene osim_scene(const OsimModel& model,
                                    const OsimKnee& knee,
                                    const std::filesystem::path& file,

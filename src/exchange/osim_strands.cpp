@@ -95,7 +95,7 @@ class StrandFinder {
 OsimPlace place_of(const OsimFrames& frames,
                    const OsimLigament& ligament,
                    const OsimPathPoint& point) {
-  return frames.find(point.frame, "", "Blankevoort1991Ligament \"" + ligament.name + "\"");
+  return frames.find(point.frame, point.path, "Blankevoort1991Ligament \"" + ligament.name + "\"");
 }
 
 OsimStrands find_strands(const OsimModel& model,

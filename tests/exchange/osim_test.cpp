@@ -121,7 +121,7 @@ TEST_F(BrokenModel, IsNamedWithWhatIsMissing) {
                ":3: Start-end tags mismatch, expected an OpenSim model (XML)");
   expect_error("<other/>", ": holds no Model, expected an OpenSim model");
   expect_error(with(text_, "Version=\"40000\"", "Version=\"30000\""),
-               ": OpenSimDocument Version = 30000, expected 40000 or later (OpenSim 4 saves such "
+               ": OpenSimDocument Version = 30000, expected 30505 or later (OpenSim 4 saves such "
                "files)");
   expect_error(with(text_, "<length_units>m<", "<length_units>mm<"),
                ": length_units = mm, expected m");
@@ -180,8 +180,10 @@ TEST(OsimImport, AsksWhichJointAndWhichSideIsMeant) {
   for (OsimJoint& joint : model.joints)
     for (std::string* path : {&joint.parent, &joint.child})
       if (*path == "/bodyset/femur_distal_r") *path = "/bodyset/femur";
-  for (OsimMesh& mesh : model.contact_meshes)
-    if (mesh.frame == "/bodyset/femur_distal_r") mesh.frame = "/bodyset/femur";
+  for (std::vector<OsimMesh>* meshes : {&model.contact_meshes, &model.bone_meshes})
+    for (OsimMesh& mesh : *meshes)
+      if (mesh.path.find("distal") != mesh.path.npos || mesh.frame == "/bodyset/femur_distal_r")
+        mesh.frame = "/bodyset/femur";
   for (OsimLigament& ligament : model.ligaments)
     for (OsimPathPoint& point : ligament.points)
       if (point.frame == "/bodyset/femur_distal_r") point.frame = "/bodyset/femur";
