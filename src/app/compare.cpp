@@ -43,9 +43,11 @@ int run_compare(const CompareCommand& command) {
     throw InputError(command.scene +
                      ": [sweep]: path = \"arc length\", expected \"steps\" for a comparison");
   const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
-  const SweepResult ours = sweep(scene, surfaces);
+  Run run = make_run(scene, surfaces);
+  tell_warnings(talk, run);
+  run.sweep = sweep(scene, surfaces);
+  const SweepResult& ours = run.sweep;
   Progress progress(talk, "sweeps");
-  Run run = make_run(scene, surfaces, ours);
   run.comparison = compare(scene, surfaces, ours, command.options,
                            [&](int done, int total) { progress.at(done, total); });
   progress.clear();

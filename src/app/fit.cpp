@@ -15,7 +15,6 @@
 #include "input_error.h"
 #include "results/output_file.h"
 #include "scene/read_scene.h"
-#include "scene/start_warnings.h"
 #ifdef CONDYLE_PICTURES
 #include "pictures/fit_picture.h"
 #include "pictures/picture_folder.h"
@@ -63,10 +62,11 @@ int run_fit(const FitOptions& options) {
 #endif
   const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
   if (talk.plain()) print_known_parts(surfaces);
-  Run run = make_run(scene, surfaces);
-  run.start = start_warnings(scene, surfaces);
+  const Run run = make_run(scene, surfaces);
   say(talk, "\n");
-  for (const std::string& line : run.start) say(talk, "{}\n", line);
+  for (const std::string& line : run.start)
+    if (!is_warning(line)) say(talk, "{}\n", line);
+  tell_warnings(talk, run);
   write_run(options.output, run);
   say(talk, "wrote {}\n", options.output);
   CommandSummary facts = clock.summary(talk, options.output, 0);

@@ -8,6 +8,7 @@
 #include "results/digest.h"
 #include "results/output_file.h"
 #include "scene/read_scene.h"
+#include "scene/start_warnings.h"
 
 namespace condyle {
 namespace {
@@ -65,14 +66,18 @@ Study begin_study(const Talk& talk,
   check(study.scene);
   study.surfaces = fit_aloud(talk, study.scene);
   study.run = make_run(study.scene, study.surfaces);
+  tell_warnings(talk, study.run);
   return study;
 }
 
-Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces, SweepResult sweep) {
-  Run run{scene, std::move(sweep), patches_of(scene, surfaces), {}, {}};
+Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces) {
+  Run run{scene, {}, patches_of(scene, surfaces), {}, {}};
+  std::vector<TriangleMesh> bones;
   for (const BodyDescription& body : scene.bodies) {
-    if (body.mesh) run.bodies.push_back({body.name, load_body_mesh(body)});
+    bones.push_back(load_body_mesh(body));
+    if (body.mesh) run.bodies.push_back({body.name, bones.back()});
   }
+  run.start = start_warnings(scene, surfaces, bones);
   run.inputs = mesh_files(scene);
   return run;
 }

@@ -9,16 +9,14 @@
 #include <string>
 
 #include "app/talk.h"
-#include "equilibrium/pose_result.h"
 #include "results/run_file.h"
 #include "scene/fit_surfaces.h"
 
 namespace condyle {
 
-/// Scene, patches and the meshes of the bodies, with a sweep or, after a fit, with none.
-[[nodiscard]] Run make_run(const Scene& scene,
-                           const std::vector<FittedSurface>& surfaces,
-                           SweepResult sweep = {});
+/// Scene, patches, what there is to know of the start, and the meshes of the bodies; nothing
+/// computed yet.
+[[nodiscard]] Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces);
 
 /// What a command starts from that computes something from a scene.
 struct Study {

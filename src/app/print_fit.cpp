@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "report/summary_json.h"
+
 namespace condyle {
 namespace {
 
@@ -56,7 +58,7 @@ void print_fit(const std::vector<FittedSurface>& surfaces) {
   for (const FittedSurface& surface : surfaces) {
     if (!surface.report) continue;
     for (const std::string& note : surface.report->notes)
-      fmt::print("{}: {}\n", surface.report->surface, note);
+      if (!is_warning(note)) fmt::print("{}: {}\n", surface.report->surface, note);
   }
   fmt::print("\n");
 }

@@ -1,5 +1,7 @@
 #include "app/summary.h"
 
+#include <cstdio>
+
 #include "app/print_fit.h"
 #include "app/progress.h"
 
@@ -13,6 +15,12 @@ std::vector<FittedSurface> fit_aloud(const Talk& talk, const Scene& scene) {
   progress.clear();
   if (talk.plain()) print_fit(surfaces);
   return surfaces;
+}
+
+void tell_warnings(const Talk& talk, const Run& run) {
+  if (talk.quiet) return;
+  for (const std::string& line : start_and_fit_warnings(run))
+    fmt::print(stderr, "condyle: warning: {}\n", line);
 }
 
 CommandSummary CommandClock::summary(const Talk& talk,

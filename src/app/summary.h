@@ -15,6 +15,9 @@ namespace condyle {
 /// The title, a progress line while patches are fitted, and how they came out.
 [[nodiscard]] std::vector<FittedSurface> fit_aloud(const Talk& talk, const Scene& scene);
 
+/// The warnings of the fit and of the start pose, a line each on the standard error.
+void tell_warnings(const Talk& talk, const Run& run);
+
 /// Counts from when it is made.
 class CommandClock {
  public:

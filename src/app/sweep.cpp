@@ -95,12 +95,14 @@ int run_sweep(const SweepCommand& command) {
   refuse_to_overwrite_inputs(journal_path(command.output), scene);
   override_range(command.scene, command.range, scene);
   const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
+  Run run = make_run(scene, surfaces);
+  tell_warnings(talk, run);
   EarlierPoses earlier = earlier_poses(command.output, command.resume, scene, surfaces);
   if (!earlier.message.empty()) say(talk, "{}\n\n", earlier.message);
   Journal journal(journal_path(command.output), identity(scene, surfaces), earlier.journal_bytes);
-  const SweepResult result = sweep_aloud(talk, scene, surfaces, std::move(earlier.poses), journal);
+  run.sweep = sweep_aloud(talk, scene, surfaces, std::move(earlier.poses), journal);
+  const SweepResult& result = run.sweep;
   for (const std::string& line : event_lines(scene, result)) say(talk, "{}\n", line);
-  const Run run = make_run(scene, surfaces, result);
   write_result(command, run, journal);
   if (!journal.failure().empty()) fmt::print(stderr, "condyle: {}\n", journal.failure());
   for (const std::string& line : failures(scene, result)) fmt::print(stderr, "condyle: {}\n", line);

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "exchange/run_table.h"
+#include "scene/sweep_range.h"
 
 namespace condyle {
 namespace {
@@ -24,7 +25,8 @@ std::string csv_of_poses(const Run& run, const std::vector<ShownPose>& shown) {
   const std::vector<TableColumn> columns = run_columns(run, shown);
   std::string text = "pose,swept,swept_unit,quantity,name,component,value,unit\n";
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    const double swept = unit.per_inside * run.sweep.poses[shown[i].index].value;
+    const double swept =
+        in_unit(run.sweep.poses[shown[i].index].value, {unit.name, 1 / unit.per_inside});
     const std::string head = fmt::format("{},{},{},", shown[i].index, swept, unit.name);
     for (const TableColumn& column : columns) {
       if (!std::isfinite(column.values[i])) continue;

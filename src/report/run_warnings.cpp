@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "report/summary_json.h"
 #include "scene/sweep_range.h"
@@ -10,7 +12,6 @@ namespace {
 
 constexpr std::string_view kWarning = "warning: ";
 
-bool is_warning(const std::string& line) { return line.rfind(kWarning, 0) == 0; }
 std::string bare(const std::string& line) { return line.substr(kWarning.size()); }
 
 /// The same remark over many poses is one warning: "flexion 10 to 35 deg: ...".
@@ -22,7 +23,7 @@ void add_remarks(const Run& run, std::vector<std::string>& warnings) {
     std::size_t end = first + 1;
     while (end < poses.size() && poses[end].remark == poses[first].remark) ++end;
     if (!poses[first].remark.empty()) {
-      const double a = poses[first].value / unit.factor, b = poses[end - 1].value / unit.factor;
+      const double a = in_unit(poses[first].value, unit), b = in_unit(poses[end - 1].value, unit);
       const std::string range =
           end == first + 1 ? fmt::format("{:.6g}", a) : fmt::format("{:.6g} to {:.6g}", a, b);
       warnings.push_back(fmt::format("{} {}: {}", range, unit.name, poses[first].remark));
@@ -31,16 +32,37 @@ void add_remarks(const Run& run, std::vector<std::string>& warnings) {
   }
 }
 
+/// Notes on a mesh come with each patch of it.
+void add_fit_warnings(const Run& run, std::vector<std::string>& warnings) {
+  std::vector<std::pair<std::string, std::string>> said;  // warning, surfaces
+  for (const RunPatch& patch : run.patches) {
+    for (const std::string& note : patch.report.notes) {
+      if (!is_warning(note)) continue;
+      const auto same =
+          std::find_if(said.begin(), said.end(), [&](const auto& s) { return s.first == note; });
+      if (same == said.end())
+        said.emplace_back(note, patch.surface);
+      else
+        same->second += ", " + patch.surface;
+    }
+  }
+  for (const auto& [note, surfaces] : said) warnings.push_back(surfaces + ": " + bare(note));
+}
+
 }  // namespace
 
-std::vector<std::string> run_warnings(const Run& run) {
+bool is_warning(const std::string& line) { return line.rfind(kWarning, 0) == 0; }
+
+std::vector<std::string> start_and_fit_warnings(const Run& run) {
   std::vector<std::string> warnings;
   for (const std::string& line : run.start)
     if (is_warning(line)) warnings.push_back(bare(line));
-  for (const RunPatch& patch : run.patches) {
-    for (const std::string& note : patch.report.notes)
-      if (is_warning(note)) warnings.push_back(patch.surface + ": " + bare(note));
-  }
+  add_fit_warnings(run, warnings);
+  return warnings;
+}
+
+std::vector<std::string> run_warnings(const Run& run) {
+  std::vector<std::string> warnings = start_and_fit_warnings(run);
   add_remarks(run, warnings);
   return warnings;
 }

@@ -34,7 +34,7 @@ Json counts_of(const SweepResult& sweep) {
 Json joint_of(const PoseResult& pose) {
   Json joint = Json::object();
   for (const auto& column : kJointColumns)
-    joint[column.name] = pose.joint.*column.member / column.unit;
+    joint[column.name] = in_unit(pose.joint.*column.member, {column.units, column.unit});
   return joint;
 }
 
@@ -42,7 +42,7 @@ Json poses_of(const Scene& scene, const SweepResult& sweep) {
   const Unit unit = swept_unit(scene);
   Json poses = Json::array();
   for (const PoseResult& pose : sweep.poses) {
-    Json row = {{"value", pose.value / unit.factor},
+    Json row = {{"value", in_unit(pose.value, unit)},
                 {"status", name(pose.status)},
                 {"reason", pose.reason},
                 {"remark", pose.remark},
@@ -59,7 +59,7 @@ Json events_of(const Scene& scene, const SweepResult& sweep) {
   const Unit unit = swept_unit(scene);
   Json events = Json::array();
   for (const Event& event : sweep.events) {
-    Json row = {{"value", event.value / unit.factor}, {"kind", name(event.kind)}};
+    Json row = {{"value", in_unit(event.value, unit)}, {"kind", name(event.kind)}};
     row["contact"] = event.contact < 0
                          ? Json()
                          : Json(scene.contacts[static_cast<std::size_t>(event.contact)].name);
@@ -82,7 +82,7 @@ Json patches_of(const Run& run) {
 Json laxity_of_run(const Run& run) {
   Json curves = Json::array();
   for (const LaxityCurve& curve : run.laxity->curves) {
-    Json row = {{"flexion_deg", curve.flexion / kDegree},
+    Json row = {{"flexion_deg", in_unit(curve.flexion, {"deg", kDegree})},
                 {"knee", curve.cut ? "cut" : "intact"},
                 {"laxity", laxity_of(run.scene, curve.ours)},
                 {"counts", counts_of(curve.ours)}};

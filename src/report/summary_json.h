@@ -27,7 +27,13 @@ struct CommandSummary {
                                      const std::string& version,
                                      const std::string& error);
 
-/// What a reader of a run should know: warnings of the fit and the start, remarks on poses.
+/// Whether a line of a fit's notes, or about the start, is a warning.
+[[nodiscard]] bool is_warning(const std::string& line);
+
+/// Warnings of the start and of the fit; one that several patches of a mesh share is said once.
+[[nodiscard]] std::vector<std::string> start_and_fit_warnings(const Run& run);
+
+/// What a reader of a run should know: warnings of the start and of the fit, remarks on poses.
 [[nodiscard]] std::vector<std::string> run_warnings(const Run& run);
 
 }  // namespace condyle

@@ -65,7 +65,7 @@ void write_head(const Hdf5Group& root, const Scene& scene) {
 void write_status(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) {
   const std::size_t n = poses.size();
   const Unit unit = scene.sweep ? border_sweep_unit(scene) : Unit{scene.simulation ? "s" : "1", 1};
-  sweep.write("value", numbers(poses, [&](const PoseResult& p) { return p.value / unit.factor; }),
+  sweep.write("value", numbers(poses, [&](const PoseResult& p) { return in_unit(p.value, unit); }),
               {n}, unit.name);
   sweep.write("status",
               integers(poses, [](const PoseResult& p) { return static_cast<int>(p.status); }), {n},

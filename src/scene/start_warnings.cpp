@@ -16,11 +16,22 @@ using Eigen::Vector3d;
 
 constexpr double kSpacing = 2;  // of the points where gaps are looked for [mm]
 
+/// Neither surface has places to look from: two planes, or a plane and an endless cylinder.
+bool unbounded(const std::vector<FittedSurface>& surfaces, const ContactDescription& contact) {
+  return std::all_of(contact.surfaces.begin(), contact.surfaces.end(),
+                     [&](int s) { return surfaces[s].surface->samples(kSpacing).empty(); });
+}
+
 void warn_of_gaps(const Scene& scene,
                   const std::vector<FittedSurface>& surfaces,
                   double limit,
                   std::vector<std::string>& lines) {
+  // Else the start pose is a first estimate and no more.
+  const bool sets_strains =
+      std::any_of(scene.ligaments.begin(), scene.ligaments.end(),
+                  [](const LigamentDescription& l) { return l.reference_strain.has_value(); });
   for (const ContactDescription& contact : scene.contacts) {
+    if (unbounded(surfaces, contact)) continue;
     const double gap = start_gap(scene, surfaces, contact);
     if (!std::isfinite(gap)) {
       lines.push_back(fmt::format(
@@ -28,17 +39,21 @@ void warn_of_gaps(const Scene& scene,
           contact.name));
       continue;
     }
-    lines.push_back(fmt::format("{}contact \"{}\": {} of {:.2f} mm at the start pose",
-                                std::abs(gap) > limit ? "warning: " : "", contact.name,
-                                gap < 0 ? "overlap" : "gap", std::abs(gap)));
+    const bool matters = sets_strains && std::abs(gap) > limit;
+    lines.push_back(fmt::format("{}contact \"{}\": {} of {:.2f} mm at the start pose{}",
+                                matters ? "warning: " : "", contact.name,
+                                gap < 0 ? "overlap" : "gap", std::abs(gap),
+                                matters ? ", which the reference strains are given for" : ""));
   }
 }
 
-void warn_of_insertions(const Scene& scene, double limit, std::vector<std::string>& lines) {
+void warn_of_insertions(const Scene& scene,
+                        const std::vector<TriangleMesh>& bones,
+                        double limit,
+                        std::vector<std::string>& lines) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const TriangleMesh mesh = load_body_mesh(scene.bodies[b]);
-    if (mesh.triangles.empty()) continue;
-    const MeshDistance distance(mesh);
+    if (bones[b].triangles.empty()) continue;
+    const MeshDistance distance(bones[b]);
     int count = 0, off = 0;
     double farthest = 0;
     std::string name;
@@ -63,7 +78,7 @@ void warn_of_strains(const Scene& scene, double limit, std::vector<std::string>&
   const RigidTransform X_BA = start_pose(scene);
   for (const LigamentDescription& ligament : scene.ligaments) {
     const double slack = slack_length(ligament.law);
-    if (!(slack > 0)) continue;
+    if (!(slack > 0) || ligament.reference_strain) continue;
     const double strain = distance_between(scene, ligament.ends, X_BA) / slack - 1;
     if (std::abs(strain) > limit)
       lines.push_back(
@@ -101,12 +116,21 @@ double start_gap(const Scene& scene,
 
 std::vector<std::string> start_warnings(const Scene& scene,
                                         const std::vector<FittedSurface>& surfaces,
+                                        const std::vector<TriangleMesh>& bones,
                                         const StartLimits& limits) {
   std::vector<std::string> lines;
   warn_of_gaps(scene, surfaces, limits.gap, lines);
-  warn_of_insertions(scene, limits.insertion, lines);
+  warn_of_insertions(scene, bones, limits.insertion, lines);
   warn_of_strains(scene, limits.strain, lines);
   return lines;
+}
+
+std::vector<std::string> start_warnings(const Scene& scene,
+                                        const std::vector<FittedSurface>& surfaces,
+                                        const StartLimits& limits) {
+  std::vector<TriangleMesh> bones;
+  for (const BodyDescription& body : scene.bodies) bones.push_back(load_body_mesh(body));
+  return start_warnings(scene, surfaces, bones, limits);
 }
 
 }  // namespace condyle

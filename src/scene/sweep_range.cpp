@@ -4,6 +4,8 @@
 
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 
 #include "input_error.h"
 
@@ -18,6 +20,14 @@ Unit sweep_unit(const Scene& scene, const Unit& angle, const Unit& length) {
 }
 
 }  // namespace
+
+double in_unit(double inside, const Unit& unit) {
+  if (unit.factor == 1) return inside;
+  constexpr double kTwoConversions = 4 * std::numeric_limits<double>::epsilon();
+  const double exact = inside / unit.factor;
+  const double shorter = std::strtod(fmt::format("{:.14g}", exact).c_str(), nullptr);
+  return std::abs(shorter - exact) <= kTwoConversions * std::abs(exact) ? shorter : exact;
+}
 
 Unit declared_sweep_unit(const Scene& scene) {
   const std::string length = scene.length_to_mm == 1 ? "mm" : scene.length_to_mm == 10 ? "cm" : "m";

@@ -14,6 +14,10 @@ struct Unit {
   double factor = 1;  ///< to the unit used inside
 };
 
+/// A value that is used inside, in a unit: as a user wrote it, where it came from that unit (15 and
+/// not 14.999999999999998: the conversions to and fro may cost the last digit).
+[[nodiscard]] double in_unit(double inside, const Unit& unit);
+
 /// The unit of the swept values as the scene declares it; needs scene.sweep.
 [[nodiscard]] Unit declared_sweep_unit(const Scene& scene);
 

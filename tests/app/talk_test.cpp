@@ -41,12 +41,28 @@ TEST_F(CommandLine, SumsUpASweepAsJson) {
   EXPECT_EQ(json["counts"]["converged"], 5);
   ASSERT_EQ(json["poses"].size(), 5U);
   const Json& last = json["poses"][4];
-  EXPECT_NEAR(last["value"], 20, 1e-12);  // the scene bends to 20 degrees
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(json["poses"][i]["value"], 5.0 * i);  // as written
   EXPECT_EQ(last["status"], "converged");
   EXPECT_GT(last["iterations"], 0);
   EXPECT_LT(last["residual"], 1e-8);  // N
   EXPECT_TRUE(json["events"].is_array());
   EXPECT_TRUE(json["warnings"].is_array());
+}
+
+// The ligament is 30 mm long at the start pose.
+TEST_F(CommandLine, CarriesWhatTheStartWarnsOfFromTheSweepToTheReport) {
+  write("knee.toml", with(kScene, "slack_length = 30", "slack_length = 20"));
+  const std::string words =
+      "its slack length of 20.00 mm means a strain of +50 % at the start pose";
+  const Outcome outcome = run("sweep knee.toml -o run.h5 --json");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.err, "condyle: warning: ligament \"aACL\": " + words + "\n");
+  EXPECT_EQ(Json::parse(outcome.out)["warnings"][0], "ligament \"aACL\": " + words);
+  EXPECT_EQ(run("sweep knee.toml -o run.h5 --quiet").err, "");
+  EXPECT_EQ(run("report run.h5 -o page.html --no-pictures --no-viewer").code, 0);
+  const std::string page = contents(folder_ / "page.html");
+  EXPECT_NE(page.find(words), std::string::npos);
+  EXPECT_EQ(page.find("No warnings."), std::string::npos);
 }
 
 TEST_F(CommandLine, TellsAScriptWhichPosesFailed) {

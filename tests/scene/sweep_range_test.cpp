@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
 #include <string>
 
 #include "input_error.h"
@@ -17,6 +21,17 @@ TEST(RangeValues, MeetTheEndWhereItIsAWholeNumberOfStepsAway) {
 
 TEST(RangeValues, StopBeforeTheEndWhereItIsNot) {
   EXPECT_EQ(range_values(0, 12, 5), (std::vector<double>{0, 5, 10}));
+}
+
+// 15 * (pi / 180) / (pi / 180) is 14.999999999999998.
+TEST(InUnit, GivesBackWhatAUserWrote) {
+  const Unit degree{"deg", M_PI / 180};
+  for (int i = -3600; i <= 3600; ++i)
+    ASSERT_EQ(in_unit(0.1 * i * degree.factor, degree),
+              std::strtod(fmt::format("{:.1f}", 0.1 * i).c_str(), nullptr));
+  const double located = 15.000000000001234 * degree.factor;  // of an event, not typed by anybody
+  EXPECT_EQ(in_unit(located, degree), located / degree.factor);
+  EXPECT_TRUE(std::isnan(in_unit(std::nan(""), degree)));
 }
 
 TEST(RangeValues, GoDownwards) {
