@@ -3,12 +3,16 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <numeric>
-#include <tuple>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "mesh/merge_vertices.h"
+#include "mesh/mesh_edges.h"
 #include "mesh/mesh_measures.h"
 #include "mesh/orient_mesh.h"
 
@@ -17,11 +21,17 @@ namespace {
 
 using Eigen::Vector3d;
 
-void keep_triangles(TriangleMesh& mesh, const std::vector<bool>& keep) {
+/// Returns how many triangles go.
+int keep_triangles(TriangleMesh& mesh, const std::vector<bool>& keep) {
   std::size_t kept = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     if (keep[t]) mesh.triangles[kept++] = mesh.triangles[t];
-  mesh.triangles.resize(kept);
+  const int dropped = static_cast<int>(mesh.triangles.size() - kept);
+  if (dropped > 0) {
+    mesh.triangles.resize(kept);
+    mesh.triangles.shrink_to_fit();
+  }
+  return dropped;
 }
 
 /// Triangles with a repeated vertex, or thinner than the merging tolerance.
@@ -34,36 +44,66 @@ int drop_degenerate(TriangleMesh& mesh, double tolerance) {
     const double longest = std::max({ab.norm(), ac.norm(), (ab - ac).norm()});
     keep[t] = a != b && b != c && c != a && ab.cross(ac).norm() > tolerance * longest;
   }
-  keep_triangles(mesh, keep);
-  return static_cast<int>(std::count(keep.begin(), keep.end(), false));
+  return keep_triangles(mesh, keep);
 }
 
+/// The vertices of triangles, whichever way they run, in a hash table with open addressing.
+class TriangleSet {
+ public:
+  explicit TriangleSet(const TriangleMesh& mesh)
+      : mesh_(mesh), slots_(std::bit_ceil(3 * mesh.triangles.size() / 2 + 16), -1) {}
+
+  /// False where a triangle of the same vertices is there already.
+  bool add(std::size_t t) {
+    const std::array<int, 3> key = sorted(t);
+    std::uint64_t hash = 0;
+    for (const int v : key) {
+      hash = (hash ^ static_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15u;  // 2^64 / golden ratio
+      hash ^= hash >> 29;
+    }
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t slot = hash & mask;
+    for (; slots_[slot] >= 0; slot = (slot + 1) & mask)
+      if (sorted(static_cast<std::size_t>(slots_[slot])) == key) return false;
+    slots_[slot] = static_cast<int>(t);
+    return true;
+  }
+
+ private:
+  [[nodiscard]] std::array<int, 3> sorted(std::size_t t) const {
+    auto [a, b, c] = mesh_.triangles[t];
+    if (a > b) std::swap(a, b);
+    if (b > c) std::swap(b, c);
+    if (a > b) std::swap(a, b);
+    return {a, b, c};
+  }
+  const TriangleMesh& mesh_;
+  std::vector<int> slots_;
+};
+
+/// The first of its vertices stays.
 int drop_duplicates(TriangleMesh& mesh) {
-  std::vector<std::array<int, 3>> sorted = mesh.triangles;
-  for (auto& triangle : sorted) std::sort(triangle.begin(), triangle.end());
-  std::vector<int> order(sorted.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](int x, int y) { return std::tie(sorted[x], x) < std::tie(sorted[y], y); });
-  std::vector<bool> keep(sorted.size(), true);
-  for (std::size_t i = 1; i < order.size(); ++i)
-    keep[order[i]] = sorted[order[i]] != sorted[order[i - 1]];
-  keep_triangles(mesh, keep);
-  return static_cast<int>(std::count(keep.begin(), keep.end(), false));
+  std::vector<bool> keep(mesh.triangles.size());
+  {
+    TriangleSet known(mesh);
+    for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = known.add(t);
+  }
+  return keep_triangles(mesh, keep);
 }
 
-void drop_strays(TriangleMesh& mesh, double fraction, CleaningReport& report) {
-  const std::vector<int> component = find_components(mesh, mesh_edges(mesh));
+void drop_strays(TriangleMesh& mesh,
+                 const std::vector<int>& component,
+                 double fraction,
+                 CleaningReport& report) {
   if (component.empty()) return;
   std::vector<double> area(1 + *std::max_element(component.begin(), component.end()), 0.0);
-  const std::vector<Vector3d> areas = triangle_areas(mesh);
-  for (std::size_t t = 0; t < areas.size(); ++t) area[component[t]] += areas[t].norm();
+  for (std::size_t t = 0; t < component.size(); ++t)
+    area[component[t]] += triangle_area(mesh, mesh.triangles[t]).norm();
   std::vector<bool> keep(mesh.triangles.size());
   for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = area[component[t]] >= fraction * area[0];
   report.stray_components = static_cast<int>(
       std::count_if(area.begin(), area.end(), [&](double a) { return a < fraction * area[0]; }));
-  report.stray_triangles = static_cast<int>(std::count(keep.begin(), keep.end(), false));
-  keep_triangles(mesh, keep);
+  report.stray_triangles = keep_triangles(mesh, keep);
 }
 
 }  // namespace
@@ -79,19 +119,21 @@ CleanMesh clean_mesh(TriangleMesh mesh, const CleaningOptions& options) {
   report.merged_vertices = merge_vertices(mesh, tolerance);
   report.degenerate_triangles = drop_degenerate(mesh, tolerance);
   report.duplicate_triangles = drop_duplicates(mesh);
-  drop_strays(mesh, options.stray_fraction, report);
+  auto links = std::make_unique<TriangleLinks>(mesh);
+  result.component = find_components(mesh, *links);
+  drop_strays(mesh, result.component, options.stray_fraction, report);
+  if (report.stray_triangles > 0) {
+    links = std::make_unique<TriangleLinks>(mesh);
+    result.component = find_components(mesh, *links);
+  }
   report.unreferenced_vertices = drop_unreferenced_vertices(mesh);
 
-  const std::vector<MeshEdge> edges = mesh_edges(mesh);
-  result.component = find_components(mesh, edges);
-  report.flipped_triangles = orient_components(mesh, edges, result.component, result.closed);
+  report.flipped_triangles = orient_components(mesh, *links, result.component, result.closed);
   report.components = static_cast<int>(result.closed.size());
   report.closed_components =
       static_cast<int>(std::count(result.closed.begin(), result.closed.end(), true));
-  for (const MeshEdge& e : edges) {
-    report.boundary_edges += e.count == 1;
-    report.non_manifold_edges += e.count > 2;
-  }
+  report.boundary_edges = links->boundary_edges();
+  report.non_manifold_edges = links->non_manifold_edges();
   result.mesh = std::move(mesh);
   return result;
 }

@@ -1,52 +1,39 @@
 #include "mesh/load_mesh.h"
 
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-#include <assimp/Importer.hpp>
-
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <exception>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "input_error.h"
-#include "mesh/mesh_file_check.h"
+#include "mesh/isolated_import.h"
+#include "mesh/mesh_bytes.h"
+#include "mesh/mesh_readers.h"
 
 namespace condyle {
 namespace {
 
 constexpr double kLargest = 2000, kSmallest = 5;  // [mm], extent of a bone or a cartilage
 
-void append(TriangleMesh& mesh, const aiMesh& part, double to_mm) {
-  const int offset = static_cast<int>(mesh.vertices.size());
-  for (unsigned i = 0; i < part.mNumVertices; ++i) {
-    const aiVector3D& p = part.mVertices[i];
-    mesh.vertices.emplace_back(to_mm * double(p.x), to_mm * double(p.y), to_mm * double(p.z));
-  }
-  for (unsigned i = 0; i < part.mNumFaces; ++i) {
-    const aiFace& face = part.mFaces[i];
-    if (face.mNumIndices != 3) continue;  // points and lines
-    const bool known = face.mIndices[0] < part.mNumVertices &&
-                       face.mIndices[1] < part.mNumVertices && face.mIndices[2] < part.mNumVertices;
-    if (!known) throw InputError("face refers to a vertex that is not there");
-    mesh.triangles.push_back({offset + static_cast<int>(face.mIndices[0]),
-                              offset + static_cast<int>(face.mIndices[1]),
-                              offset + static_cast<int>(face.mIndices[2])});
-  }
-}
-
-TriangleMesh import(const std::filesystem::path& file, double to_mm) {
-  Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
-  if (scene == nullptr) throw InputError(importer.GetErrorString());
-  TriangleMesh mesh;
-  for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(mesh, *scene->mMeshes[i], to_mm);
-  return mesh;
+TriangleMesh read_mesh(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const MeshBytes bytes(file);
+  if (ending == ".stl") return read_stl(bytes);
+  if (ending == ".ply") return read_ply(bytes);
+  if (ending == ".obj") return read_obj(bytes);
+  if (ending == ".off") return read_off(bytes);
+  if (ending.empty() || !importer_knows(ending))
+    bytes.fail(
+        fmt::format("unsupported mesh format \"{}\", expected .stl, .ply, .obj, .off, or another "
+                    "that assimp reads (.3mf, .glb, .dae, .x3d ...)",
+                    ending));
+  return import_isolated(file);
 }
 
 /// The unit in which the numbers of the file would make a knee; empty where none would.
@@ -86,20 +73,9 @@ void check_size(const std::filesystem::path& file, const TriangleMesh& mesh, dou
 }  // namespace
 
 TriangleMesh load_mesh(const std::filesystem::path& file, double to_mm) {
-  const MeshFileCounts promised = check_mesh_file(file);
-  TriangleMesh mesh;
-  try {
-    mesh = import(file, to_mm);
-  } catch (const std::exception& error) {
-    std::string reason = error.what();
-    std::replace_if(
-        reason.begin(), reason.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
-    throw InputError(fmt::format("{}: mesh cannot be read: {}", file.string(), reason));
-  }
+  TriangleMesh mesh = read_mesh(file);
   if (mesh.triangles.empty()) throw InputError(fmt::format("{}: mesh has no faces", file.string()));
-  if (promised.faces && static_cast<long>(mesh.triangles.size()) < *promised.faces)
-    throw InputError(fmt::format("{}: {} of {} faces can be read; the file is damaged",
-                                 file.string(), mesh.triangles.size(), *promised.faces));
+  for (Eigen::Vector3d& p : mesh.vertices) p *= to_mm;
   check_size(file, mesh, to_mm);
   return mesh;
 }

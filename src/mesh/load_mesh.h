@@ -1,7 +1,7 @@
 #pragma once
 
-/// Triangle meshes from files: STL, PLY, OBJ, OFF, ASCII or binary. assimp lives here and nowhere
-/// else.
+/// Triangle meshes from files: STL, PLY, OBJ and OFF by plain readers (mesh_readers.h), what else
+/// assimp knows by assimp, in a process of its own (isolated_import.h).
 
 #include <filesystem>
 

@@ -1,13 +1,18 @@
 #pragma once
 
-/// Normals, areas and edges of a triangle mesh.
+/// Normals, areas and lengths of a triangle mesh.
 
 #include <array>
 #include <vector>
 
+#include "mesh/mesh_edges.h"
 #include "mesh/triangle_mesh.h"
 
 namespace condyle {
+
+/// Vector area of one triangle of the mesh [mm²].
+[[nodiscard]] Eigen::Vector3d triangle_area(const TriangleMesh& mesh,
+                                            const std::array<int, 3>& triangle);
 
 /// Vector area of each triangle [mm²]: half the cross product of two edges, along its normal.
 [[nodiscard]] std::vector<Eigen::Vector3d> triangle_areas(const TriangleMesh& mesh);
@@ -17,15 +22,6 @@ namespace condyle {
 
 /// A third of the area of the triangles around each vertex [mm²].
 [[nodiscard]] std::vector<double> vertex_areas(const TriangleMesh& mesh);
-
-/// One edge, once, and the triangles that share it.
-struct MeshEdge {
-  int a = 0, b = 0;  ///< vertices, a < b
-  int count = 0;     ///< triangles that share it: 1 on a boundary, 2 on a manifold
-  std::array<int, 2> triangle = {-1, -1};  ///< the first two of them
-  std::array<bool, 2> forward = {};        ///< whether the triangle runs from a to b
-};
-[[nodiscard]] std::vector<MeshEdge> mesh_edges(const TriangleMesh& mesh);
 
 /// Mean length of the edges [mm]; 0 for a mesh without triangles.
 [[nodiscard]] double mean_edge_length(const TriangleMesh& mesh);

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "mesh/mesh_measures.h"
+
 namespace condyle {
 namespace {
 
@@ -17,38 +19,31 @@ using Eigen::Vector3d;
 /// them).
 constexpr double kPinholes = 0.005;
 
-struct Neighbour {
-  int triangle;
-  bool agrees;  ///< the two run through their common edge in opposite directions
-};
-
-std::vector<std::vector<Neighbour>> neighbours(const TriangleMesh& mesh,
-                                               const std::vector<MeshEdge>& edges) {
-  std::vector<std::vector<Neighbour>> result(mesh.triangles.size());
-  for (const MeshEdge& e : edges) {
-    if (e.count != 2) continue;
-    const bool agrees = e.forward[0] != e.forward[1];
-    result[e.triangle[0]].push_back({e.triangle[1], agrees});
-    result[e.triangle[1]].push_back({e.triangle[0], agrees});
-  }
-  return result;
-}
-
-/// Which triangles to turn for a component that contains `seed`: marks and lists the component on
-/// the way.
-std::vector<int> make_consistent(const std::vector<std::vector<Neighbour>>& links,
-                                 int seed,
-                                 std::vector<bool>& turned,
-                                 std::vector<bool>& seen) {
+/// Calls visit(from, k, other) for every triangle `other` that is reached from `seed` across side k
+/// of `from`, each once, breadth first; `seen` marks them. Returns them all.
+template <class Visit>
+std::vector<int> walk(const TriangleLinks& links, int seed, std::vector<bool>& seen, Visit visit) {
   std::vector<int> members = {seed};
   seen[seed] = true;
   for (std::size_t next = 0; next < members.size(); ++next)
-    for (const auto& [other, agrees] : links[members[next]]) {
-      if (seen[other]) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int other = links.across(members[next], k);
+      if (other < 0 || seen[other]) continue;
       seen[other] = true;
-      turned[other] = turned[members[next]] != !agrees;
+      visit(members[next], k, other);
       members.push_back(other);
     }
+  return members;
+}
+
+/// Which triangles to turn for the component that contains `seed`, the fewest; returns all of it.
+std::vector<int> make_consistent(const TriangleLinks& links,
+                                 int seed,
+                                 std::vector<bool>& turned,
+                                 std::vector<bool>& seen) {
+  const std::vector<int> members = walk(links, seed, seen, [&](int from, std::size_t k, int other) {
+    turned[other] = turned[from] != !links.agrees(from, k);
+  });
   const auto count =
       std::count_if(members.begin(), members.end(), [&](int t) { return turned[t]; });
   if (2 * static_cast<std::size_t>(count) > members.size())
@@ -75,40 +70,38 @@ double enclosed_volume(const TriangleMesh& mesh,
 
 }  // namespace
 
-std::vector<int> find_components(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges) {
-  std::vector<int> parent(mesh.triangles.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](int t) {
-    while (parent[t] != t) t = parent[t] = parent[parent[t]];
-    return t;
-  };
-  for (const MeshEdge& e : edges)
-    if (e.count == 2) parent[root(e.triangle[0])] = root(e.triangle[1]);
-
-  const std::vector<Vector3d> areas = triangle_areas(mesh);
-  std::vector<double> area(mesh.triangles.size(), 0.0);
-  for (std::size_t t = 0; t < areas.size(); ++t) area[root(static_cast<int>(t))] += areas[t].norm();
-  std::vector<int> roots;
-  for (std::size_t t = 0; t < parent.size(); ++t)
-    if (parent[t] == static_cast<int>(t)) roots.push_back(static_cast<int>(t));
-  std::stable_sort(roots.begin(), roots.end(), [&](int x, int y) { return area[x] > area[y]; });
-  std::vector<int> number(parent.size(), -1), component(parent.size());
-  for (std::size_t i = 0; i < roots.size(); ++i) number[roots[i]] = static_cast<int>(i);
-  for (std::size_t t = 0; t < parent.size(); ++t) component[t] = number[root(static_cast<int>(t))];
+std::vector<int> find_components(const TriangleMesh& mesh, const TriangleLinks& links) {
+  std::vector<int> component(mesh.triangles.size());
+  std::vector<double> area;
+  std::vector<bool> seen(mesh.triangles.size(), false);
+  for (std::size_t seed = 0; seed < seen.size(); ++seed) {
+    if (seen[seed]) continue;
+    const int label = static_cast<int>(area.size());
+    double sum = 0;
+    for (const int t : walk(links, static_cast<int>(seed), seen, [](int, std::size_t, int) {})) {
+      component[t] = label;
+      sum += triangle_area(mesh, mesh.triangles[t]).norm();
+    }
+    area.push_back(sum);
+  }
+  std::vector<int> order(area.size()), number(area.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int x, int y) { return area[x] > area[y]; });
+  for (std::size_t i = 0; i < order.size(); ++i) number[order[i]] = static_cast<int>(i);
+  for (int& c : component) c = number[c];
   return component;
 }
 
 int orient_components(TriangleMesh& mesh,
-                      const std::vector<MeshEdge>& edges,
+                      const TriangleLinks& links,
                       const std::vector<int>& component,
                       std::vector<bool>& closed) {
   const int n = component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
   std::vector<int> boundary(n, 0);
-  for (const MeshEdge& e : edges)
-    if (e.count == 1) ++boundary[component[e.triangle[0]]];
+  for (std::size_t t = 0; t < component.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) boundary[component[t]] += links.is_boundary(t, k);
 
   closed.assign(n, false);
-  const auto links = neighbours(mesh, edges);
   std::vector<bool> turned(mesh.triangles.size(), false), seen(mesh.triangles.size(), false);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (seen[t]) continue;

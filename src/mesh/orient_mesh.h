@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "mesh/mesh_measures.h"
+#include "mesh/mesh_edges.h"
 #include "mesh/triangle_mesh.h"
 
 namespace condyle {
@@ -12,13 +12,13 @@ namespace condyle {
 /// Number of the component of each triangle, by falling area; linked through edges of just two
 /// triangles.
 [[nodiscard]] std::vector<int> find_components(const TriangleMesh& mesh,
-                                               const std::vector<MeshEdge>& edges);
+                                               const TriangleLinks& links);
 
 /// Turns triangles so that each component is consistent in itself (the fewest are turned) and
 /// closed components face outward. Returns how many triangles end up turned; fills `closed` per
 /// component.
 int orient_components(TriangleMesh& mesh,
-                      const std::vector<MeshEdge>& edges,
+                      const TriangleLinks& links,
                       const std::vector<int>& component,
                       std::vector<bool>& closed);
 

@@ -58,7 +58,7 @@ std::vector<Vector3d> smoothed_normals(const TriangleMesh& mesh, double distance
 /// Keeps the linked part of the largest area.
 std::vector<bool> largest_part(const TriangleMesh& mesh, const std::vector<bool>& keep) {
   const SubMesh part = sub_mesh(mesh, keep);
-  const std::vector<int> component = find_components(part.mesh, mesh_edges(part.mesh));
+  const std::vector<int> component = find_components(part.mesh, TriangleLinks(part.mesh));
   std::vector<bool> result(keep.size(), false);
   for (std::size_t t = 0, k = 0; t < keep.size(); ++t)
     if (keep[t]) result[t] = component[k++] == 0;

@@ -3,6 +3,7 @@
 ///   condyle_phantom -o meshes
 ///   condyle_phantom -o DIR --resolution 1.0 --roughness 0.1 --correlation 3 --seed 7
 ///   condyle_phantom -o DIR --exact
+///   condyle_phantom -o DIR --split 3
 
 #include <CLI/CLI.hpp>
 
@@ -11,9 +12,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "phantom/mesh_shape.h"
 #include "phantom/roughness.h"
+#include "phantom/split_triangles.h"
 #include "phantom/stl.h"
 
 int main(int argc, char** argv) {
@@ -30,6 +33,7 @@ int main(int argc, char** argv) {
   double resolution = kResolution;
   Roughness roughness;
   bool exact = false;
+  int split = 0;
   app.add_option("-o,--output", folder, "folder for femur.stl and tibia.stl")
       ->required()
       ->check(CLI::ExistingDirectory);
@@ -47,12 +51,16 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.1, 50.0));
   app.add_option("--seed", roughness.seed, "of the roughness")->capture_default_str();
   app.add_flag("--exact", exact, "no roughness");
+  app.add_option("--split", split, "times that each triangle is cut into four, at the end")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 4));
   CLI11_PARSE(app, argc, argv);
   if (exact) roughness.rms = 0;
 
   for (const Bone bone : {Bone::kFemur, Bone::kTibia}) {
     condyle::TriangleMesh mesh = mesh_bone(bone, resolution);
     roughen(bone, roughness, mesh);
+    mesh = split_triangles(std::move(mesh), split);
     const std::string name = bone_name(bone);
     const std::filesystem::path file = folder / (name + ".stl");
     std::ofstream out(file, std::ios::binary);
