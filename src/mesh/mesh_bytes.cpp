@@ -27,6 +27,13 @@ MeshBytes::MeshBytes(std::filesystem::path file) : file_(std::move(file)) {
     fail("mesh file cannot be read");
 }
 
+MeshBytes::MeshBytes(std::filesystem::path file, std::string_view content)
+    : file_(std::move(file)),
+      bytes_(std::make_unique_for_overwrite<char[]>(content.size())),
+      size_(content.size()) {
+  std::copy(content.begin(), content.end(), bytes_.get());
+}
+
 void MeshBytes::fail(std::string_view what) const {
   throw InputError(fmt::format("{}: {}", file_.string(), what));
 }

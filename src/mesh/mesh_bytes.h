@@ -15,6 +15,8 @@ class MeshBytes {
  public:
   /// Throws InputError where the file is missing, no regular file, empty or cannot be read.
   explicit MeshBytes(std::filesystem::path file);
+  /// The content of `file` as it is given.
+  MeshBytes(std::filesystem::path file, std::string_view content);
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   [[nodiscard]] std::string_view all() const { return {bytes_.get(), size_}; }
