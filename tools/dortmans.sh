@@ -3,15 +3,13 @@
 # the report gives for its Prime P550. Results go into out/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-source tools/packages.sh
+source tools/figures/program.sh
 
-install_packages
-TARGET=condyle build build -DCMAKE_BUILD_TYPE=Release >/dev/null
-mkdir -p out
+mkdir -p "$OUT"
 
 # row SCENE ITERATIONS SECONDS: the last two columns of the program's table are iterations and microseconds.
 row() {
-  build/condyle sweep "data/dortmans/$1.toml" -o "out/dortmans-$1.h5" |
+  "$CONDYLE" sweep "data/dortmans/$1.toml" -o "$OUT/dortmans-$1.h5" |
     awk -v name="$1" -v iterations="$2" -v seconds="$3" '
       $NF == "us" { in_table = 1; next }
       !NF { in_table = 0 }

@@ -3,19 +3,17 @@
 # into out/wismans.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-source tools/packages.sh
+source tools/figures/program.sh
 
-install_packages
-TARGET=condyle build build -DCMAKE_BUILD_TYPE=Release >/dev/null
 mkdir -p out/wismans
 
 for knee in wismans-type phantom; do
   folder=out/wismans/$knee
   mkdir -p "$folder"
   # Exit code 2: some pose did not succeed, and the program has said which.
-  build/condyle compare "data/$knee/knee.toml" -o "$folder/compare.h5" || [ $? -eq 2 ]
-  build/condyle laxity "data/$knee/drawer.toml" -o "$folder/laxity.h5" || [ $? -eq 2 ]
-  build/condyle plot "$folder/compare.h5" -o "$folder"
-  build/condyle plot "$folder/laxity.h5" -o "$folder"
-  build/condyle render "$folder/compare.h5" -o "$folder" --view plateau
+  "$CONDYLE" compare "data/$knee/knee.toml" -o "$folder/compare.h5" || [ $? -eq 2 ]
+  "$CONDYLE" laxity "data/$knee/drawer.toml" -o "$folder/laxity.h5" || [ $? -eq 2 ]
+  "$CONDYLE" plot "$folder/compare.h5" -o "$folder"
+  "$CONDYLE" plot "$folder/laxity.h5" -o "$folder"
+  "$CONDYLE" render "$folder/compare.h5" -o "$folder" --view plateau
 done

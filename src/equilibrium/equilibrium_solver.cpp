@@ -187,6 +187,29 @@ bool EquilibriumSolver::advance(EquilibriumState& state,
   return true;
 }
 
+/// Newton from the first estimates of contact points that the scene gives, if it gives any.
+bool EquilibriumSolver::settle_at_estimates(EquilibriumState& state, Attempt& attempt) {
+  EquilibriumState trial = state;
+  for (std::size_t p = 0; p < model_->pairs.size(); ++p) {
+    const ContactPair& pair = model_->pairs[p];
+    if (pair.mode == ContactMode::kOpen) continue;
+    for (const Eigen::Vector3d& on_B : pair.start) {
+      if (trial.contacts.size() + trial.sigma.size() >= kMaxConstraints) break;
+      const Eigen::Vector3d on_A = state.X.inverse() * on_B;
+      trial.contacts.push_back({static_cast<int>(p),
+                                pair.on_B->closest(on_B, pair.on_B->seed(on_B)),
+                                pair.on_A->closest(on_A, pair.on_A->seed(on_A)), 0});
+    }
+  }
+  if (trial.contacts.empty() || !settle(trial, attempt)) return false;
+  state = trial;
+  return true;
+}
+
+bool EquilibriumSolver::find_first(EquilibriumState& state, Attempt& attempt) {
+  return settle_at_estimates(state, attempt) || descend(state, attempt);
+}
+
 /// The first pose: where the start is far from what the conditions prescribe, the equilibrium at
 /// the start's own values comes first.
 bool EquilibriumSolver::solve_first(EquilibriumState& state,
@@ -201,9 +224,9 @@ bool EquilibriumSolver::solve_first(EquilibriumState& state,
     own.values[i] = target.values[i] + k;
     far |= std::abs(k) * condition_weight(*model_, i) > kFar * model_->length;
   }
-  if (!far) return descend(state, attempt);
+  if (!far) return find_first(state, attempt);
   set_drive(own, own, 1);
-  return descend(state, attempt) && advance(state, own, target, attempt);
+  return find_first(state, attempt) && advance(state, own, target, attempt);
 }
 
 /// Newton from where the poses before point to, or from the last one; else the descent; else the

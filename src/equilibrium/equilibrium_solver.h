@@ -52,6 +52,8 @@ class EquilibriumSolver {
   void read_drive(Drive& drive) const;
   void keep(const EquilibriumState& state);
   void set_drive(const Drive& from, const Drive& to, double t);
+  bool settle_at_estimates(EquilibriumState& state, Attempt& attempt);
+  bool find_first(EquilibriumState& state, Attempt& attempt);
   bool solve_first(EquilibriumState& state, const Drive& target, Attempt& attempt);
   bool advance(EquilibriumState& state, const Drive& from, const Drive& to, Attempt& attempt);
   bool descend(EquilibriumState& state, Attempt& attempt);

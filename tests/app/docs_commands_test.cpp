@@ -1,0 +1,119 @@
+/// Every command line that the documentation shows, run as it stands there; and every shipped scene
+/// with the commands that it is for.
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+#include "app/run_program.h"
+
+namespace condyle {
+namespace {
+
+namespace fs = std::filesystem;
+using test::CommandLine;
+using test::contents;
+using test::Outcome;
+
+const fs::path kRoot = CONDYLE_SOURCE_DIR;
+
+/// In a folder that has what a reader would have: the shipped data, a scene, a model, earlier runs.
+class DocsCommands : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    for (const char* name : {"data", "meshes"})
+      fs::create_directory_symlink(kRoot / name, folder_ / name);
+    fs::create_directory(folder_ / "out");
+    write("knee.toml", contents(kRoot / "data/wismans-type/knee.toml"));
+    std::string model = contents(kRoot / "tests/data/phantom_jam.osim");
+    for (std::size_t at; (at = model.find("../../meshes")) != std::string::npos;)
+      model.replace(at, 12, (kRoot / "meshes").string());
+    write("knee.osim", model);
+    EXPECT_EQ(run("sweep knee.toml -o run.h5").code, 0);
+    EXPECT_EQ(run("sweep data/phantom/knee.toml -o out/phantom.h5").code, 0);
+    for (const char* name : {"intact.h5", "cut.h5"})
+      fs::copy_file(folder_ / "run.h5", folder_ / name);
+  }
+
+  /// Indented lines "condyle ..." without comments and pipes, but for synopses (SCENE, DIR ...).
+  [[nodiscard]] static std::vector<std::string> commands_of(const fs::path& page) {
+    static const std::regex command(R"(^    (?:build/)?condyle ([a-z].*?)(?:   .*| \|.*|  #.*)?$)");
+    static const std::regex synopsis(R"(\b[A-Z]{3,}|^journal )");
+    std::vector<std::string> found;
+    std::istringstream lines(contents(page));
+    for (std::string line; std::getline(lines, line);) {
+      std::smatch match;
+      if (!std::regex_match(line, match, command)) continue;
+      if (std::regex_search(line, synopsis) || std::regex_search(match[1].str(), synopsis))
+        continue;
+      found.push_back(match[1]);
+    }
+    return found;
+  }
+};
+
+TEST_F(DocsCommands, RunAsTheyStandThere) {
+  std::vector<fs::path> pages = {kRoot / "README.md"};
+  for (const auto& entry : fs::directory_iterator(kRoot / "docs"))
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  std::sort(pages.begin(), pages.end());
+  int count = 0;
+  for (const fs::path& page : pages) {
+    for (const std::string& command : commands_of(page)) {
+      const Outcome outcome = run(command);
+      // Wismans' polynomials find no pose of the phantom at 120 degrees (docs/wismans.md).
+      const bool fails = command.rfind("compare data/phantom/knee.toml", 0) == 0;
+      EXPECT_EQ(outcome.code, fails ? 2 : 0) << page << ": condyle " << command << "\n"
+                                             << outcome.err;
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 20);
+}
+
+class ShippedScene : public CommandLine, public testing::WithParamInterface<const char*> {};
+
+// All poses of ours converge: exit code 0.
+TEST_P(ShippedScene, RunsToItsEnd) {
+  const std::string command = GetParam();
+  const std::size_t blank = command.find(' ');
+  const Outcome outcome = run(command.substr(0, blank) + " '" + kRoot.string() + "/data/" +
+                              command.substr(blank + 1) + "' -o run.h5");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(Data,
+                         ShippedScene,
+                         testing::Values("sweep dortmans/problem1.toml",
+                                         "sweep dortmans/problem2.toml",
+                                         "sweep dortmans/problem3.toml",
+                                         "sweep dortmans/cancellation.toml",
+                                         "sweep phantom/knee.toml",
+                                         "laxity phantom/drawer.toml",
+                                         "simulate phantom/pendulum.toml",
+                                         "simulate phantom/blow.toml",
+                                         "simulate phantom/decaying-sine.toml",
+                                         "sweep wismans-type/knee.toml",
+                                         "compare wismans-type/knee.toml",
+                                         "laxity wismans-type/drawer.toml"));
+
+/// The scenes of data/hard are run by tests/hard, each to the end that it is meant to have.
+TEST(ShippedScenes, AreAllRun) {
+  std::vector<std::string> scenes;
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "data"))
+    if (entry.path().extension() == ".toml")
+      scenes.push_back(fs::relative(entry.path(), kRoot / "data").generic_string());
+  const std::string here = contents(kRoot / "tests/app/docs_commands_test.cpp");
+  const std::string hard = contents(kRoot / "tests/hard/hard_cases.cpp");
+  for (const std::string& scene : scenes) {
+    const bool is_hard = scene.rfind("hard/", 0) == 0;
+    const std::string& source = is_hard ? hard : here;
+    EXPECT_NE(source.find(is_hard ? "\"" + scene.substr(5) + "\"" : " " + scene + "\""),
+              std::string::npos)
+        << scene;
+  }
+}
+
+}  // namespace
+}  // namespace condyle
