@@ -29,7 +29,8 @@ stale=0 fresh=0 passed_over=0
 # replace PAGE LINE FILE: the block below a line of a page becomes the file, indented as it was.
 replace() {
   awk -v start="$2" -v file="$3" '
-    NR == start { print; getline; indent = /^    / ? "    " : ""
+    NR == start { print; getline; if (/^$/) { print; getline }
+      indent = /^    / ? "    " : ""
       while ((getline line < file) > 0) print line == "" ? "" : indent line
       while ($0 !~ /^<!-- end -->/) getline }
     { print }' "$1" >"$work/page"
@@ -45,8 +46,9 @@ check() {
   bash -c "set -o pipefail; $command" >"$work/new" 2>"$work/err" || status=$?
   if [ "$status" -eq 77 ]; then
     passed_over=$((passed_over + 1))
-  elif [ "$status" -ne 0 ]; then
-    printf '%s:%s: %s: exit code %s\n' "$page" "$line" "$command" "$status"
+  elif [ "$status" -ne 0 ] || grep -qw nan "$work/new"; then
+    printf '%s:%s: %s: exit code %s%s\n' "$page" "$line" "$command" "$status" \
+      "$(grep -w nan "$work/new" | sed 's/^/, no number in: /')"
     tail -3 "$work/err"
     stale=$((stale + 1))
   elif awk -v within="${within:-0}" -f tools/figures/compare.awk "$work/old" "$work/new" >"$work/what"; then

@@ -39,7 +39,7 @@ class DocsCommands : public CommandLine {
   /// Indented lines "condyle ..." without comments and pipes, but for synopses (SCENE, DIR ...).
   [[nodiscard]] static std::vector<std::string> commands_of(const fs::path& page) {
     static const std::regex command(R"(^    (?:build/)?condyle ([a-z].*?)(?:   .*| \|.*|  #.*)?$)");
-    static const std::regex synopsis(R"(\b[A-Z]{3,}|^journal )");
+    static const std::regex synopsis(R"(\b[A-Z]{3,}|^journal |\w\|\w)");
     std::vector<std::string> found;
     std::istringstream lines(contents(page));
     for (std::string line; std::getline(lines, line);) {
