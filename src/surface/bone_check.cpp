@@ -32,6 +32,18 @@ std::optional<CondylarAxis> find_axis(const TriangleMesh& mesh, const BoneFrame&
   }
 }
 
+/// From front to back, of what lies at most `below` the highest point [mm]; 0 of no points.
+double depth_near_top(const std::vector<Vector3d>& points, double below) {
+  double top = -1e300, low = 1e300, high = -1e300;
+  for (const Vector3d& p : points) top = std::max(top, p.y());
+  for (const Vector3d& p : points) {
+    if (p.y() < top - below) continue;
+    low = std::min(low, p.x());
+    high = std::max(high, p.x());
+  }
+  return points.empty() ? 0 : high - low;
+}
+
 }  // namespace
 
 void check_one_knee(const TriangleMesh& mesh, const BoneFrame& frame) {
@@ -67,7 +79,7 @@ void check_is_femur(const CondylarAxis& axis) {
 }
 
 double plateau_depth_ratio(const TriangleMesh& mesh, const BoneFrame& frame) {
-  // From front to back over the middle of each half, of what faces upwards near the top.
+  // Of what faces upwards near the top.
   const std::vector<Vector3d> normals = vertex_normals(mesh);
   Eigen::AlignedBox3d box;
   for (const Vector3d& p : mesh.vertices) box.extend(frame.components(p - frame.origin));
@@ -81,15 +93,16 @@ double plateau_depth_ratio(const TriangleMesh& mesh, const BoneFrame& frame) {
     upper.extend(p);
   }
   if (points.empty() || upper.sizes().z() < 1.1 * upper.sizes().x()) return 0;
-  std::array<double, 2> low = {1e300, 1e300}, high = {-1e300, -1e300};
+  // Along the middles of both halves: the eminence lies between them, and a fibular head that is
+  // one with the tibia beyond or below them.
+  const double width = upper.sizes().z();
+  std::array<std::vector<Vector3d>, 2> middle;
   for (const Vector3d& p : points) {
-    const double share = (p.z() - upper.min().z()) / upper.sizes().z();
-    if (share > 0.4 && share < 0.6) continue;
-    const std::size_t half = share > 0.5;
-    low[half] = std::min(low[half], p.x());
-    high[half] = std::max(high[half], p.x());
+    const double aside = (p.z() - upper.center().z()) / width;
+    if (std::abs(std::abs(aside) - 0.25) < 0.1) middle[aside > 0].push_back(p);
   }
-  return (high[0] - low[0]) / std::max(high[1] - low[1], 1e-9);
+  const double lateral = depth_near_top(middle[1], 0.15 * width);
+  return lateral > 0 ? depth_near_top(middle[0], 0.15 * width) / lateral : 0;
 }
 
 }  // namespace condyle

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "input_error.h"
 #include "mesh/clean_mesh.h"
 #include "mesh/load_mesh.h"
 #include "mesh/mesh_measures.h"
+#include "mesh/mesh_shapes.h"
 #include "surface/mesh_distance.h"
 
 namespace condyle {
@@ -69,6 +71,22 @@ TEST(BoneCheck, DeeperPlateauTellsTheSide) {
   const BoneFrame left{.lateral = {0, 0, -1}, .anterior = {1, 0, 0}, .proximal = {0, 1, 0}};
   EXPECT_GT(plateau_depth_ratio(bone("tibia.stl"), kRight), 1.05);
   EXPECT_LT(plateau_depth_ratio(bone("tibia.stl"), left), 0.95);
+}
+
+// A ball of 9 mm behind the lateral plateau and below it, as a fibular head is in a CT of both
+// bones.
+TEST(BoneCheck, FibularHeadDoesNotDeepenThePlateau) {
+  TriangleMesh both = bone("tibia.stl");
+  const int first = static_cast<int>(both.vertices.size());
+  const TriangleMesh head = testing::grid_sheet(20, 20, [](double i, double j) {
+    const double a = M_PI * i / 20, b = 2 * M_PI * j / 20;
+    return Eigen::Vector3d(-26 + 9 * std::sin(a) * std::cos(b), -47 - 9 * std::cos(a),
+                           34 + 9 * std::sin(a) * std::sin(b));
+  });
+  both.vertices.insert(both.vertices.end(), head.vertices.begin(), head.vertices.end());
+  for (const auto& [a, b, c] : head.triangles)
+    both.triangles.push_back({a + first, b + first, c + first});
+  EXPECT_GT(plateau_depth_ratio(both, kRight), 1.05);
 }
 
 // A triangle in the plane z = 0: above its inside, beside an edge, beyond a corner.
