@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "equilibrium/sweep.h"
-#include "phantom/exact_bone.h"
+#include "phantom/exact_motion.h"
 #include "scene/read_scene.h"
 
 namespace condyle::phantom {
@@ -21,13 +21,7 @@ class PhantomMotion : public testing::Test {
   static void SetUpTestSuite() {
     scene_ =
         read_scene(std::filesystem::path(CONDYLE_SOURCE_DIR) / "data" / "phantom" / "knee.toml");
-    std::vector<FittedSurface> surfaces;
-    for (const SurfaceDescription& s : scene_.surfaces) {
-      const Bone bone = scene_.bodies[s.body].name == "femur" ? Bone::kFemur : Bone::kTibia;
-      const int side = s.patch.compartment == Compartment::kMedial ? -1 : 1;
-      surfaces.push_back({std::make_shared<ExactBone>(bone, side), std::nullopt});
-    }
-    sweep_ = sweep(scene_, surfaces);
+    sweep_ = sweep(scene_, exact_surfaces(scene_));
   }
 
   static const PoseResult& at(int degrees) { return sweep_.poses[degrees / 5]; }

@@ -1,9 +1,11 @@
-/// condyle_phantom: writes the phantom knee's two bones as binary STL (docs/phantom.md).
+/// condyle_phantom: writes the phantom knee's two bones as binary STL, or prints how a scene of it
+/// moves on the exact surfaces (docs/phantom.md).
 ///
 ///   condyle_phantom -o meshes
 ///   condyle_phantom -o DIR --resolution 1.0 --roughness 0.1 --correlation 3 --seed 7
 ///   condyle_phantom -o DIR --exact
 ///   condyle_phantom -o DIR --split 3
+///   condyle_phantom --motion data/phantom/knee.toml
 
 #include <CLI/CLI.hpp>
 
@@ -14,10 +16,25 @@
 #include <fstream>
 #include <utility>
 
+#include "equilibrium/sweep.h"
+#include "phantom/exact_motion.h"
 #include "phantom/mesh_shape.h"
 #include "phantom/roughness.h"
 #include "phantom/split_triangles.h"
 #include "phantom/stl.h"
+#include "scene/read_scene.h"
+
+namespace {
+
+void print_motion(const std::filesystem::path& file) {
+  using namespace condyle;
+  const Scene scene = read_scene(file);
+  const SweepResult result = sweep(scene, phantom::exact_surfaces(scene));
+  std::fputs(phantom::motion_table(scene, result, {0, 10, 20, 30, 45, 60, 90, 120}).c_str(),
+             stdout);
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace condyle::phantom;
@@ -29,14 +46,16 @@ int main(int argc, char** argv) {
       },
       "");
   CLI::App app{"Meshes of the phantom knee"};
-  std::filesystem::path folder;
+  std::filesystem::path folder, scene;
   double resolution = kResolution;
   Roughness roughness;
   bool exact = false;
   int split = 0;
-  app.add_option("-o,--output", folder, "folder for femur.stl and tibia.stl")
-      ->required()
-      ->check(CLI::ExistingDirectory);
+  CLI::Option* output = app.add_option("-o,--output", folder, "folder for femur.stl and tibia.stl")
+                            ->check(CLI::ExistingDirectory);
+  app.add_option("--motion", scene, "scene to sweep on the exact surfaces, printed as a table")
+      ->check(CLI::ExistingFile)
+      ->excludes(output);
   app.add_option("--resolution", resolution, "grid cell [mm]")
       ->capture_default_str()
       ->check(finite)
@@ -55,6 +74,14 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::Range(0, 4));
   CLI11_PARSE(app, argc, argv);
+  if (!scene.empty()) {
+    print_motion(scene);
+    return 0;
+  }
+  if (folder.empty()) {
+    std::fprintf(stderr, "condyle_phantom: expected -o DIR or --motion SCENE\n");
+    return 1;
+  }
   if (exact) roughness.rms = 0;
 
   for (const Bone bone : {Bone::kFemur, Bone::kTibia}) {
