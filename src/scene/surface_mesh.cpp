@@ -170,7 +170,7 @@ TriangleMesh triangles_of(const SurfaceDescription& d, const Vector3d& near, dou
     case SurfaceKind::kTorus:
       return ring(d, F);
     case SurfaceKind::kCylinder:
-      if (std::isfinite(d.length)) return tube(d.point, F, d.radius, 2 * d.length);
+      if (std::isfinite(d.length)) return tube(d.point, F, d.radius, d.length);
       return tube(d.point + F.col(2) * F.col(2).dot(near - d.point), F, d.radius, extent);
     case SurfaceKind::kPlane:
       if (std::isfinite(d.known_radius)) return disc(d.point, F, d.known_radius);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/fit_surfaces.h"
+
 namespace condyle {
 namespace {
 
@@ -96,6 +98,25 @@ TEST(ExactShape, APlaneWithARadiusIsDrawnWhereItIsKnown) {
   for (const ShadedVertex& vertex : exact_shape(d, {}, {50, 50, 50}).vertices)
     farthest = std::max(farthest, (vertex.position.cast<double>() - d.point).norm());
   EXPECT_NEAR(farthest, 7, 1e-5);
+}
+
+TEST(ExactShape, ABoundedCylinderIsAsLongAsTheMechanicsKnowsIt) {
+  SurfaceDescription d;
+  d.kind = SurfaceKind::kCylinder;
+  d.point = {1, 2, 3};
+  d.direction = Vector3d(1, 2, 2) / 3;
+  d.radius = 10;
+  d.length = 30;
+  const auto surface = make_exact_surface(d);
+  double low = 0, high = 0;
+  for (const ShadedVertex& vertex : exact_shape(d, {}, {50, 50, 50}).vertices) {
+    const Vector3d p = vertex.position.cast<double>();
+    low = std::min(low, d.direction.dot(p - d.point));
+    high = std::max(high, d.direction.dot(p - d.point));
+    EXPECT_GT(surface->edge_distance(surface->place_of(p)), -1e-4);
+  }
+  EXPECT_NEAR(low, -15, 1e-4);
+  EXPECT_NEAR(high, 15, 1e-4);
 }
 
 }  // namespace
