@@ -22,7 +22,7 @@
 #include "pictures/strip.h"
 #include "pictures/swept_quantity.h"
 #include "results/output_file.h"
-#include "results/run_file.h"
+#include "results/run_view.h"
 
 namespace condyle {
 namespace {
@@ -76,21 +76,16 @@ std::vector<std::size_t> chosen_poses(const RenderCommand& command,
                                       const SweptQuantity& swept) {
   if (run.sweep.poses.empty())
     throw InputError(command.run + ": holds no poses, expected the result of condyle sweep");
-  const Range stored = stored_range(run, swept);
-  const double tolerance = 0.02 * (stored.high - stored.low) + (swept.unit == "s" ? 0 : 0.5);
   std::vector<std::size_t> poses;
-  for (const double place : command.at.empty() ? default_places(stored, swept) : command.at) {
-    if (!(place > stored.low - tolerance && place < stored.high + tolerance)) {
-      throw InputError(fmt::format("--at {:g}: {} holds {:g} to {:g}", place, command.run,
-                                   stored.low, stored.high));
-    }
-    const std::size_t pose = nearest_pose(run.scene, run.sweep, place).value();
+  for (const double place :
+       command.at.empty() ? default_places(stored_range(run, swept), swept) : command.at) {
+    const std::size_t pose = nearest_pose_of(run, command.run, place);
     if (std::find(poses.begin(), poses.end(), pose) == poses.end()) poses.push_back(pose);
   }
   return poses;
 }
 
-// Poses of a movie: all that converged, or those asked for.
+// Poses of a movie: all, or those asked for.
 std::vector<std::size_t> movie_poses(const RenderCommand& command,
                                      const Run& run,
                                      const SweptQuantity& swept) {
@@ -100,16 +95,17 @@ std::vector<std::size_t> movie_poses(const RenderCommand& command,
   return poses;
 }
 
-// Leaves out what did not converge, and says so.
-int keep_converged(const Run& run, const SweptQuantity& swept, std::vector<std::size_t>& poses) {
+// Leaves out what has no place, and says so of all that are no results.
+int keep_drawable(const Run& run, const SweptQuantity& swept, std::vector<std::size_t>& poses) {
   int status = 0;
   std::erase_if(poses, [&](std::size_t pose) {
     const PoseResult& result = run.sweep.poses[pose];
     if (result.converged()) return false;
-    fmt::print(stderr, "condyle: no picture at {}: {}\n", with_unit(swept, result.value),
-               name(result.status));
+    fmt::print(stderr, "condyle: {} at {}: {}\n",
+               has_place(result) ? "picture with a mark" : "no picture",
+               with_unit(swept, result.value), name(result.status));
     status = kSomePoseFailed;
-    return true;
+    return !has_place(result);
   });
   return status;
 }
@@ -259,7 +255,7 @@ int run_render(const RenderCommand& command) {
   const SweptQuantity swept = swept_quantity(run.scene);
   std::vector<std::size_t> poses =
       command.movie ? movie_poses(command, run, swept) : chosen_poses(command, run, swept);
-  const int status = keep_converged(run, swept, poses);
+  const int status = keep_drawable(run, swept, poses);
   Account account(command.talk, views.size() * (command.strip ? 1 : poses.size()));
   if (!poses.empty()) {
     const Job job{command, run, swept, views, poses, options_of(command)};

@@ -1,16 +1,11 @@
 #include "exchange/shown_poses.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "input_error.h"
-#include "results/run_layout.h"
-#include "scene/sweep_range.h"
 
 namespace condyle {
 namespace {
@@ -32,18 +27,11 @@ double whole_change(const Run& run, const std::vector<ShownPose>& shown) {
 
 }  // namespace
 
-ShownUnit shown_unit(const Scene& scene) {
-  if (scene.simulation) return {"s", 1};
-  if (!scene.sweep) return {"1", 1};
-  const Unit unit = border_sweep_unit(scene);
-  return {unit.name, 1 / unit.factor};
-}
-
 std::vector<ShownPose> shown_poses(const Run& run, const std::string& file) {
   const std::vector<PoseResult>& poses = run.sweep.poses;
   std::vector<ShownPose> shown;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (poses[i].converged()) shown.push_back({i, poses[i].value});
+    if (has_place(poses[i])) shown.push_back({i, poses[i].value});
   }
   if (shown.empty()) {
     throw InputError(file +
@@ -67,25 +55,6 @@ std::vector<ShownPose> shown_poses(const Run& run, const std::string& file) {
   return shown;
 }
 
-std::size_t nearest_pose_of(const Run& run, const std::string& file, double value) {
-  const std::vector<PoseResult>& poses = run.sweep.poses;
-  const ShownUnit unit = shown_unit(run.scene);
-  double low = std::numeric_limits<double>::infinity(), high = -low, least = low;
-  std::size_t nearest = 0;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const double shown = unit.per_inside * poses[i].value;
-    low = std::min(low, shown);
-    high = std::max(high, shown);
-    if (!(std::abs(shown - value) < least)) continue;
-    least = std::abs(shown - value);
-    nearest = i;
-  }
-  const double margin = 0.02 * (high - low) + 0.5;
-  if (value > low - margin && value < high + margin) return nearest;
-  throw InputError(
-      fmt::format("--at {:g}: {} holds {:g} to {:g} {}", value, file, low, high, unit.name));
-}
-
 std::vector<ShownPose> shown_poses_at(const Run& run,
                                       const std::string& file,
                                       const std::vector<double>& values) {
@@ -99,19 +68,22 @@ std::vector<ShownPose> shown_poses_at(const Run& run,
   return poses;
 }
 
+std::vector<ShownPose> converged_only(const Run& run,
+                                      const std::string& file,
+                                      const std::vector<ShownPose>& shown) {
+  std::vector<ShownPose> good;
+  for (const ShownPose& pose : shown)
+    if (run.sweep.poses[pose.index].converged()) good.push_back(pose);
+  if (good.empty()) throw InputError(file + ": none of the poses asked for has converged");
+  return good;
+}
+
 RigidTransform body_pose(const Scene& scene, const PoseResult& pose, int body) {
   return body == scene.moving_body() ? pose.X_BA : RigidTransform();
 }
 
 Vector3d insertion(const Scene& scene, const PoseResult& pose, const Attachment& end) {
   return body_pose(scene, pose, end.body) * end.at;
-}
-
-const ContactPointResult* strongest_point(const ContactResult& contact) {
-  const auto strongest = std::max_element(
-      contact.points.begin(), contact.points.end(),
-      [](const ContactPointResult& a, const ContactPointResult& b) { return a.force < b.force; });
-  return strongest == contact.points.end() ? nullptr : &*strongest;
 }
 
 Vector3d force_on_moving_body(const ContactResult& contact) {
@@ -136,24 +108,6 @@ Eigen::Matrix3d upright(const Scene& scene) {
   R.row(2) = (frame.anterior - frame.anterior.dot(R.row(1)) * R.row(1).transpose()).normalized();
   R.row(0) = R.row(1).cross(R.row(2));
   return R;
-}
-
-Vector3d place_of_interest(const Run& run, int body) {
-  for (const PoseResult& pose : run.sweep.poses) {
-    if (!pose.converged()) continue;
-    for (const ContactResult& contact : pose.contacts) {
-      if (const ContactPointResult* point = strongest_point(contact))
-        return body == run.scene.moving_body() ? point->point_moving : point->point_ground;
-    }
-  }
-  return Vector3d::Zero();
-}
-
-int body_named(const Scene& scene, const std::string& name) {
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (scene.bodies[i].name == name) return static_cast<int>(i);
-  }
-  return -1;
 }
 
 }  // namespace condyle

@@ -79,12 +79,4 @@ Rgb map_color(ColorMap map, double t) {
   return {};
 }
 
-double round_up_nicely(double x) {
-  const double decade = std::pow(10.0, std::floor(std::log10(x)));
-  for (const double step : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
-    if (x <= step * decade * (1 + 1e-9)) return step * decade;
-  }
-  return 10 * decade;
-}
-
 }  // namespace condyle

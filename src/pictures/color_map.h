@@ -16,11 +16,11 @@ enum class ColorMap {
   kDiverging  ///< RdBu: blue below the middle, red above
 };
 
+/// What is wrong in a picture, overlap or a contact beyond an edge: a red outside of every map
+/// above, which the colour-blind see as a dark yellow where the gap map is blue or pale.
+inline constexpr Rgb kAlarmColor = {214, 56, 20};
+
 /// t is clamped to [0, 1].
 [[nodiscard]] Rgb map_color(ColorMap map, double t);
-
-/// The smallest of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is not below x (> 0):
-/// round ends for scales.
-[[nodiscard]] double round_up_nicely(double x);
 
 }  // namespace condyle

@@ -7,6 +7,8 @@
 #include <functional>
 
 #include "pictures/solids.h"
+#include "results/contact_path.h"
+#include "results/run_view.h"
 
 namespace condyle {
 namespace {
@@ -19,24 +21,17 @@ struct PathSize {
 };
 constexpr PathSize kOurPath = {0.5, 0.75}, kReferencePath = {0.3, 0.6};
 constexpr double kArrowRadius = 0.95, kEllipseRim = 0.16, kLineRadius = 0.45;  // [mm]
+constexpr double kSamePlace = 1e-6;                                            // [mm]
 constexpr int kEllipseSides = 64;
-constexpr double kStrideOfPath = 25;  // [mm] between two poses: farther apart it is another contact
+constexpr double kCrossArm = 2.6, kCrossRadius = 0.55;  // [mm]
 
 bool tibia_moves(const Scene& scene) { return tibia_body(scene) == scene.moving_body(); }
-
-const ContactPointResult* strongest(const ContactResult& contact) {
-  const ContactPointResult* best = nullptr;
-  for (const ContactPointResult& point : contact.points) {
-    if (contact.closed && (!best || point.force > best->force)) best = &point;
-  }
-  return best;
-}
 
 Vector3d on_body(const Scene& scene, int body, const ContactPointResult& point) {
   return body == scene.moving_body() ? point.point_moving : point.point_ground;
 }
 
-/// One piece of a path: follows a contact as long as it stays closed.
+/// One piece of a path: what may be joined.
 void add_piece(ShadedMesh& mesh, const std::vector<TubePoint>& piece, const PathSize& size) {
   for (std::size_t i = 1; i < piece.size(); ++i) append(mesh, tube({piece[i - 1], piece[i]}));
   for (const TubePoint& point : piece) append(mesh, ball(point.center, size.dot, point.paint));
@@ -53,7 +48,7 @@ std::vector<ContactMark> contact_marks(const Scene& scene, const PoseResult& pos
       const Vector3d out_of_fixed = X_PB.R * point.normal_ground;
       marks.push_back({X_PB * point.point_ground,
                        tibia_moves(scene) ? Vector3d(-out_of_fixed) : out_of_fixed, point.force,
-                       point.hertz});
+                       beyond_edge(point), point.hertz});
       if (point.hertz) marks.back().hertz->major_axis = X_PB.R * point.hertz->major_axis;
     }
   }
@@ -71,20 +66,16 @@ ShadedMesh paths_of(const Scene& scene,
                     const PaintOf& paint) {
   ShadedMesh mesh;
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
-    std::vector<TubePoint> piece;
-    for (const PoseResult& pose : sweep.poses) {
-      const ContactPointResult* point =
-          pose.converged() && c < pose.contacts.size() ? strongest(pose.contacts[c]) : nullptr;
-      const double far =
-          point && !piece.empty() ? (on_body(scene, body, *point) - piece.back().center).norm() : 0;
-      if (!point || far > kStrideOfPath) {
-        add_piece(mesh, piece, size);
-        piece.clear();
+    for (const std::vector<std::size_t>& poses : contact_path(sweep, c)) {
+      std::vector<TubePoint> piece;
+      for (const std::size_t i : poses) {
+        const PoseResult& pose = sweep.poses[i];
+        const Vector3d at = on_body(scene, body, *strongest_point(pose.contacts[c]));
+        if (!piece.empty() && (at - piece.back().center).norm() < kSamePlace) continue;
+        piece.push_back({at, size.radius, paint(pose)});
       }
-      if (!point || (!piece.empty() && far < 1e-6)) continue;
-      piece.push_back({on_body(scene, body, *point), size.radius, paint(pose)});
+      add_piece(mesh, piece, size);
     }
-    add_piece(mesh, piece, size);
   }
   return mesh;
 }
@@ -110,6 +101,21 @@ ShadedMesh contact_points(const std::vector<ContactMark>& marks, double radius) 
   ShadedMesh mesh;
   for (const ContactMark& mark : marks)
     append(mesh, ball(mark.point, radius, {kContactColor, 0.85}));
+  return mesh;
+}
+
+ShadedMesh edge_crosses(const std::vector<ContactMark>& marks, const Eigen::Matrix3d& R_VP) {
+  ShadedMesh mesh;
+  const Paint paint = {kAlarmColor, 1};
+  const Vector3d right = R_VP.row(0), up = R_VP.row(1);
+  for (const ContactMark& mark : marks) {
+    if (!(mark.beyond > 0)) continue;
+    for (const double side : {1.0, -1.0}) {
+      const Vector3d arm = kCrossArm * (right + side * up).normalized();
+      append(mesh, tube({{mark.point - arm, kCrossRadius, paint},
+                         {mark.point + arm, kCrossRadius, paint}}));
+    }
+  }
   return mesh;
 }
 

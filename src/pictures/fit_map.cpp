@@ -6,6 +6,7 @@
 
 #include "pictures/color_map.h"
 #include "pictures/surface_shapes.h"
+#include "results/strain_scale.h"
 #include "surface/fit_figures.h"
 #include "surface/mesh_distance.h"
 

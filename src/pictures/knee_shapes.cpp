@@ -4,40 +4,19 @@
 #include <cmath>
 
 #include "pictures/surface_shapes.h"
+#include "results/run_view.h"
+#include "results/strain_scale.h"
 
 namespace condyle {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr Paint kBone = {{232, 222, 204}, 0};
-
-int body_named(const Scene& scene, const std::string& name) {
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (scene.bodies[i].name == name) return static_cast<int>(i);
-  }
-  return -1;
-}
 
 const RunPatch* patch_of(const Run& run, const std::string& surface) {
   for (const RunPatch& patch : run.patches) {
     if (patch.surface == surface) return &patch;
   }
   return nullptr;
-}
-
-/// Where in the body's frame a surface without bounds is worth seeing: at the first contact of the
-/// body.
-Vector3d place_of_interest(const Run& run, int body) {
-  for (const PoseResult& pose : run.sweep.poses) {
-    if (!pose.converged()) continue;
-    for (const ContactResult& contact : pose.contacts) {
-      for (const ContactPointResult& point : contact.points) {
-        return body == run.scene.moving_body() ? point.point_moving : point.point_ground;
-      }
-    }
-  }
-  return Vector3d::Zero();
 }
 
 }  // namespace
@@ -83,18 +62,18 @@ PictureScales picture_scales(const Run& run) {
   scales.strain_known =
       std::any_of(run.scene.ligaments.begin(), run.scene.ligaments.end(),
                   [](const auto& ligament) { return slack_length(ligament.law) > 0; });
-  double strain = 0.01, tension = 1, contact = 1, low = 1e300, high = -1e300;
+  double tension = 1, contact = 1, low = 1e300, high = -1e300;
   for (const PoseResult& pose : run.sweep.poses) {
-    if (!pose.converged()) continue;
+    if (!has_place(pose)) continue;
     low = std::min(low, pose.value);
     high = std::max(high, pose.value);
-    for (const LigamentResult& ligament : pose.ligaments) {
-      strain = std::max(strain, ligament.strain);
+    for (const LigamentResult& ligament : pose.ligaments)
       tension = std::max(tension, ligament.force);
-    }
     for (const ContactResult& c : pose.contacts) contact = std::max(contact, c.force);
   }
-  scales.ligament_top = round_up_nicely(scales.strain_known ? strain : tension);
+  const StrainScale strain = strain_scale(run);
+  scales.ligament_top = scales.strain_known ? strain.top : round_up_nicely(tension);
+  scales.ligament_greatest = scales.strain_known ? strain.greatest : tension;
   scales.force_top = contact;
   scales.arrow_mm_per_n = 35 / contact;
   if (low <= high) scales.sweep_low = low, scales.sweep_high = high;

@@ -39,10 +39,11 @@ inline constexpr Paint kCartilage = {{186, 207, 223}, 0.42};
 struct PictureScales {
   bool strain_known =
       true;  ///< some ligament has a slack length; else ligaments are coloured by force
-  double ligament_top = 0.05;   ///< strain [-] or force [N] at the upper end of the colours
-  double force_top = 100;       ///< largest contact force [N]
-  double arrow_mm_per_n = 0.3;  ///< length of arrows
-  double sweep_low = 0, sweep_high = 1;  ///< range of the swept value, converged poses
+  double ligament_top = 0.05;       ///< strain [-] or force [N] at the upper end of the colours
+  double ligament_greatest = 0.05;  ///< of all strands; above the end it has the end's colour
+  double force_top = 100;           ///< largest contact force [N]
+  double arrow_mm_per_n = 0.3;      ///< length of arrows
+  double sweep_low = 0, sweep_high = 1;  ///< range of the swept value, poses that have a place
   double tube_radius = 1.5;              ///< [mm]
 };
 [[nodiscard]] PictureScales picture_scales(const Run& run);
@@ -78,18 +79,24 @@ struct ContactMark {
   Eigen::Vector3d point;                    ///< [mm]
   Eigen::Vector3d toward_femur;             ///< unit normal out of the tibia
   double force = 0;                         ///< on the femur along toward_femur [N]
+  double beyond = 0;                        ///< the edge of what is known of its surfaces [mm]
   std::optional<HertzEstimate> hertz = {};  ///< its major axis in P
 };
 [[nodiscard]] std::vector<ContactMark> contact_marks(const Scene& scene, const PoseResult& pose);
 
 /// The points that the contacts leave on a body over the converged poses, coloured by the swept
-/// value; in the frame of that body.
+/// value and joined where they follow each other (results/contact_path.h); in the frame of that
+/// body.
 [[nodiscard]] ShadedMesh contact_paths(const Run& run, int body, const PictureScales& scales);
 /// The same of the reference model, where the run holds one: thin, in kReferenceColor.
 [[nodiscard]] ShadedMesh reference_paths(const Run& run, int body);
 inline constexpr Rgb kReferenceColor = {190, 58, 40};
-/// Balls at the contact points, joined where a contact is a line.
+/// Balls at the contact points.
 [[nodiscard]] ShadedMesh contact_points(const std::vector<ContactMark>& marks, double radius);
+/// Crosses in the plane of the page over the points that lie beyond an edge. R_VP as of the camera.
+[[nodiscard]] ShadedMesh edge_crosses(const std::vector<ContactMark>& marks,
+                                      const Eigen::Matrix3d& R_VP);
+/// Between the ends of contacts that are lines.
 [[nodiscard]] ShadedMesh contact_lines(const Scene& scene, const PoseResult& pose);
 /// The ellipses of Hertz' estimate in the tangent plane, to scale; nothing for marks without one.
 [[nodiscard]] ShadedMesh hertz_ellipses(const std::vector<ContactMark>& marks);

@@ -68,19 +68,4 @@ std::string with_unit(const SweptQuantity& quantity, double inside) {
   return fmt::format("{:g}{}{}", rounded, apart ? " " : "", quantity.unit);
 }
 
-std::optional<std::size_t> nearest_pose(const Scene& scene,
-                                        const SweepResult& sweep,
-                                        double shown) {
-  const SweptQuantity quantity = swept_quantity(scene);
-  std::optional<std::size_t> best;
-  double least = 0;
-  for (std::size_t i = 0; i < sweep.poses.size(); ++i) {
-    const double far = std::abs(quantity.shown(sweep.poses[i].value) - shown);
-    if (best && !(far < least)) continue;
-    best = i;
-    least = far;
-  }
-  return best;
-}
-
 }  // namespace condyle

@@ -3,11 +3,8 @@
 /// What a sweep varies, in words and in the units that people read: degrees, mm, or a factor on a
 /// load.
 
-#include <cstddef>
-#include <optional>
 #include <string>
 
-#include "equilibrium/pose_result.h"
 #include "scene/scene.h"
 
 namespace condyle {
@@ -25,11 +22,5 @@ struct SweptQuantity {
 
 /// "60°", "2.5 mm", "1.5×".
 [[nodiscard]] std::string with_unit(const SweptQuantity& quantity, double inside);
-
-/// Index of the pose whose shown value is nearest to `shown`; the first of equals. Empty for a
-/// sweep without poses.
-[[nodiscard]] std::optional<std::size_t> nearest_pose(const Scene& scene,
-                                                      const SweepResult& sweep,
-                                                      double shown);
 
 }  // namespace condyle

@@ -106,6 +106,7 @@ void read_contact(const Hdf5Group& group, std::size_t index, Poses& poses) {
       list[k].on_edge = edges.values[i * slots + k] == 1;
   }
   for (const PointColumn& column : kPointColumns) {
+    if (!points.has(column.name)) continue;  // edge_distance, in files of version 0.1.0
     const Shape shape = column.width > 1 ? Shape{n, slots, column.width} : Shape{n, slots};
     take(points, column.name, shape, poses, [&](PoseResult& p, const double* row) {
       for (ContactPointResult& point : p.contacts[index].points) {

@@ -60,7 +60,7 @@ struct PointColumn {
   double* (*data)(ContactPointResult& point);
 };
 
-inline constexpr std::array<PointColumn, 6> kPointColumns = {{
+inline constexpr std::array<PointColumn, 7> kPointColumns = {{
     {"force", "N", 1, [](ContactPointResult& point) { return &point.force; }},
     {"point_ground", "mm", 3, [](ContactPointResult& point) { return point.point_ground.data(); }},
     {"point_moving", "mm", 3, [](ContactPointResult& point) { return point.point_moving.data(); }},
@@ -68,6 +68,7 @@ inline constexpr std::array<PointColumn, 6> kPointColumns = {{
     {"gap", "mm", 1, [](ContactPointResult& point) { return &point.gap; }},
     {"relative_curvature", "1/mm", 2,
      [](ContactPointResult& point) { return point.relative_curvature.data(); }},
+    {"edge_distance", "mm", 1, [](ContactPointResult& point) { return &point.edge_distance; }},
 }};
 
 }  // namespace condyle

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "results/strain_scale.h"
+
 namespace condyle {
 namespace {
 

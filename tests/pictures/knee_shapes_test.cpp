@@ -118,6 +118,45 @@ TEST(KneeShapes, RunsWithoutMeshesAndPatchesAreDrawable) {
   EXPECT_TRUE(body_shapes(run).empty());
 }
 
+TEST(KneeShapes, OneStrandOfFiftyPerCentDoesNotMakeTheOthersBlack) {
+  auto run = block_run();
+  const Rgb before = ligament_color(picture_scales(run), {40, 0.05, 30});
+  run.sweep.poses[1].ligaments[1] = {60, 0.5, 3000};
+  const PictureScales scales = picture_scales(run);
+  EXPECT_DOUBLE_EQ(scales.ligament_top, 0.10);
+  EXPECT_DOUBLE_EQ(scales.ligament_greatest, 0.5);
+  EXPECT_EQ(ligament_color(scales, {60, 0.5, 3000}), map_color(ColorMap::kStrain, 1));
+  EXPECT_EQ(ligament_color(scales, {40, 0.05, 30}), map_color(ColorMap::kStrain, 0.5));
+  EXPECT_NE(before, ligament_color(scales, {40, 0.05, 30})) << "5 % was the end before";
+}
+
+TEST(KneeShapes, ThePathIsNotDrawnThroughAJump) {
+  auto run = block_run();
+  const auto vertices = [&] {
+    return contact_paths(run, tibia_body(run.scene), picture_scales(run)).vertices.size();
+  };
+  const std::size_t whole = vertices();
+  run.sweep.events = {{0.75, EventKind::kJump, 0}};  // of the medial contact, between two poses
+  const std::size_t parted = vertices();
+  EXPECT_LT(parted, whole);
+  run.sweep.events.push_back({0.75, EventKind::kJump, 1});
+  EXPECT_EQ(parted - vertices(), whole - parted) << "one piece of line each";
+}
+
+TEST(KneeShapes, PointsBeyondAnEdgeAreCrossed) {
+  auto run = block_run();
+  const Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  EXPECT_TRUE(edge_crosses(contact_marks(run.scene, run.sweep.poses[0]), R).vertices.empty());
+  run.sweep.poses[0].contacts[0].points[0].edge_distance = -2;
+  const ShadedMesh cross = edge_crosses(contact_marks(run.scene, run.sweep.poses[0]), R);
+  ASSERT_FALSE(cross.vertices.empty());
+  const Vector3d point = contact_marks(run.scene, run.sweep.poses[0])[0].point;
+  Vector3d middle = Vector3d::Zero();
+  for (const ShadedVertex& v : cross.vertices)
+    middle += v.position.cast<double>() / static_cast<double>(cross.vertices.size());
+  EXPECT_LT((middle - point).norm(), 0.05);
+}
+
 TEST(LigamentGroups, NumberedStrandsAreOneLigament) {
   const auto groups = ligament_groups(block_scene(1));
   ASSERT_EQ(groups.size(), 2u);

@@ -24,13 +24,5 @@ TEST(SweptQuantity, AFactorOnALoadHasTheNameOfTheLoad) {
   EXPECT_EQ(with_unit(swept, 1.5), "1.5×");
 }
 
-TEST(SweptQuantity, FindsTheNearestPose) {
-  const auto run = block_run();  // 0, 28.6 and 57.3 degrees
-  EXPECT_EQ(nearest_pose(run.scene, run.sweep, -5), 0u);
-  EXPECT_EQ(nearest_pose(run.scene, run.sweep, 30), 1u);
-  EXPECT_EQ(nearest_pose(run.scene, run.sweep, 1000), 2u);
-  EXPECT_FALSE(nearest_pose(run.scene, {}, 0).has_value());
-}
-
 }  // namespace
 }  // namespace condyle

@@ -1,0 +1,117 @@
+#include "results/contact_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "results/run_view.h"
+
+namespace condyle {
+namespace {
+
+constexpr double kShortStep = 3;    // [mm]: the dots of a path touch, a line hides nothing
+constexpr double kFarStep = 25;     // [mm]: another contact, whatever lies around
+constexpr double kFaster = 4;       // than the steps around it
+constexpr std::size_t kAround = 2;  // steps to either side
+
+using Piece = std::vector<std::size_t>;
+
+const ContactPointResult* place_of(const SweepResult& sweep, std::size_t pose, std::size_t c) {
+  const PoseResult& result = sweep.poses[pose];
+  if (!result.converged() || c >= result.contacts.size() || !result.contacts[c].closed)
+    return nullptr;
+  return strongest_point(result.contacts[c]);
+}
+
+/// Of the body on which the place moves farther [mm].
+double step_length(const ContactPointResult& a, const ContactPointResult& b) {
+  return std::max((b.point_ground - a.point_ground).norm(),
+                  (b.point_moving - a.point_moving).norm());
+}
+
+/// Does an event say that the contact was lost or went elsewhere between two values?
+bool interrupted(const SweepResult& sweep, std::size_t contact, double from, double to) {
+  const auto [low, high] = std::minmax(from, to);
+  bool opened = false, closed = false;
+  for (const Event& event : sweep.events) {
+    if (event.value < low || event.value > high) continue;
+    if (event.kind == EventKind::kLimitPoint) return true;
+    if (event.contact != static_cast<int>(contact)) continue;
+    if (event.kind == EventKind::kJump) return true;
+    opened |= event.kind == EventKind::kOpening;
+    closed |= event.kind == EventKind::kClosing;
+  }
+  return opened && closed;
+}
+
+/// Steps of a piece, per unit of the swept value; where that stands still, per step.
+struct Steps {
+  std::vector<double> length, speed;
+};
+
+Steps steps_of(const SweepResult& sweep, const Piece& piece, std::size_t contact) {
+  Steps steps;
+  for (std::size_t i = 1; i < piece.size(); ++i) {
+    const double change = std::abs(sweep.poses[piece[i]].value - sweep.poses[piece[i - 1]].value);
+    steps.length.push_back(
+        step_length(*place_of(sweep, piece[i - 1], contact), *place_of(sweep, piece[i], contact)));
+    steps.speed.push_back(change > 0 ? steps.length.back() / change : steps.length.back());
+  }
+  return steps;
+}
+
+/// The middle one of the speeds around a step; of an even number the greater.
+double speed_around(const std::vector<double>& speed, std::size_t step) {
+  std::vector<double> around;
+  const std::size_t first = step - std::min(step, kAround);
+  for (std::size_t i = first; i < std::min(speed.size(), step + kAround + 1); ++i)
+    if (i != step) around.push_back(speed[i]);
+  if (around.empty()) return speed[step];
+  std::nth_element(around.begin(), around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2),
+                   around.end());
+  return around[around.size() / 2];
+}
+
+bool is_jump(const Steps& steps, std::size_t step) {
+  if (steps.length[step] > kFarStep) return true;
+  return steps.length[step] > kShortStep &&
+         steps.speed[step] > kFaster * speed_around(steps.speed, step);
+}
+
+/// Pieces that no event and no missing pose divides.
+std::vector<Piece> unbroken(const SweepResult& sweep, std::size_t contact) {
+  std::vector<Piece> pieces;
+  Piece piece;
+  for (std::size_t i = 0; i <= sweep.poses.size(); ++i) {
+    const bool present = i < sweep.poses.size() && place_of(sweep, i, contact) != nullptr;
+    const bool cut =
+        !present || (!piece.empty() && interrupted(sweep, contact, sweep.poses[piece.back()].value,
+                                                   sweep.poses[i].value));
+    if (cut && !piece.empty()) pieces.push_back(std::exchange(piece, {}));
+    if (present) piece.push_back(i);
+  }
+  return pieces;
+}
+
+}  // namespace
+
+std::vector<Piece> contact_path(const SweepResult& sweep, std::size_t contact) {
+  std::vector<Piece> path;
+  for (const Piece& whole : unbroken(sweep, contact)) {
+    const Steps steps = steps_of(sweep, whole, contact);
+    path.push_back({whole.front()});
+    for (std::size_t i = 1; i < whole.size(); ++i) {
+      if (is_jump(steps, i - 1)) path.emplace_back();
+      path.back().push_back(whole[i]);
+    }
+  }
+  return path;
+}
+
+bool joined(const std::vector<Piece>& path, std::size_t a, std::size_t b) {
+  return std::any_of(path.begin(), path.end(), [&](const Piece& piece) {
+    return piece.front() <= std::min(a, b) && std::max(a, b) <= piece.back();
+  });
+}
+
+}  // namespace condyle

@@ -1,0 +1,100 @@
+#include "results/run_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "input_error.h"
+#include "scene/sweep_range.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kRounding = 0.5;  // [deg] or [mm] by which an asked value may lie beyond the run
+
+}  // namespace
+
+bool has_place(const PoseResult& pose) {
+  if (pose.converged()) return true;
+  return pose.status == PoseStatus::kLeftPatch && pose.X_BA.p.allFinite() &&
+         std::any_of(pose.contacts.begin(), pose.contacts.end(),
+                     [](const ContactResult& contact) { return contact.closed; });
+}
+
+int count_with_place(const SweepResult& sweep) {
+  return static_cast<int>(std::count_if(sweep.poses.begin(), sweep.poses.end(), has_place));
+}
+
+double beyond_edge(const ContactPointResult& point) { return std::max(0.0, -point.edge_distance); }
+
+double beyond_edge(const ContactResult& contact) {
+  double farthest = 0;
+  for (const ContactPointResult& point : contact.points)
+    if (contact.closed) farthest = std::max(farthest, beyond_edge(point));
+  return farthest;
+}
+
+double beyond_edge(const PoseResult& pose) {
+  double farthest = 0;
+  for (const ContactResult& contact : pose.contacts)
+    farthest = std::max(farthest, beyond_edge(contact));
+  return farthest;
+}
+
+ShownUnit shown_unit(const Scene& scene) {
+  if (scene.simulation) return {"s", 1};
+  if (!scene.sweep) return {"1", 1};
+  const Unit unit = border_sweep_unit(scene);
+  return {unit.name, 1 / unit.factor};
+}
+
+std::size_t nearest_pose_of(const Run& run, const std::string& file, double value) {
+  const std::vector<PoseResult>& poses = run.sweep.poses;
+  const ShownUnit unit = shown_unit(run.scene);
+  double low = std::numeric_limits<double>::infinity(), high = -low, least = low;
+  std::size_t nearest = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const double shown = unit.per_inside * poses[i].value;
+    low = std::min(low, shown);
+    high = std::max(high, shown);
+    if (!(std::abs(shown - value) < least)) continue;
+    least = std::abs(shown - value);
+    nearest = i;
+  }
+  const bool rounded = unit.name == "deg" || unit.name == "mm";
+  const double margin = 0.02 * (high - low) + (rounded ? kRounding : 1e-9 * std::abs(high));
+  if (value >= low - margin && value <= high + margin) return nearest;
+  throw InputError(
+      fmt::format("--at {:g}: {} holds {:g} to {:g} {}", value, file, low, high, unit.name));
+}
+
+const ContactPointResult* strongest_point(const ContactResult& contact) {
+  const auto strongest = std::max_element(
+      contact.points.begin(), contact.points.end(),
+      [](const ContactPointResult& a, const ContactPointResult& b) { return a.force < b.force; });
+  return strongest == contact.points.end() ? nullptr : &*strongest;
+}
+
+Vector3d place_of_interest(const Run& run, int body) {
+  for (const PoseResult& pose : run.sweep.poses) {
+    if (!has_place(pose)) continue;
+    for (const ContactResult& contact : pose.contacts) {
+      if (const ContactPointResult* point = strongest_point(contact))
+        return body == run.scene.moving_body() ? point->point_moving : point->point_ground;
+    }
+  }
+  return Vector3d::Zero();
+}
+
+int body_named(const Scene& scene, const std::string& name) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].name == name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+}  // namespace condyle

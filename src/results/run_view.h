@@ -1,0 +1,48 @@
+#pragma once
+
+/// What all who show a run or pass it on ask of it: which poses have a place, which of them is the
+/// nearest to a value, in which unit, and what of the scene is worth seeing.
+
+#include <cstddef>
+#include <string>
+
+#include "results/run_file.h"
+
+namespace condyle {
+
+/// Does the pose say where the bodies are? True of what converged, and of an equilibrium with a
+/// contact beyond the known part of a surface (left patch), where the run holds it.
+[[nodiscard]] bool has_place(const PoseResult& pose);
+[[nodiscard]] int count_with_place(const SweepResult& sweep);
+
+/// How far a point of contact lies beyond the edge of what is known of its surfaces [mm]; 0 within.
+[[nodiscard]] double beyond_edge(const ContactPointResult& point);
+/// The farthest of all points, of a closed contact and of all closed contacts of a pose [mm].
+[[nodiscard]] double beyond_edge(const ContactResult& contact);
+[[nodiscard]] double beyond_edge(const PoseResult& pose);
+
+/// Of a sweep over an angle [deg], over a length [mm], over a load's factor [1], or of a motion
+/// [s]: the factor from the value inside, and the unit's name.
+struct ShownUnit {
+  std::string name;
+  double per_inside = 1;
+};
+[[nodiscard]] ShownUnit shown_unit(const Scene& scene);
+
+/// The pose nearest to a value in the shown unit, whatever its status; the first of equals. Throws
+/// InputError, naming `file`, where the value lies beyond the run by more than 2 % of its range
+/// and, of angles and lengths, 0.5 deg or mm.
+[[nodiscard]] std::size_t nearest_pose_of(const Run& run, const std::string& file, double value);
+
+/// The point of a contact that carries most; of an open contact the nearest one. Null where the
+/// pose holds none.
+[[nodiscard]] const ContactPointResult* strongest_point(const ContactResult& contact);
+
+/// Where in the body's frame a surface without bounds is worth seeing [mm]: at the first contact of
+/// the run.
+[[nodiscard]] Eigen::Vector3d place_of_interest(const Run& run, int body);
+
+/// Index of the body of that name, or -1.
+[[nodiscard]] int body_named(const Scene& scene, const std::string& name);
+
+}  // namespace condyle

@@ -1,0 +1,77 @@
+/// What is asked of a run by all who show it.
+
+#include "results/run_view.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "input_error.h"
+#include "results/made_up_run.h"
+#include "results/strain_scale.h"
+
+namespace condyle {
+namespace {
+
+TEST(RunView, AnEquilibriumBeyondAnEdgeHasAPlaceAndOtherFailuresHaveNone) {
+  PoseResult pose = made_up_pose(1);
+  EXPECT_TRUE(has_place(pose));
+  pose.status = PoseStatus::kLeftPatch;
+  EXPECT_TRUE(has_place(pose));
+  for (const PoseStatus status :
+       {PoseStatus::kSingular, PoseStatus::kOverlap, PoseStatus::kDiverged}) {
+    pose.status = status;
+    EXPECT_FALSE(has_place(pose)) << name(status);
+  }
+  // Files of version 0.1.0 hold no number of it.
+  pose.status = PoseStatus::kLeftPatch;
+  pose.X_BA.p.setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_FALSE(has_place(pose));
+}
+
+TEST(RunView, TellsHowFarAContactLiesBeyondItsEdge) {
+  PoseResult pose = made_up_pose(1);
+  EXPECT_EQ(beyond_edge(pose), 0) << "surfaces without an edge";
+  pose.contacts[0].points[0].edge_distance = 4;
+  EXPECT_EQ(beyond_edge(pose), 0);
+  pose.contacts[0].points[1].edge_distance = -2.5;
+  EXPECT_DOUBLE_EQ(beyond_edge(pose), 2.5);
+  pose.contacts[0].closed = false;
+  EXPECT_EQ(beyond_edge(pose), 0);
+}
+
+TEST(RunView, TheNearestPoseMayLieABitBeyondTheRun) {
+  condyle::Run run = made_up_run();  // 0, 5.73 and 11.46 deg
+  EXPECT_EQ(nearest_pose_of(run, "run.h5", 5), 1U);
+  EXPECT_EQ(nearest_pose_of(run, "run.h5", 12), 2U);
+  EXPECT_THROW((void)nearest_pose_of(run, "run.h5", 12.3), InputError);
+  // Seconds are not rounded to the half: a motion of 0.2 s has nothing at 0.6 s.
+  run.scene.sweep.reset();
+  run.scene.simulation.emplace();
+  EXPECT_EQ(nearest_pose_of(run, "run.h5", 0.2), 2U);
+  EXPECT_THROW((void)nearest_pose_of(run, "run.h5", 0.6), InputError);
+}
+
+TEST(RunView, ThePlaceOfInterestIsWhereMostIsCarried) {
+  const condyle::Run run = made_up_run();  // two points at the last pose only
+  EXPECT_EQ(place_of_interest(run, run.scene.moving_body()), made_up_point(1).point_moving);
+  condyle::Run later = run;
+  later.sweep.poses.erase(later.sweep.poses.begin());
+  EXPECT_EQ(place_of_interest(later, later.scene.fixed_body()), made_up_point(4).point_ground);
+}
+
+TEST(StrainScale, EndsAtTenPerCentWhateverOneStrandDoes) {
+  condyle::Run run = made_up_run();
+  run.sweep.poses[2].ligaments[0].strain = 0.034;
+  EXPECT_DOUBLE_EQ(strain_scale(run).top, 0.04);
+  EXPECT_FALSE(strain_scale(run).exceeded());
+  run.sweep.poses[2].ligaments[0].strain = 0.5;
+  EXPECT_DOUBLE_EQ(strain_scale(run).top, 0.10);
+  EXPECT_DOUBLE_EQ(strain_scale(run).greatest, 0.5);
+  EXPECT_TRUE(strain_scale(run).exceeded());
+  run.sweep.poses[2].status = PoseStatus::kSingular;
+  EXPECT_FALSE(strain_scale(run).exceeded()) << "what failed says nothing";
+}
+
+}  // namespace
+}  // namespace condyle
