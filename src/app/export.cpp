@@ -84,8 +84,8 @@ int report_failures(const ExportCommand& command, const Run& run) {
     for (const PoseResult& pose : run.sweep.poses) asked.push_back(&pose);
   for (const PoseResult* pose : asked) {
     if (pose->converged()) continue;
-    fmt::print(stderr, "condyle: left out {:g} {}: {}\n", unit.per_inside * pose->value, unit.name,
-               name(pose->status));
+    fmt::print(stderr, "condyle: {} {:g} {}: {}\n", has_place(*pose) ? "marked" : "left out",
+               unit.per_inside * pose->value, unit.name, name(pose->status));
     status = kSomePoseFailed;
   }
   return status;
@@ -119,8 +119,8 @@ class Exporter {
   [[nodiscard]] std::string bytes(const std::string& ending) const {
     if (ending == ".glb") return glb_of_poses(run_, shown_, options_);
     if (ending == ".csv") return csv_of_poses(run_, shown_);
-    if (ending == ".mot") return mot_of_poses(run_, shown_, command_.run);
-    if (ending == ".sto") return sto_of_poses(run_, shown_);
+    if (ending == ".mot") return mot_of_poses(run_, results(), command_.run);
+    if (ending == ".sto") return sto_of_poses(run_, results());
     if (shown_.size() != 1) {
       throw InputError(
           fmt::format("{}: holds one pose, the run {} of them, expected --at VALUE, or a folder",
@@ -132,6 +132,10 @@ class Exporter {
  private:
   static void append(std::vector<ExportFile>& files, std::vector<ExportFile> more) {
     for (ExportFile& file : more) files.push_back(std::move(file));
+  }
+  /// OpenSim's files have no place for a mark.
+  [[nodiscard]] std::vector<ShownPose> results() const {
+    return converged_only(run_, command_.run, shown_);
   }
   [[nodiscard]] std::vector<RunShape> shapes() const { return run_shapes(run_, options_); }
 

@@ -143,9 +143,7 @@ class GlbWriter {
     tinygltf::Animation animation;
     animation.name = document_.animation;
     const std::vector<float> times(document_.times.begin(), document_.times.end());
-    const int input = add_numbers(times, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR);
-    model_.accessors[input].minValues = {times.front()};
-    model_.accessors[input].maxValues = {times.back()};
+    const int input = add_times(times);
     for (std::size_t i = 0; i < document_.nodes.size(); ++i) {
       if (!document_.nodes[i].track.empty()) animate(animation, static_cast<int>(i), input);
     }
@@ -162,9 +160,26 @@ class GlbWriter {
     };
     add_channel(animation, index, "translation", input, vectors(&GlbPlace::translation), "LINEAR");
     add_channel(animation, index, "rotation", input, add_rotations(node.track), "LINEAR");
-    if (!node.moves_scale) return;
-    add_channel(animation, index, "scale", input, vectors(&GlbPlace::scale),
-                node.scale_in_steps ? "STEP" : "LINEAR");
+    if (node.moves_scale)
+      add_channel(animation, index, "scale", input, vectors(&GlbPlace::scale), "LINEAR");
+    if (!node.steps.empty()) add_steps(animation, index, node.steps);
+  }
+
+  void add_steps(tinygltf::Animation& animation, int index, const std::vector<GlbStep>& steps) {
+    std::vector<float> times;
+    std::vector<Vector3f> scales;
+    for (const GlbStep& step : steps) {
+      times.push_back(static_cast<float>(step.time));
+      scales.emplace_back(Vector3f::Constant(static_cast<float>(step.scale)));
+    }
+    add_channel(animation, index, "scale", add_times(times), add_vectors(scales, 0), "STEP");
+  }
+
+  int add_times(const std::vector<float>& times) {
+    const int input = add_numbers(times, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR);
+    model_.accessors[input].minValues = {times.front()};
+    model_.accessors[input].maxValues = {times.back()};
+    return input;
   }
 
   /// q and -q are the same rotation: the one nearer to its predecessor is taken.

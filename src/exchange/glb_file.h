@@ -40,14 +40,20 @@ struct GlbNumbers {
   std::vector<double> values;
 };
 
+/// From this time on a node has this scale, the same in all directions.
+struct GlbStep {
+  double time = 0;  ///< [s], increasing
+  double scale = 1;
+};
+
 struct GlbNode {
   std::string name;
   int mesh = -1;
   std::vector<int> children;
   GlbPlace place;               ///< outside the animation
   std::vector<GlbPlace> track;  ///< empty, or one for each time
-  bool moves_scale = false;     ///< the scale is animated too
-  bool scale_in_steps = false;  ///< and jumps rather than grows
+  bool moves_scale = false;     ///< the scale of the track is animated too
+  std::vector<GlbStep> steps;   ///< or the node has a scale of its own
   std::vector<GlbNumbers> extras;
 };
 

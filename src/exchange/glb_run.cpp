@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "exchange/glb_solids.h"
+#include "results/contact_path.h"
 #include "results/run_layout.h"
+#include "results/strain_scale.h"
 
 namespace condyle {
 namespace {
@@ -12,10 +14,11 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kMetre = 1e-3;         // per mm
-constexpr double kContactRadius = 1.5;  // [mm]
+constexpr double kMetre = 1e-3;                         // per mm
+constexpr double kContactRadius = 1.5, kDiamond = 3.2;  // [mm]
+constexpr double kMoment = 1e-3;  // of a step of time, after which something is hidden
 
-enum Material { kBone, kCartilage, kLigament, kContact };
+enum Material { kBone, kCartilage, kLigament, kContact, kBeyondEdge };
 
 // Colours are linear light. Bone is translucent, so that the cartilage shows where the two meet; of
 // closed bones only the outside is seen.
@@ -23,7 +26,8 @@ std::vector<GlbMaterial> materials(bool closed_bones) {
   return {{"bone", {0.79, 0.70, 0.56, 0.6}, 0.7, !closed_bones},
           {"cartilage", {0.42, 0.60, 0.78, 1}, 0.35, true},
           {"ligament", {0.80, 0.66, 0.34, 1}, 0.55, false},
-          {"contact", {0.65, 0.05, 0.04, 1}, 0.4, false}};
+          {"contact", {0.65, 0.05, 0.04, 1}, 0.4, false},
+          {"beyond the edge", {0.67, 0.04, 0.007, 1}, 0.4, false}};
 }
 
 GlbMesh glb_mesh(const RunShape& shape) {
@@ -38,6 +42,14 @@ GlbMesh glb_mesh(const RunShape& shape) {
                               static_cast<std::uint32_t>(t[2])});
   }
   return mesh;
+}
+
+/// The point that lies farthest beyond the edge of what is known; null where all lie within.
+const ContactPointResult* farthest_beyond(const ContactResult& contact) {
+  const ContactPointResult* farthest = nullptr;
+  for (const ContactPointResult& point : contact.points)
+    if (beyond_edge(point) > (farthest ? beyond_edge(*farthest) : 0)) farthest = &point;
+  return farthest;
 }
 
 /// Many strands of one ligament are drawn thinner [mm].
@@ -104,6 +116,9 @@ class GlbRun {
     out_.extras.push_back({"time_s", out_.times});
     out_.extras.push_back(
         {"value", of_poses([&](const PoseResult& p) { return unit.per_inside * p.value; })});
+    out_.extras.push_back(
+        {"status", of_poses([](const PoseResult& p) { return static_cast<double>(p.status); })});
+    out_.extras.push_back({"strain_top", {strain_scale(run_).top}});
     if (!scene_.joint) return;
     out_.extras.push_back(
         {"flexion_deg", of_poses([](const PoseResult& p) { return p.joint.flexion / kDegree; })});
@@ -162,34 +177,69 @@ class GlbRun {
     }
   }
 
-  /// Where it is open the ball is as small as nothing, and waits where the gap is smallest.
-  [[nodiscard]] std::vector<GlbPlace> contact_track(std::size_t index) const {
+  using PointOf = const ContactPointResult* (*)(const ContactResult&);
+
+  /// Where there is no point it waits where it was.
+  [[nodiscard]] std::vector<GlbPlace> contact_track(std::size_t index, PointOf point_of) const {
     std::vector<GlbPlace> track;
     GlbPlace place;
     for (const ShownPose& shown : shown_) {
-      const ContactResult& contact = pose(shown).contacts[index];
-      const ContactPointResult* point = strongest_point(contact);
+      const ContactPointResult* point = point_of(pose(shown).contacts[index]);
       if (point && point->point_ground.allFinite())
         place.translation = kMetre * point->point_ground;
-      place.scale.setConstant(contact.closed && point ? 1 : 0);
       track.push_back(place);
     }
     return track;
   }
 
+  /// Does the contact stay closed, with no pose missing, from one keyframe until it opens before
+  /// the next?
+  [[nodiscard]] bool opens_before(std::size_t next, std::size_t index) const {
+    return shown_[next].index == shown_[next - 1].index + 1 &&
+           !pose(shown_[next]).contacts[index].closed;
+  }
+
+  /// As small as nothing where the contact has no such point, and on the way between two places
+  /// that no path joins.
+  [[nodiscard]] std::vector<GlbStep> contact_steps(std::size_t index, PointOf point_of) const {
+    const auto path = contact_path(run_.sweep, index);
+    std::vector<GlbStep> steps;
+    for (std::size_t i = 0; i < shown_.size(); ++i) {
+      const ContactResult& contact = pose(shown_[i]).contacts[index];
+      const bool shown = contact.closed && point_of(contact);
+      steps.push_back({shown_[i].time, shown ? 1.0 : 0.0});
+      if (!shown || i + 1 == shown_.size() || opens_before(i + 1, index) ||
+          joined(path, shown_[i].index, shown_[i + 1].index))
+        continue;
+      steps.push_back({shown_[i].time + kMoment * (shown_[i + 1].time - shown_[i].time), 0});
+    }
+    return steps;
+  }
+
+  void add_contact(std::size_t index, const std::string& words, int mesh, PointOf point_of) {
+    GlbNode node;
+    node.name = "contact " + scene_.contacts[index].name + words;
+    node.mesh = mesh;
+    node.track = contact_track(index, point_of);
+    node.steps = contact_steps(index, point_of);
+    node.track.front().scale.setConstant(node.steps.front().scale);
+    node.extras = {
+        {"force_N", of_poses([&](const PoseResult& p) { return p.contacts[index].force; })}};
+    add_node(std::move(node), 0);
+  }
+
   void add_contacts() {
     if (scene_.contacts.empty()) return;
     const int sphere = add_mesh(ball("contact", kContact, kMetre * kContactRadius));
-    for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
-      GlbNode node;
-      node.name = "contact " + scene_.contacts[i].name;
-      node.mesh = sphere;
-      node.track = contact_track(i);
-      node.moves_scale = node.scale_in_steps = true;
-      node.extras = {
-          {"force_N", of_poses([&](const PoseResult& p) { return p.contacts[i].force; })}};
-      add_node(std::move(node), 0);
-    }
+    for (std::size_t i = 0; i < scene_.contacts.size(); ++i)
+      add_contact(i, "", sphere, strongest_point);
+    const bool beyond = std::any_of(shown_.begin(), shown_.end(), [&](const ShownPose& shown) {
+      return beyond_edge(pose(shown)) > 0;
+    });
+    if (!beyond) return;
+    const int sign = add_mesh(diamond("beyond the edge", kBeyondEdge, kMetre * kDiamond));
+    for (std::size_t i = 0; i < scene_.contacts.size(); ++i)
+      add_contact(i, " beyond the edge", sign, farthest_beyond);
   }
 
   const Run& run_;

@@ -49,6 +49,24 @@ GlbMesh unit_cylinder(const std::string& name, int material, double radius) {
                  {0, 1, 0, 1}});
 }
 
+GlbMesh diamond(const std::string& name, int material, double radius) {
+  GlbMesh mesh;
+  mesh.name = name;
+  mesh.material = material;
+  for (int octant = 0; octant < 8; ++octant) {
+    const Vector3d sign(octant & 1 ? -1 : 1, octant & 2 ? -1 : 1, octant & 4 ? -1 : 1);
+    const bool mirrored = sign.prod() < 0;
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (int axis = 0; axis < 3; ++axis) {
+      const int k = mirrored ? 2 - axis : axis;
+      mesh.positions.push_back((radius * sign[k] * Vector3d::Unit(k)).cast<float>());
+      mesh.normals.push_back(sign.normalized().cast<float>());
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
 GlbMesh ball(const std::string& name, int material, double radius) {
   std::vector<Ring> rings;
   for (int i = 0; i <= 10; ++i) {

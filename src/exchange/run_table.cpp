@@ -86,6 +86,8 @@ class Columns {
       const ContactPointResult* point = strongest_point(p.contacts[i]);
       return point ? point->gap : std::numeric_limits<double>::quiet_NaN();
     });
+    add("contact", name, "beyond_edge", "mm",
+        [&](const PoseResult& p) { return beyond_edge(p.contacts[i]); });
   }
 
   void add_ligament(std::size_t i) {
@@ -105,6 +107,8 @@ class Columns {
   }
 
   void add_solver() {
+    add("solver", "", "status", "1",
+        [](const PoseResult& p) { return static_cast<double>(p.status); });
     add("solver", "", "stable", "1",
         [](const PoseResult& p) { return static_cast<double>(p.stability); });
     add("solver", "", "lowest_stiffness", "N/mm",

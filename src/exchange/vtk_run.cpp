@@ -122,7 +122,8 @@ std::string ligaments_vtp(const Run& run, const PoseResult& pose) {
 
 std::string contacts_vtp(const Run& run, const PoseResult& pose) {
   VtkPolyData data;
-  VtkArray force{"force_N", 3, {}}, size{"force_size_N", 1, {}}, normal{"normal", 3, {}};
+  VtkArray force{"force_N", 3, {}}, size{"force_size_N", 1, {}}, normal{"normal", 3, {}},
+      beyond{"beyond_edge_mm", 1, {}};
   for (std::size_t i = 0; i < run.scene.contacts.size(); ++i) {
     if (!pose.contacts[i].closed) continue;
     for (const ContactPointResult& point : pose.contacts[i].points) {
@@ -133,9 +134,10 @@ std::string contacts_vtp(const Run& run, const PoseResult& pose) {
         normal.values.push_back(point.normal_ground[k]);
       }
       size.values.push_back(point.force);
+      beyond.values.push_back(beyond_edge(point));
     }
   }
-  data.point_data = {force, size, normal};
+  data.point_data = {force, size, normal, beyond};
   return vtp_bytes(data);
 }
 

@@ -91,6 +91,29 @@ TEST(GlbRun, HidesAContactWhereItIsOpen) {
   EXPECT_LT((glb.place(node, 2).translation() - point).norm(), kFloat);
 }
 
+TEST(GlbRun, HidesAContactOnTheWayThroughAJump) {
+  condyle::Run run = phantom_run();
+  run.sweep.events = {{0.6, EventKind::kJump, 0}};  // between 30 and 60 deg
+  const GlbReader glb(glb_of_run(run, "run.h5"));
+  const std::vector<double> scale = glb.keys(glb.node("contact medial"), "scale");
+  EXPECT_EQ(scale, (std::vector<double>{1, 1, 1, 1, 1, 1, 0, 0, 0, 1, 1, 1}));
+}
+
+TEST(GlbRun, MarksAPoseBeyondAnEdgeByADiamondAndItsStatus) {
+  condyle::Run run = phantom_run();
+  EXPECT_LT(GlbReader(glb_of_run(run, "run.h5")).node("contact medial beyond the edge"), 0);
+  run.sweep.poses[1].status = PoseStatus::kLeftPatch;
+  run.sweep.poses[1].contacts[0].points[0].edge_distance = -2;
+  const GlbReader glb(glb_of_run(run, "run.h5"));
+  EXPECT_EQ(glb.json["scenes"][0]["extras"]["status"], (std::vector<double>{0, 4, 0}));
+  const int node = glb.node("contact medial beyond the edge");
+  ASSERT_GE(node, 0);
+  // Seen at that pose, and gone right after it.
+  EXPECT_EQ(glb.keys(node, "scale"), (std::vector<double>{0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0}));
+  const Vector3d point = 1e-3 * run.sweep.poses[1].contacts[0].points[0].point_ground;
+  EXPECT_LT((glb.place(node, 1).translation() - point).norm(), kFloat);
+}
+
 // Of the phantom: x anterior, y proximal, z lateral, and lateral is the right side of a right knee.
 TEST(GlbRun, StandsUprightAndIsNoMirrorImage) {
   const Eigen::Matrix3d R = upright(phantom_run().scene);
