@@ -9,6 +9,7 @@
 #include "input_error.h"
 #include "pictures/picture_error.h"
 #include "pictures/run_program.h"
+#include "pictures/text.h"
 
 namespace condyle {
 namespace {
@@ -24,9 +25,12 @@ constexpr std::array<int, 5> kRunDashes = {1, 2, 3, 4, 5};
 constexpr double kLeft = 0.09;            // of the page, left of the axes
 constexpr double kLetter = 9.2;           // width of one in the legend [pixel]
 constexpr std::size_t kLongestName = 40;  // in the legend, letters
-constexpr std::size_t kLongestTitle = 88;
-constexpr std::size_t kManyPoints = 60;  // more are not marked one by one
-constexpr double kPdfWidth = 7;          // [inch]: two columns of a journal
+constexpr double kTitleSize = 16, kLeastTitleSize = 11, kPdfTitleSize = 8.5;  // [point]
+constexpr int kTitleLine = 28, kTitleMargin = 12;                             // [pixel]
+constexpr double kPixelPerPoint = 4.0 / 3;  // of gnuplot's PNG and SVG
+constexpr std::size_t kManyPoints = 60;     // more are not marked one by one
+constexpr double kPdfWidth = 7;             // [inch]: two columns of a journal
+constexpr const char* kHollowName = "left patch";
 
 /// In single quotes gnuplot takes everything as it is, except the quote itself.
 std::string quoted(const std::string& text) {
@@ -67,21 +71,27 @@ double right_end(const Chart& chart) {
   return 1 - legend / kWidth;
 }
 
-std::string data_block(const std::string& name, const Curve& curve) {
+using Numbers = std::vector<double>;
+
+std::string data_block(const std::string& name, const Numbers& x, const Numbers& y) {
   std::string block = "$" + name + " << END_OF_DATA\n";
-  for (std::size_t i = 0; i < curve.x.size() && i < curve.y.size(); ++i) {
-    const bool known = std::isfinite(curve.x[i]) && std::isfinite(curve.y[i]);
-    block += known ? fmt::format("{:.9g} {:.9g}\n", curve.x[i], curve.y[i]) : "\n";
+  for (std::size_t i = 0; i < x.size() && i < y.size(); ++i) {
+    const bool known = std::isfinite(x[i]) && std::isfinite(y[i]);
+    block += known ? fmt::format("{:.9g} {:.9g}\n", x[i], y[i]) : "\n";
   }
   return block + "END_OF_DATA\n";
 }
 
-bool has_points(const Curve& curve) {
-  for (std::size_t i = 0; i < curve.x.size() && i < curve.y.size(); ++i) {
-    if (std::isfinite(curve.x[i]) && std::isfinite(curve.y[i])) return true;
+bool has_points(const Numbers& x, const Numbers& y) {
+  for (std::size_t i = 0; i < x.size() && i < y.size(); ++i) {
+    if (std::isfinite(x[i]) && std::isfinite(y[i])) return true;
   }
   return false;
 }
+
+bool has_line(const Curve& curve) { return has_points(curve.x, curve.y); }
+bool has_hollow(const Curve& curve) { return has_points(curve.hollow_x, curve.hollow_y); }
+bool has_points(const Curve& curve) { return has_line(curve) || has_hollow(curve); }
 
 std::string terminal(PlotFormat format, int height) {
   switch (format) {
@@ -98,12 +108,58 @@ std::string terminal(PlotFormat format, int height) {
   return "";
 }
 
+/// The title in one line or, where that is too long, in two, smaller where it has to be.
+struct Title {
+  std::vector<std::string> lines;
+  double size = kTitleSize;  // [point]
+};
+
+double widest(const std::vector<std::string>& lines, double size) {
+  Font font(true);
+  double width = 0;
+  for (const std::string& line : lines)
+    width = std::max(width, static_cast<double>(font.width(
+                                line, static_cast<int>(std::ceil(kPixelPerPoint * size)))));
+  return width;
+}
+
+Title title_of(const Chart& chart) {
+  const double room = (1 - kLeft) * kWidth - kTitleMargin;
+  if (chart.title.empty()) return {{chart.what}};
+  const Title one{{chart.title + ": " + chart.what}};
+  if (widest(one.lines, one.size) <= room) return one;
+  Title two{{chart.title + ":", chart.what}};
+  while (two.size > kLeastTitleSize && widest(two.lines, two.size) > room) two.size -= 0.5;
+  for (std::string& line : two.lines) {
+    for (std::size_t n = letters(line); n > 1 && widest({line}, two.size) > room; --n)
+      line = shortened(line, n - 1);
+  }
+  return two;
+}
+
+/// Above the panels [pixel].
+int head_height(const Chart& chart) {
+  return kHeadHeight + kTitleLine * (static_cast<int>(title_of(chart).lines.size()) - 1);
+}
+
+std::string title_labels(const Chart& chart, PlotFormat format, int height) {
+  const Title title = title_of(chart);
+  const double size =
+      format == PlotFormat::kPdf ? kPdfTitleSize * title.size / kTitleSize : title.size;
+  std::string script;
+  for (std::size_t i = 0; i < title.lines.size(); ++i)
+    script += fmt::format(
+        "set label {} {} at screen {}, screen {:.5f} font 'DejaVu Sans Bold,{:g}' textcolor "
+        "'#262c34'\n",
+        i + 1, quoted(title.lines[i]), kLeft,
+        1 - (0.45 * kHeadHeight + kTitleLine * static_cast<double>(i)) / height, size);
+  return script;
+}
+
 std::string head(const Chart& chart,
                  const std::filesystem::path& file,
                  PlotFormat format,
                  int height) {
-  const std::string title = chart.title.empty() ? chart.what : chart.title + ": " + chart.what;
-  const bool pdf = format == PlotFormat::kPdf;
   return "set encoding utf8\nset minussign\n" +
          fmt::format("set terminal {} noenhanced background '#ffffff'\n",
                      terminal(format, height)) +
@@ -115,11 +171,26 @@ std::string head(const Chart& chart,
          "set offsets graph 0, graph 0, graph 0.05, graph 0\n" +
          fmt::format("set lmargin at screen {}\nset rmargin at screen {:.5f}\n", kLeft,
                      right_end(chart)) +
-         fmt::format(
-             "set multiplot\nset label 1 {} at screen {}, screen {:.5f} font 'DejaVu Sans "
-             "Bold,{}' textcolor '#262c34'\n",
-             quoted(shortened(title, kLongestTitle)), kLeft, 1 - 0.45 * kHeadHeight / height,
-             pdf ? 8.5 : 16);
+         "set multiplot\n" + title_labels(chart, format, height);
+}
+
+std::size_t color_of(const Curve& curve, std::size_t index) {
+  return curve.color < 0 ? index : static_cast<std::size_t>(curve.color);
+}
+
+std::string hollow_command(const Curve& curve, std::size_t color, const std::string& data) {
+  if (!has_hollow(curve)) return "";
+  return fmt::format(
+      ", ${} using 1:2 with points pointtype 6 pointsize 1.1 linewidth 1.6 linecolor '{}' notitle",
+      data, kColors[color % kColors.size()]);
+}
+
+/// What hollow circles are.
+std::string hollow_legend(const Panel& panel) {
+  if (std::none_of(panel.curves.begin(), panel.curves.end(), has_hollow)) return "";
+  return fmt::format(
+      ", NaN with points pointtype 6 pointsize 1.1 linewidth 1.6 linecolor '#303840' title {}",
+      quoted(kHollowName));
 }
 
 /// One curve of the plot command; a title that stands in the legend already is left out there.
@@ -128,15 +199,16 @@ std::string curve_command(const Chart& chart,
                           std::size_t index,
                           const std::string& data) {
   const Curve& curve = panel.curves[index];
-  const std::size_t color = curve.color < 0 ? index : static_cast<std::size_t>(curve.color);
+  const std::size_t color = color_of(curve, index);
   int dash = curve.dashed ? 2 : kDashes[color / kColors.size() % kDashes.size()];
   const auto style = static_cast<std::size_t>(curve.style);
   if (!chart.runs.empty()) dash = kRunDashes[style % kRunDashes.size()];
   const bool marked = chart.runs.empty() && curve.x.size() <= kManyPoints;
   const std::string points = marked ? "linespoints pointtype 7 pointsize 0.35" : "lines";
   const bool keyed = chart.runs.empty() && !curve.title.empty();
-  return fmt::format("${} using 1:2 with {} linewidth {} linecolor '{}' dashtype {} {}", data,
-                     points, 2, kColors[color % kColors.size()], dash,
+  return fmt::format("{} with {} linewidth {} linecolor '{}' dashtype {} {}",
+                     has_line(curve) ? "$" + data + " using 1:2" : "NaN", points, 2,
+                     kColors[color % kColors.size()], dash,
                      keyed ? "title " + quoted(shortened(curve.title, kLongestName)) : "notitle");
 }
 
@@ -167,7 +239,7 @@ std::string y_range(const Panel& panel) {
 std::string panel_script(const Chart& chart, std::size_t index, int height) {
   const Panel& panel = chart.panels[index];
   const double top =
-      1 - (kHeadHeight + static_cast<double>(index) * (kPanelHeight + kPanelGap)) / height;
+      1 - (head_height(chart) + static_cast<double>(index) * (kPanelHeight + kPanelGap)) / height;
   const bool last = index + 1 == chart.panels.size();
   std::string script = fmt::format("set tmargin at screen {:.5f}\nset bmargin at screen {:.5f}\n",
                                    top, top - static_cast<double>(kPanelHeight) / height);
@@ -183,12 +255,16 @@ std::string panel_script(const Chart& chart, std::size_t index, int height) {
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     if (!has_points(panel.curves[i])) continue;
     const std::string name = fmt::format("panel{}curve{}", index, i);
-    script += data_block(name, panel.curves[i]);
-    commands += (commands.empty() ? "plot " : ", ") + curve_command(chart, panel, i, name);
+    const Curve& curve = panel.curves[i];
+    script += data_block(name, curve.x, curve.y);
+    if (has_hollow(curve)) script += data_block(name + "hollow", curve.hollow_x, curve.hollow_y);
+    commands += (commands.empty() ? "plot " : ", ") + curve_command(chart, panel, i, name) +
+                hollow_command(curve, color_of(curve, i), name + "hollow");
   }
   if (!commands.empty() && !chart.runs.empty()) commands += run_legend(chart, panel, index == 0);
+  if (!commands.empty()) commands += hollow_legend(panel);
   if (commands.empty()) commands = "set xrange [0:1]\nset yrange [0:1]\nplot NaN notitle";
-  return script + commands + "\nunset label 1\n";
+  return script + commands + "\nunset label\n";
 }
 
 }  // namespace
@@ -208,7 +284,7 @@ const char* ending(PlotFormat format) {
 std::string gnuplot_script(const Chart& chart,
                            const std::filesystem::path& file,
                            PlotFormat format) {
-  const int height = kHeadHeight + kFootHeight - kPanelGap +
+  const int height = head_height(chart) + kFootHeight - kPanelGap +
                      (kPanelHeight + kPanelGap) * static_cast<int>(chart.panels.size());
   std::string script = head(chart, file, format, height);
   for (std::size_t i = 0; i < chart.panels.size(); ++i) script += panel_script(chart, i, height);

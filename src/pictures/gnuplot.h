@@ -17,6 +17,7 @@ struct Curve {
   int color = -1;       ///< of the list of colours; -1: the next one
   bool dashed = false;  ///< a second curve in the colour of a first
   int style = 0;        ///< of the line, where several runs lie over each other: which run
+  std::vector<double> hollow_x = {}, hollow_y = {};  ///< points that are no results: hollow circles
 };
 
 struct Panel {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <utility>
 
 namespace condyle {
 namespace {
@@ -44,6 +46,13 @@ std::string short_title(std::string title) {
   return title;
 }
 
+/// The contact whose place on the tibia the quantity is; none for other quantities.
+std::optional<std::size_t> contact_of_place(const Scene& scene, const ComparedQuantity& quantity) {
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i)
+    if (quantity.name.rfind(scene.contacts[i].name + " contact, ", 0) == 0) return i;
+  return std::nullopt;
+}
+
 /// The quantities that `which` takes, each with a curve of ours and one of the reference.
 Panel both(const Run& run,
            const std::string& label,
@@ -52,9 +61,14 @@ Panel both(const Run& run,
   int color = 0;
   for (const ComparedQuantity& quantity : run.comparison->quantities) {
     if (!which(quantity) || !carries(quantity)) continue;
-    panel.curves.push_back(
-        {short_title(quantity.name), swept_values(run), quantity.of(Variant::kOurs), color, false});
-    panel.curves.push_back({"", swept_values(run), quantity.of(Variant::kReference), color, true});
+    Curve ours{short_title(quantity.name), swept_values(run), quantity.of(Variant::kOurs), color};
+    Curve reference{"", swept_values(run), quantity.of(Variant::kReference), color, true};
+    if (const auto contact = contact_of_place(run.scene, quantity)) {
+      ours = broken_at_jumps(std::move(ours), run.sweep, *contact);
+      reference = broken_at_jumps(std::move(reference), run.comparison->reference, *contact);
+    }
+    panel.curves.push_back(std::move(ours));
+    panel.curves.push_back(std::move(reference));
     ++color;
   }
   return panel;

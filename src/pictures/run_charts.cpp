@@ -13,6 +13,8 @@
 #include "pictures/knee_shapes.h"
 #include "pictures/ligament_groups.h"
 #include "pictures/swept_quantity.h"
+#include "results/contact_path.h"
+#include "results/run_view.h"
 
 namespace condyle {
 namespace {
@@ -25,13 +27,17 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 using OfPose = std::function<double(const PoseResult&)>;
 
-/// y of each converged pose over the swept value.
+/// y of each converged pose over the swept value; hollow where a pose has a place but is no result.
 Curve curve_of(const Run& run, const std::string& title, const OfPose& y) {
   const Abscissa abscissa = abscissa_of(run.scene);
   Curve curve{title, {}, {}};
   for (const PoseResult& pose : run.sweep.poses) {
-    curve.x.push_back(abscissa.per_value * pose.value);
+    const double x = abscissa.per_value * pose.value;
+    curve.x.push_back(x);
     curve.y.push_back(pose.converged() ? y(pose) : kUnknown);
+    if (pose.converged() || !has_place(pose)) continue;
+    curve.hollow_x.push_back(x);
+    curve.hollow_y.push_back(y(pose));
   }
   return curve;
 }
@@ -41,7 +47,9 @@ Chart chart_of(const Run& run, const std::string& what) {
 }
 
 bool has_value(const Curve& curve) {
-  return std::any_of(curve.y.begin(), curve.y.end(), [](double y) { return std::isfinite(y); });
+  const auto known = [](double y) { return std::isfinite(y); };
+  return std::any_of(curve.y.begin(), curve.y.end(), known) ||
+         std::any_of(curve.hollow_y.begin(), curve.hollow_y.end(), known);
 }
 
 void keep(Chart& chart, Panel panel) {
@@ -79,11 +87,13 @@ std::optional<Vector3d> place_on_tibia(const Scene& scene, const ContactResult& 
 }
 
 Curve place_curve(const Run& run, std::size_t contact, const Vector3d& axis) {
-  return curve_of(run, run.scene.contacts[contact].name, [&](const PoseResult& pose) {
+  const OfPose along = [&](const PoseResult& pose) {
     if (contact >= pose.contacts.size()) return kUnknown;
     const auto place = place_on_tibia(run.scene, pose.contacts[contact]);
     return place ? axis.dot(*place - run.scene.joint->tibia.origin) : kUnknown;
-  });
+  };
+  return broken_at_jumps(curve_of(run, run.scene.contacts[contact].name, along), run.sweep,
+                         contact);
 }
 
 /// The balance is far smaller than its parts: in a unit that suits it.
@@ -102,6 +112,18 @@ Panel balance_panel(Curve curve) {
 }
 
 }  // namespace
+
+Curve broken_at_jumps(Curve curve, const SweepResult& sweep, std::size_t contact) {
+  const auto path = contact_path(sweep, contact);
+  for (std::size_t i = sweep.poses.size(); i-- > 1;) {
+    if (!std::isfinite(curve.y[i - 1]) || !std::isfinite(curve.y[i]) || joined(path, i - 1, i))
+      continue;
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    curve.x.insert(curve.x.begin() + at, kUnknown);
+    curve.y.insert(curve.y.begin() + at, kUnknown);
+  }
+  return curve;
+}
 
 Abscissa abscissa_of(const Scene& scene) {
   const SweptQuantity swept = swept_quantity(scene);

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The curves of a run over what it sweeps. Poses that did not converge leave gaps; a chart without
-/// a curve has no panels.
+/// The curves of a run over what it sweeps. Poses that did not converge leave gaps, in which those
+/// that have a place (results/run_view.h) are hollow points; a chart without a curve has no panels.
 
 #include <string>
 #include <vector>
@@ -23,9 +23,14 @@ struct Abscissa {
 };
 [[nodiscard]] Abscissa abscissa_of(const Scene& scene);
 
+/// A curve with a value for each pose of a sweep, divided between following poses that do not
+/// belong to one piece of a contact's path.
+[[nodiscard]] Curve broken_at_jumps(Curve curve, const SweepResult& sweep, std::size_t contact);
+
 [[nodiscard]] Chart joint_coordinate_chart(const Run& run);
 [[nodiscard]] Chart contact_force_chart(const Run& run);
-/// Where the resultant of each contact acts, along the tibia's anatomical axes from its origin.
+/// Where the resultant of each contact acts, along the tibia's anatomical axes from its origin; not
+/// joined where the contact jumped (results/contact_path.h).
 [[nodiscard]] Chart contact_place_chart(const Run& run);
 /// Strands of one ligament are summed.
 [[nodiscard]] Chart ligament_force_chart(const Run& run);

@@ -206,5 +206,64 @@ TEST(PlotRun, ACurveMayBeDashedInTheColourOfAnother) {
   EXPECT_NE(script.find("linecolor '#CC79A7' dashtype 2", first), std::string::npos) << script;
 }
 
+TEST(PlotRun, APoseBeyondAnEdgeIsAHollowPointInAGap) {
+  auto run = block_run();
+  run.sweep.poses[1].status = PoseStatus::kLeftPatch;
+  const Chart chart = contact_force_chart(run);
+  const Curve& medial = chart.panels.at(0).curves.at(0);
+  EXPECT_TRUE(std::isnan(medial.y[1]));
+  ASSERT_EQ(medial.hollow_y.size(), 1U);
+  EXPECT_DOUBLE_EQ(medial.hollow_y[0], 200);
+  EXPECT_NEAR(medial.hollow_x[0], 28.6478898, 1e-6);  // 0.5 rad
+  const std::string script = gnuplot_script(chart, "file.png", PlotFormat::kPng);
+  EXPECT_NE(script.find("pointtype 6"), std::string::npos);
+  EXPECT_NE(script.find("title 'left patch'"), std::string::npos);
+  run.sweep.poses[1].status = PoseStatus::kSingular;
+  const std::string none = gnuplot_script(contact_force_chart(run), "file.png", PlotFormat::kPng);
+  EXPECT_EQ(none.find("left patch"), std::string::npos);
+}
+
+TEST(PlotRun, APlaceOfContactIsNotJoinedThroughAJump) {
+  auto run = block_run();
+  EXPECT_EQ(contact_place_chart(run).panels.at(0).curves.at(0).y.size(), 3U);
+  run.sweep.events = {{0.75, EventKind::kJump, 0}};
+  const Chart chart = contact_place_chart(run);
+  const Curve& medial = chart.panels.at(0).curves.at(0);
+  ASSERT_EQ(medial.y.size(), 4U);
+  EXPECT_TRUE(std::isnan(medial.y[2])) << "a blank line ends a line of gnuplot";
+  EXPECT_DOUBLE_EQ(medial.y[3], -8);
+  EXPECT_EQ(chart.panels.at(0).curves.at(1).y.size(), 3U) << "the lateral contact did not jump";
+}
+
+/// Columns from the right end in which nothing is drawn.
+int free_columns(const Image& image, int rows) {
+  for (int x = image.width - 1; x >= 0; --x) {
+    for (int y = 0; y < rows; ++y)
+      if (image.at(x, y)[0] < 200) return image.width - 1 - x;
+  }
+  return image.width;
+}
+
+TEST(PlotRun, ALongTitleStandsInTwoLinesAndEndsOnThePage) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  auto run = block_run();
+  const auto drawn = [&](const std::string& title) {
+    run.scene.title = title;
+    const std::filesystem::path file = test::fresh_folder("condyle_plots") / "title.png";
+    plot(contact_force_chart(run), file, PlotFormat::kPng);
+    return read_png(file);
+  };
+  const Image short_title = drawn("Blocks");
+  EXPECT_GT(free_columns(short_title, 60), 600);
+  for (const std::string& title :
+       {std::string(
+            "Clouthier 2019 statistical shape model, member S025, right knee of a woman, 300 N"),
+        std::string(64, 'W'), std::string(300, 'm')}) {
+    const Image image = drawn(title);
+    EXPECT_GE(image.height, short_title.height + 20) << "a second line";
+    EXPECT_GT(free_columns(image, 90), 4) << title;
+  }
+}
+
 }  // namespace
 }  // namespace condyle
