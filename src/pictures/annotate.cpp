@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -27,10 +28,10 @@ Vector2d on_page(const Scenery& scenery, const Vector3d& p) {
 }
 
 void draw_ligament_labels(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
-  const std::vector<LigamentLabel> labels = ligament_labels(scenery);
+  const Frame& d = page.drawing;
+  const std::vector<LigamentLabel> labels = ligament_labels(scenery, d);
   std::vector<Vector2d> anchors;
   for (const LigamentLabel& label : labels) anchors.push_back(on_page(scenery, label.anchor));
-  const Frame& d = page.drawing;
   const Frame columns{d.left - 18 * pen.s, d.top + 10 * pen.s, d.right + 18 * pen.s,
                       d.bottom - 20 * pen.s};
   for (const PlacedLabel& placed : place_labels(anchors, columns, 38 * pen.s)) {
@@ -69,6 +70,7 @@ Vector2d free_place(const Pen& pen,
                                      [&](const Frame& other) { return overlap(place, other); });
       if (!free || place.left < edge || place.right > page_width - edge) continue;
       taken.push_back(place);
+      taken.back().right += edge;
       return {place.left, place.bottom - 3.5 * pen.s};
     }
   }
@@ -102,7 +104,28 @@ std::string view_words(const Scenery& scenery) {
 std::string in_words(const Scenery& scenery, const ContactMark& mark) {
   std::string words = newtons(mark.force);
   if (scenery.hertz && mark.hertz) words += fmt::format(", {:.1f} MPa", mark.hertz->peak_pressure);
+  if (mark.beyond > 0) words += fmt::format(", {:.1f} mm beyond the edge", mark.beyond);
   return words;
+}
+
+constexpr double kSmallest = 0.7;  // of a text's size, to which it may shrink
+
+/// The text at the largest size, down to the smallest, at which it is no wider than `width`.
+TextStyle fitted(const Pen& pen, const std::string& text, double width, TextStyle style) {
+  const int least = std::max(7, static_cast<int>(std::lround(kSmallest * style.size)));
+  while (style.size > least && pen.canvas.text_width(text, style) > width) --style.size;
+  return style;
+}
+
+/// The text in two lines, divided at the blank nearest to its middle.
+std::array<std::string, 2> in_two_lines(const std::string& text) {
+  const std::size_t middle = text.size() / 2;
+  const std::size_t after = text.find(' ', middle), before = text.rfind(' ', middle);
+  if (after == std::string::npos && before == std::string::npos) return {text, ""};
+  const bool first = after == std::string::npos ||
+                     (before != std::string::npos && middle - before < after - middle);
+  const std::size_t at = first ? before : after;
+  return {text.substr(0, at), text.substr(at + 1)};
 }
 
 }  // namespace
@@ -124,13 +147,51 @@ std::string caption(const Scenery& scenery, bool with_value) {
 
 void draw_title(const Pen& pen, int width, const std::string& title, const std::string& below) {
   const double room = width - 60 * pen.s;
-  TextStyle style = pen.style(23);
-  style.bold = true;
-  style.halo = std::max(1, pen.size(2.2) - 5);
+  TextStyle bold = pen.style(23);
+  bold.bold = true;
+  bold.halo = std::max(1, pen.size(2.2) - 5);
+  const TextStyle style = fitted(pen, title, room, bold);
   pen.canvas.text({30 * pen.s, 44 * pen.s}, cut(pen, title, room, style), style);
   TextStyle quiet = pen.style(17, kQuiet);
-  quiet.halo = style.halo;
+  quiet.halo = bold.halo;
+  quiet = fitted(pen, below, room, quiet);
   pen.canvas.text({30 * pen.s, 72 * pen.s}, cut(pen, below, room, quiet), quiet);
+}
+
+void draw_alarm_sign(const Pen& pen, const Vector2d& corner, double size) {
+  const Vector2d at(corner.x(), std::round(corner.y()));  // on whole rows, as colour bars are
+  const int rows = static_cast<int>(std::lround(size));
+  const double half = 0.58 * size, middle = at.x() + half;
+  for (int i = 0; i < rows; ++i) {
+    const double reach = half * (i + 0.5) / rows, y = at.y() - rows + i;
+    pen.canvas.rectangle({middle - reach, y, middle + reach, y + 1}, kAlarmColor);
+  }
+  const Rgb paper = {255, 255, 255};
+  pen.canvas.line({middle, at.y() - 0.68 * size}, {middle, at.y() - 0.33 * size}, 0.13 * size,
+                  paper);
+  pen.canvas.disc({middle, at.y() - 0.16 * size}, 0.08 * size, paper);
+}
+
+void draw_alarm(const Pen& pen, int width, const Scenery& scenery) {
+  const PoseResult& pose = scenery.pose;
+  if (pose.converged()) return;
+  const std::string words =
+      std::string(name(pose.status)) + (pose.reason.empty() ? "" : ": " + pose.reason);
+  const double size = 19 * pen.s, left = 30 * pen.s, text = left + 1.5 * size,
+               room = width - 30 * pen.s - text;
+  draw_alarm_sign(pen, {left, 97 * pen.s}, size);
+  TextStyle style = pen.style(15);
+  style.bold = true;
+  style.halo = std::max(1, pen.size(2.2) - 5);
+  const TextStyle one_line = fitted(pen, words, room, style);
+  if (pen.canvas.text_width(words, one_line) <= room)
+    return pen.canvas.text({text, 95 * pen.s}, words, one_line);
+  double y = 92 * pen.s;
+  for (const std::string& line : in_two_lines(words)) {
+    const TextStyle small = fitted(pen, line, room, one_line);
+    pen.canvas.text({text, y}, cut(pen, line, room, small), small);
+    y += 15 * pen.s;
+  }
 }
 
 void draw_contact_forces(const Pen& pen, int page_width, const Scenery& scenery) {
@@ -154,13 +215,14 @@ bool shows_arrows(const Scenery& scenery) {
 
 PageLayout page_layout(int width, int height) {
   const double s = std::min(width / 1200.0, height / 900.0);
-  return {width, height, s, {150 * s, 100 * s, width - 235 * s, height - 110 * s}};
+  return {width, height, s, {150 * s, 100 * s, width - 235 * s, height - 110 * s}, 44 * s};
 }
 
 PageLayout panel_layout(int width, int height) {
   const double s = std::min(width / 1200.0, height / 900.0);
   const double margin = 0.075 * std::min(width, height);
-  return {width, height, s, {margin, margin, width - margin, height - margin}};
+  return {
+      width, height, s, {0, 0, static_cast<double>(width), static_cast<double>(height)}, margin};
 }
 
 void annotate(Image& image, const PageLayout& page, const Scenery& scenery) {
@@ -169,6 +231,7 @@ void annotate(Image& image, const PageLayout& page, const Scenery& scenery) {
   draw_ligament_labels(pen, page, scenery);
   draw_contact_forces(pen, page.width, scenery);
   draw_title(pen, page.width, scenery.run.scene.title, caption(scenery));
+  draw_alarm(pen, page.width, scenery);
   draw_bars(pen, page, scenery);
   draw_directions(pen, page, scenery);
   draw_scale_bar(pen, page, scenery);

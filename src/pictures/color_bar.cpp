@@ -7,6 +7,8 @@
 namespace condyle {
 namespace {
 
+constexpr double kTriangle = 15;  // high, in units of the page
+
 /// A step of 1, 2 or 5 times a power of ten that gives at most six ticks.
 double tick_step(double range) {
   double step = std::pow(10.0, std::floor(std::log10(range / 5)));
@@ -15,6 +17,17 @@ double tick_step(double range) {
     step *= factor;
   }
   return step;
+}
+
+/// Above the bar, as wide as it.
+void draw_triangle(const Pen& pen, const Frame& place, Rgb color, const std::string& words) {
+  const double middle = 0.5 * (place.left + place.right), half = 0.5 * (place.right - place.left);
+  const int rows = static_cast<int>(std::lround(kTriangle * pen.s));
+  for (int i = 0; i < rows; ++i) {
+    const double reach = half * (rows - i - 0.5) / rows, y = place.top - 2 * pen.s - i;
+    pen.canvas.rectangle({middle - reach, y - 1, middle + reach, y}, color);
+  }
+  pen.canvas.text({place.right + 9 * pen.s, place.top - 11 * pen.s}, words, pen.style(14));
 }
 
 }  // namespace
@@ -29,9 +42,11 @@ void draw_color_bar(const Pen& pen, const ColorBar& bar, const Frame& wanted) {
     pen.canvas.rectangle({place.left, place.top + i, place.right, place.top + i + 1.0},
                          map_color(bar.map, 1 - (i + 0.5) / rows));
   }
-  pen.canvas.text({place.left - 2 * pen.s, place.top - 34 * pen.s}, bar.title, pen.style(14));
-  pen.canvas.text({place.left - 2 * pen.s, place.top - 15 * pen.s}, bar.unit,
-                  pen.style(14, kQuiet));
+  const double lift = bar.above.empty() ? 0 : (kTriangle + 2) * pen.s;
+  if (lift > 0) draw_triangle(pen, place, map_color(bar.map, 1), bar.above);
+  const double words = place.top - lift;
+  pen.canvas.text({place.left - 2 * pen.s, words - 34 * pen.s}, bar.title, pen.style(14));
+  pen.canvas.text({place.left - 2 * pen.s, words - 15 * pen.s}, bar.unit, pen.style(14, kQuiet));
   const double range = std::max(1e-9, bar.high - bar.low), step = tick_step(range);
   for (double value = std::ceil(bar.low / step - 1e-6) * step; value <= bar.high + 1e-6 * range;
        value += step) {

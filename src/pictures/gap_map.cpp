@@ -32,6 +32,10 @@ Rgb mixed(Rgb a, Rgb b, double share) {
   return a;
 }
 
+Rgb gap_color(double width) {
+  return width < -kLeastOverlap ? kAlarmColor : map_color(ColorMap::kGap, width / kGapLimit);
+}
+
 }  // namespace
 
 GapMap::GapMap(const Run& run) : run_(run), surfaces_(run.scene.surfaces.size()) {
@@ -67,10 +71,11 @@ GapMap::Gap GapMap::gap(std::size_t surface,
   return least;
 }
 
-void GapMap::paint(ShadedMesh& mesh,
-                   std::size_t surface,
-                   const std::vector<RigidTransform>& X_P,
-                   const Paint& beyond) const {
+double GapMap::paint(ShadedMesh& mesh,
+                     std::size_t surface,
+                     const std::vector<RigidTransform>& X_P,
+                     const Paint& beyond) const {
+  double deepest = 0;
   const bool exact = run_.scene.surfaces[surface].kind != SurfaceKind::kPatch;
   for (ShadedVertex& vertex : mesh.vertices) {
     const Vector3d p = vertex.position.cast<double>();
@@ -78,10 +83,10 @@ void GapMap::paint(ShadedMesh& mesh,
     if (exact) n = surfaces_[surface]->evaluate_frame(surfaces_[surface]->place_of(p)).n;
     const Gap here = gap(surface, p, n, X_P);
     const double share = std::clamp(here.inside / kFade, 0.0, 1.0);
-    vertex.color =
-        bytes({mixed(beyond.color, map_color(ColorMap::kGap, here.width / kGapLimit), share),
-               beyond.through});
+    vertex.color = bytes({mixed(beyond.color, gap_color(here.width), share), beyond.through});
+    if (share > 0 && here.width < -kLeastOverlap) deepest = std::max(deepest, -here.width);
   }
+  return deepest;
 }
 
 }  // namespace condyle

@@ -14,6 +14,8 @@ namespace condyle {
 
 /// Gaps from 0 to this have colours of their own; wider ones have the last [mm].
 inline constexpr double kGapLimit = 6;
+/// Surfaces that are deeper than this in each other have the alarm colour; less is touching [mm].
+inline constexpr double kLeastOverlap = 1e-3;
 
 class GapMap {
  public:
@@ -32,11 +34,11 @@ class GapMap {
 
   /// Puts the colours of the gap on the vertices of a mesh of that surface; `beyond` where the gap
   /// is not known, fading into it over the last millimetre. X_P are poses of the bodies as they
-  /// stand.
-  void paint(ShadedMesh& mesh,
-             std::size_t surface,
-             const std::vector<RigidTransform>& X_P,
-             const Paint& beyond) const;
+  /// stand. Returns the deepest overlap that has been painted, 0 where there is none [mm].
+  double paint(ShadedMesh& mesh,
+               std::size_t surface,
+               const std::vector<RigidTransform>& X_P,
+               const Paint& beyond) const;
 
  private:
   const Run& run_;

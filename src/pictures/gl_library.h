@@ -24,7 +24,7 @@
   X(glGetShaderInfoLog) X(glGetShaderiv) X(glGetUniformLocation) X(glLinkProgram) \
   X(glReadPixels) X(glRenderbufferStorageMultisample) X(glScissor) X(glShaderSource) \
   X(glTexParameteri) X(glTexStorage2D) X(glUniform1f) X(glUniform1i) X(glUniform2f) \
-  X(glUniform3f) X(glUniformMatrix4fv) X(glUseProgram) X(glVertexAttribPointer) X(glViewport)
+  X(glUniform3f) X(glUniform4f) X(glUniformMatrix4fv) X(glUseProgram) X(glVertexAttribPointer) X(glViewport)
 // clang-format on
 
 namespace condyle {

@@ -7,38 +7,30 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "input_error.h"
 #include "pictures/annotate.h"
+#include "pictures/framing.h"
 #include "pictures/gap_map.h"
 #include "pictures/knee_shapes.h"
 #include "pictures/renderer.h"
 #include "pictures/seen_insertions.h"
+#include "results/run_view.h"
 
 namespace condyle {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kShaftReach = 1.2;  // how much farther than the insertions bone is kept in view
-constexpr std::size_t kFramePoints = 1500;                // of each shape that decide the frame
-constexpr std::size_t kFramePoses = 40;                   // about as many of the run
+constexpr std::size_t kFramePoses = 40;                   // about as many decide the frame
 constexpr double kPlainSpacing = 1.2, kGapSpacing = 0.7;  // between vertices of patches [mm]
 constexpr double kContactDot = 1.5, kSmallDot = 0.7;      // [mm]
 
 struct KeptShape {
   int body;
   Item item;
-  std::vector<Vector3d> outline;  // some of its vertices, body frame
 };
-
-std::vector<Vector3d> some_vertices(const ShadedMesh& mesh) {
-  std::vector<Vector3d> points;
-  const std::size_t stride = std::max<std::size_t>(1, mesh.vertices.size() / kFramePoints);
-  for (std::size_t i = 0; i < mesh.vertices.size(); i += stride)
-    points.push_back(mesh.vertices[i].position.cast<double>());
-  return points;
-}
 
 void check_size(const PictureOptions& options) {
   const auto good = [](int size) { return size >= 200 && size <= 8000; };
@@ -56,10 +48,11 @@ struct KneePictures::State {
   PictureScales scales;
   Renderer renderer;
   std::vector<BodyShape> body_meshes;
-  std::vector<KeptShape> shapes;  // of body_meshes
+  std::vector<KeptShape> shapes;              // of body_meshes
+  std::vector<std::vector<Vector3d>> joints;  // of each body, what must be in a picture
   std::optional<GapMap> gaps;
   std::array<int, 2> path = {-1, -1}, reference_path = {-1, -1};  // on tibia and femur
-  int ligaments = -1, contacts = -1, ellipses = -1, arrows = -1;
+  int ligaments = -1, contacts = -1, ellipses = -1, arrows = -1, crosses = -1;
   std::array<std::optional<Staging>, kViewCount> stagings;
   std::array<std::optional<Camera>, kViewCount> cameras;
 
@@ -70,13 +63,13 @@ struct KneePictures::State {
   [[nodiscard]] const Staging& staging(View view);
   [[nodiscard]] const Camera& camera(View view);
   [[nodiscard]] Scenery scenery(View view, const PoseResult& pose);
-  [[nodiscard]] std::vector<Vector3d> anchors(const PoseResult& pose, const Staging& staging) const;
-  [[nodiscard]] std::vector<Vector3d> points_in_view(const PoseResult& pose,
-                                                     const Staging& staging) const;
+  void add_points_in_view(const PoseResult& pose,
+                          const Staging& staging,
+                          std::vector<Vector3d>& points) const;
   [[nodiscard]] Camera frame_all(View view);
-  void fill_meshes(const Scenery& scenery);
-  void paint_gaps(const Scenery& scenery);
-  [[nodiscard]] std::vector<Item> items(const Scenery& scenery);
+  void fill_meshes(Scenery& scenery);
+  [[nodiscard]] double paint_gaps(const Scenery& scenery);
+  [[nodiscard]] std::vector<Item> items(Scenery& scenery);
 };
 
 KneePictures::State::State(const Run& r, const PictureOptions& o)
@@ -87,16 +80,16 @@ KneePictures::State::State(const Run& r, const PictureOptions& o)
       renderer(o.width, o.height),
       body_meshes(body_shapes(r, o.proximity ? kGapSpacing : kPlainSpacing)) {
   for (const BodyShape& shape : body_meshes) {
-    shapes.push_back({shape.body,
-                      {renderer.add(shape.mesh), {}, shape.layer, shape.gloss, shape.closed},
-                      some_vertices(shape.mesh)});
+    shapes.push_back(
+        {shape.body, {renderer.add(shape.mesh), {}, shape.layer, shape.gloss, shape.closed}});
   }
+  joints = joint_points(run, body_meshes);
   if (options.proximity) gaps.emplace(run);
   for (std::size_t i = 0; i < 2; ++i) {
     path[i] = renderer.add(contact_paths(run, bodies()[i], scales));
     reference_path[i] = renderer.add(reference_paths(run, bodies()[i]));
   }
-  for (int* id : {&ligaments, &contacts, &ellipses, &arrows}) *id = renderer.add({});
+  for (int* id : {&ligaments, &contacts, &ellipses, &arrows, &crosses}) *id = renderer.add({});
 }
 
 const Staging& KneePictures::State::staging(View view) {
@@ -131,76 +124,53 @@ Scenery KneePictures::State::scenery(View view, const PoseResult& pose) {
   return scenery;
 }
 
-/// What must be in the picture: insertions and articular surfaces.
-std::vector<Vector3d> KneePictures::State::anchors(const PoseResult& pose,
-                                                   const Staging& staging) const {
+/// What must be in the picture: the joint, and the arrows of its forces.
+void KneePictures::State::add_points_in_view(const PoseResult& pose,
+                                             const Staging& staging,
+                                             std::vector<Vector3d>& points) const {
   const auto X_P = staged_poses(run.scene, staging, pose.X_BA);
-  std::vector<Vector3d> points;
-  for (const LigamentDescription& ligament : run.scene.ligaments) {
-    for (const Attachment& end : ligament.ends) {
-      if (staging.shows(run.scene, end.body))
-        points.push_back(X_P[static_cast<std::size_t>(end.body)] * end.at);
-    }
+  for (std::size_t body = 0; body < joints.size(); ++body) {
+    if (!staging.shows(run.scene, static_cast<int>(body))) continue;
+    for (const Vector3d& p : joints[body]) points.push_back(X_P[body] * p);
   }
-  for (const KeptShape& shape : shapes) {
-    if (shape.item.layer != Layer::kSolid || !staging.shows(run.scene, shape.body)) continue;
-    for (const Vector3d& p : shape.outline)
-      points.push_back(X_P[static_cast<std::size_t>(shape.body)] * p);
-  }
-  return points;
-}
-
-/// The same and the bone around it, without the far ends of long shafts.
-std::vector<Vector3d> KneePictures::State::points_in_view(const PoseResult& pose,
-                                                          const Staging& staging) const {
-  std::vector<Vector3d> points = anchors(pose, staging);
-  Vector3d middle = Vector3d::Zero();
-  for (const Vector3d& p : points) middle += p / static_cast<double>(points.size());
-  double reach = points.empty() ? 1e9 : 0;
-  const double factor = staging.apart() ? 1 : kShaftReach;
-  for (const Vector3d& p : points) reach = std::max(reach, factor * (p - middle).norm());
-  const auto X_P = staged_poses(run.scene, staging, pose.X_BA);
-  for (const KeptShape& shape : shapes) {
-    if (shape.item.layer != Layer::kBone || !staging.shows(run.scene, shape.body)) continue;
-    for (const Vector3d& p : shape.outline) {
-      const Vector3d q = X_P[static_cast<std::size_t>(shape.body)] * p;
-      if ((q - middle).norm() < reach) points.push_back(q);
-    }
-  }
-  return points;
+  if (staging.alone() || staging.apart()) return;
+  for (const ContactMark& mark : contact_marks(run.scene, pose))
+    points.push_back(mark.point + mark.force * scales.arrow_mm_per_n * mark.toward_femur);
 }
 
 Camera KneePictures::State::frame_all(View view) {
   std::vector<const PoseResult*> poses;
   for (const PoseResult& pose : run.sweep.poses) {
-    if (pose.converged()) poses.push_back(&pose);
+    if (has_place(pose)) poses.push_back(&pose);
     if (view == View::kPlateau && !poses.empty()) break;  // the tibia stands still
   }
   const std::size_t stride = 1 + poses.size() / kFramePoses;
   std::vector<Vector3d> points;
-  const auto add = [&](const PoseResult& pose) {
-    const auto more = points_in_view(pose, staging(view));
-    points.insert(points.end(), more.begin(), more.end());
-  };
-  for (std::size_t i = 0; i + 1 < poses.size(); i += stride) add(*poses[i]);
-  if (!poses.empty()) add(*poses.back());
+  const Staging& stage = staging(view);
+  for (std::size_t i = 0; i + 1 < poses.size(); i += stride)
+    add_points_in_view(*poses[i], stage, points);
+  if (!poses.empty()) add_points_in_view(*poses.back(), stage, points);
   if (points.empty())
     throw InputError(
-        "nothing to draw: the run has no converged pose, or neither meshes nor ligaments");
-  return fit_camera(view_rotation(view, anatomy_of(run.scene)), points, page.drawing);
+        "nothing to draw: the run has no pose with a place, or neither meshes nor ligaments");
+  return fit_camera(view_rotation(view, anatomy_of(run.scene)), points, page.joint());
 }
 
-void KneePictures::State::paint_gaps(const Scenery& scenery) {
+/// The deepest overlap [mm].
+double KneePictures::State::paint_gaps(const Scenery& scenery) {
+  double deepest = 0;
   const auto X_P = body_poses(run.scene, scenery.pose.X_BA);  // as they stand, not lifted
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     if (body_meshes[i].surface < 0 || !scenery.staging.shows(run.scene, shapes[i].body)) continue;
-    gaps->paint(body_meshes[i].mesh, static_cast<std::size_t>(body_meshes[i].surface), X_P,
-                kCartilage);
+    const double overlap = gaps->paint(
+        body_meshes[i].mesh, static_cast<std::size_t>(body_meshes[i].surface), X_P, kCartilage);
+    deepest = std::max(deepest, overlap);
     renderer.replace(shapes[i].item.mesh, body_meshes[i].mesh);
   }
+  return deepest;
 }
 
-void KneePictures::State::fill_meshes(const Scenery& scenery) {
+void KneePictures::State::fill_meshes(Scenery& scenery) {
   const Staging& stage = scenery.staging;
   ShadedMesh lines;
   if (stage.alone()) {
@@ -217,10 +187,11 @@ void KneePictures::State::fill_meshes(const Scenery& scenery) {
   renderer.replace(ellipses, options.hertz ? hertz_ellipses(scenery.marks) : ShadedMesh{});
   renderer.replace(arrows,
                    shows_arrows(scenery) ? force_arrows(scenery.marks, scales) : ShadedMesh{});
-  if (gaps) paint_gaps(scenery);
+  renderer.replace(crosses, edge_crosses(scenery.marks, scenery.camera.R_VP));
+  if (gaps) scenery.overlap = paint_gaps(scenery);
 }
 
-std::vector<Item> KneePictures::State::items(const Scenery& scenery) {
+std::vector<Item> KneePictures::State::items(Scenery& scenery) {
   fill_meshes(scenery);
   std::vector<Item> items;
   for (const KeptShape& shape : shapes) {
@@ -238,7 +209,8 @@ std::vector<Item> KneePictures::State::items(const Scenery& scenery) {
   }
   items.push_back({ligaments, {}, Layer::kSolid, 0.12, true});
   items.push_back({ellipses, {}, Layer::kMark, 0, false});
-  for (const int mesh : {contacts, arrows}) items.push_back({mesh, {}, Layer::kMark, 0.12, true});
+  for (const int mesh : {contacts, arrows, crosses})
+    items.push_back({mesh, {}, Layer::kMark, 0.12, true});
   return items;
 }
 
@@ -253,17 +225,21 @@ KneePictures& KneePictures::operator=(KneePictures&&) noexcept = default;
 
 const Camera& KneePictures::camera(View view) const { return state_->camera(view); }
 
-Scenery KneePictures::scenery(View view, std::size_t pose) const {
-  const PoseResult& shown = state_->run.sweep.poses.at(pose);
-  assert(shown.converged());
-  return state_->scenery(view, shown);
+KneePictures::Drawn KneePictures::draw_shown(View view, std::size_t pose) {
+  const PoseResult& result = state_->run.sweep.poses.at(pose);
+  assert(has_place(result));
+  Scenery shown = state_->scenery(view, result);
+  const std::vector<Item> items = state_->items(shown);
+  const PageLayout& page = state_->page;
+  Image image = state_->renderer.render(shown.camera, items, {page.drawing, page.fade});
+  return {std::move(image), std::move(shown)};
 }
 
 Image KneePictures::draw(View view, std::size_t pose) {
-  const Scenery shown = scenery(view, pose);
-  Image image = state_->renderer.render(shown.camera, state_->items(shown));
-  if (state_->options.words && !state_->options.panel) annotate(image, state_->page, shown);
-  return image;
+  Drawn drawn = draw_shown(view, pose);
+  if (state_->options.words && !state_->options.panel)
+    annotate(drawn.image, state_->page, drawn.shown);
+  return std::move(drawn.image);
 }
 
 Image draw_knee(const Run& run, View view, std::size_t pose, const PictureOptions& options) {

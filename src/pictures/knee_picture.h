@@ -30,15 +30,16 @@ class KneePictures {
   KneePictures(KneePictures&&) noexcept;
   KneePictures& operator=(KneePictures&&) noexcept;
 
-  /// `pose` indexes run.sweep.poses and must have converged. The camera of a view is the same for
-  /// all poses of a run.
+  /// `pose` indexes run.sweep.poses and must have a place (results/run_view.h). The camera of a
+  /// view is the same for all poses of a run.
   [[nodiscard]] Image draw(View view, std::size_t pose);
+
+  /// A picture and what it shows, for words around it (pictures/annotate.h).
+  struct Drawn;
+  [[nodiscard]] Drawn draw_shown(View view, std::size_t pose);
 
   /// The camera of a view.
   [[nodiscard]] const Camera& camera(View view) const;
-
-  /// What a picture shows, for words around it (pictures/annotate.h). Refers to this object.
-  [[nodiscard]] Scenery scenery(View view, std::size_t pose) const;
 
  private:
   struct State;

@@ -17,7 +17,8 @@ struct LigamentLabel {
 
 /// In the order of the scene. Where a view shows one body alone the anchor is an insertion on
 /// it, and ligaments whose insertions are all hidden have no label; else it is the middle of the
-/// bundle's middle strand.
-[[nodiscard]] std::vector<LigamentLabel> ligament_labels(const Scenery& scenery);
+/// bundle's middle strand, or the place nearest to it that lies inside `page` [pixel]; a ligament
+/// with nothing there has no label.
+[[nodiscard]] std::vector<LigamentLabel> ligament_labels(const Scenery& scenery, const Frame& page);
 
 }  // namespace condyle

@@ -11,11 +11,52 @@
 #include "pictures/color_bar.h"
 #include "pictures/gap_map.h"
 #include "pictures/swept_quantity.h"
+#include "results/strain_scale.h"
 
 namespace condyle {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kBarHeight = 215;
+
+/// The end of the scale is round, so what is above is greater by more than rounding.
+std::string words_above(const PictureScales& scales) {
+  if (!(scales.ligament_greatest > scales.ligament_top * (1 + 1e-6))) return "";
+  return fmt::format("up to {:.0f}", (scales.strain_known ? 100 : 1) * scales.ligament_greatest);
+}
+
+void draw_ligament_bar(const Pen& pen, const PictureScales& scales, const Frame& place) {
+  const double factor = scales.strain_known ? 100 : 1;
+  draw_color_bar(pen,
+                 {ColorMap::kStrain, "Ligament", scales.strain_known ? "strain [%]" : "force [N]",
+                  0, factor * scales.ligament_top, words_above(scales)},
+                 place);
+  const double y = place.bottom + 24 * pen.s;
+  pen.canvas.line({place.left, y}, {place.right, y}, 3 * pen.s, ligament_color(scales, {}));
+  pen.canvas.text({place.right + 9 * pen.s, y + 5 * pen.s}, "slack", pen.style(14));
+}
+
+/// Overlap has a colour outside of the scale; it is named where it is seen.
+void draw_gap_bar(const Pen& pen, double overlap, const Frame& place) {
+  draw_color_bar(pen, {ColorMap::kGap, "Gap", "[mm]", 0, kGapLimit}, place);
+  if (!(overlap > 0)) return;
+  const double top = std::round(place.bottom + 16 * pen.s);
+  pen.canvas.rectangle({place.left, top, place.right, std::round(top + 16 * pen.s)}, kAlarmColor);
+  TextStyle style = pen.style(14);
+  style.bold = true;
+  pen.canvas.text({place.right + 9 * pen.s, top + 13 * pen.s}, "overlap", style);
+  pen.canvas.text({place.left + 93 * pen.s, top + 34 * pen.s}, overlap_words(overlap),
+                  pen.style(14, kInk, Align::kRight));
+}
+
+}  // namespace
+
+std::string overlap_words(double overlap) {
+  return overlap < 0.01 ? "below 0.01 mm" : fmt::format("up to {:.2g} mm", overlap);
+}
 
 void draw_bars(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
   const double left = page.width - 98 * pen.s, right = left + 16 * pen.s;
@@ -23,22 +64,12 @@ void draw_bars(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
   const PictureScales& scales = scenery.scales;
   double top = 150 * pen.s;
   if (!scenery.run.scene.ligaments.empty()) {
-    const Frame place{left, top, right, top + 215 * pen.s};
-    const double factor = scales.strain_known ? 100 : 1;
-    draw_color_bar(pen,
-                   {ColorMap::kStrain, "Ligament", scales.strain_known ? "strain [%]" : "force [N]",
-                    0, factor * scales.ligament_top},
-                   place);
-    const double y = place.bottom + 24 * pen.s;
-    pen.canvas.line({left, y}, {right, y}, 3 * pen.s, ligament_color(scales, {}));
-    pen.canvas.text({right + 9 * pen.s, y + 5 * pen.s}, "slack", pen.style(14));
+    const Frame place{left, top, right, top + kBarHeight * pen.s};
+    draw_ligament_bar(pen, scales, place);
     top = place.bottom + 120 * pen.s;
   }
-  const Frame lower{left, top, right, top + 215 * pen.s};
-  if (scenery.proximity) {
-    draw_color_bar(pen, {ColorMap::kGap, "Gap", "[mm]", 0, kGapLimit}, lower);
-    return;
-  }
+  const Frame lower{left, top, right, top + kBarHeight * pen.s};
+  if (scenery.proximity) return draw_gap_bar(pen, scenery.overlap, lower);
   if (scenery.run.scene.contacts.empty() || !(scales.sweep_high > scales.sweep_low)) return;
   const std::string unit = swept.unit == "°" ? "[°]" : "[" + swept.unit + "]";
   draw_color_bar(pen,
@@ -111,6 +142,14 @@ void draw_keys(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
     pen.canvas.text({right, y + 5 * pen.s}, text, style);
     return right - pen.canvas.text_width(text, style) - 12 * pen.s;
   };
+  if (std::any_of(scenery.marks.begin(), scenery.marks.end(),
+                  [](const ContactMark& mark) { return mark.beyond > 0; })) {
+    const double left = words("contact beyond the known surface");
+    const Vector2d at(left - 7 * pen.s, y), arm(6 * pen.s, 6 * pen.s), other(arm.x(), -arm.y());
+    pen.canvas.line(at - arm, at + arm, 3 * pen.s, kAlarmColor);
+    pen.canvas.line(at - other, at + other, 3 * pen.s, kAlarmColor);
+    y -= 24 * pen.s;
+  }
   if (scenery.staging.apart()) {
     words(fmt::format("femur lifted {:g} mm, tipped {:.0f}°", scenery.staging.lifted,
                       scenery.staging.tipped * 180 / M_PI));

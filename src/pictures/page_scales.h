@@ -8,6 +8,8 @@
 
 namespace condyle {
 
+/// "up to 0.3 mm"
+[[nodiscard]] std::string overlap_words(double overlap);
 /// Colour bars of ligament strain and of the contact path or the gap, at the right.
 void draw_bars(const Pen& pen, const PageLayout& page, const Scenery& scenery);
 /// A cross with the letters of the anatomical directions, lower left; three arms where the view is
@@ -17,7 +19,7 @@ void draw_scale_bar(const Pen& pen, const PageLayout& page, const Scenery& scene
 /// The arrow of a round force, to compare the arrows in the picture with.
 void draw_force_scale(const Pen& pen, const PageLayout& page, const Scenery& scenery);
 
-/// What ellipses and a second line of contact paths are, lower right.
+/// What crosses, ellipses and a second line of contact paths are, lower right.
 void draw_keys(const Pen& pen, const PageLayout& page, const Scenery& scenery);
 
 }  // namespace condyle

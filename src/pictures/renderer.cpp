@@ -15,7 +15,6 @@ constexpr double kOcclusionReach = 9;  // [mm]
 // Cartilage is fitted to the same mesh that is drawn as bone: the bone steps back so that its
 // roughness does not poke through [mm].
 constexpr double kBoneStepsBack = 1.2;
-constexpr double kFade = 0.08;  // margin of the page in which shafts fade away, of its smaller side
 constexpr float kMarkOpacity = 0.92F;
 constexpr float kNothing = -10000;  // height where no surface is [mm]
 
@@ -55,7 +54,8 @@ struct Renderer::State {
             Layer layer) const;
   void limit_to(const Camera& camera, const std::vector<Item>& items) const;
   void find_light(const Camera& camera, const std::vector<Item>& items) const;
-  void draw_page(const Camera& camera, const std::vector<Item>& items) const;
+  void draw_page(const Camera& camera, const std::vector<Item>& items, const Fade& fade) const;
+  void set_fade(const Fade& fade) const;
   [[nodiscard]] Image read_back() const;
 };
 
@@ -145,7 +145,20 @@ void Renderer::State::find_light(const Camera& camera, const std::vector<Item>& 
   glDisable(GL_SCISSOR_TEST);
 }
 
-void Renderer::State::draw_page(const Camera& camera, const std::vector<Item>& items) const {
+/// OpenGL counts rows from below.
+void Renderer::State::set_fade(const Fade& fade) const {
+  const bool whole = !(fade.frame.right > fade.frame.left);
+  const Frame paper =
+      whole ? Frame{0, 0, static_cast<double>(width), static_cast<double>(height)} : fade.frame;
+  glUniform4f(shading.uniform("paper"), static_cast<float>(paper.left),
+              static_cast<float>(height - paper.bottom), static_cast<float>(paper.right),
+              static_cast<float>(height - paper.top));
+  glUniform1f(shading.uniform("fade"), static_cast<float>(std::max(1e-3, fade.width)));
+}
+
+void Renderer::State::draw_page(const Camera& camera,
+                                const std::vector<Item>& items,
+                                const Fade& fade) const {
   page.bind();
   glClearColor(1, 1, 1, 0);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -154,7 +167,7 @@ void Renderer::State::draw_page(const Camera& camera, const std::vector<Item>& i
   set_camera(shading, camera);
   glUniform1i(shading.uniform("occlusion"), 2);
   glUniform2f(shading.uniform("page"), static_cast<float>(width), static_cast<float>(height));
-  glUniform1f(shading.uniform("fade"), static_cast<float>(kFade * std::min(width, height)));
+  set_fade(fade);
   draw(shading, camera, items, Layer::kSolid);
 
   // The page's alpha now says how far the solid there shows through bone, 0 where there is none. Of
@@ -213,10 +226,10 @@ void Renderer::replace(int id, const ShadedMesh& mesh) {
   state_->meshes[static_cast<std::size_t>(id)]->fill(mesh);
 }
 
-Image Renderer::render(const Camera& camera, const std::vector<Item>& items) {
+Image Renderer::render(const Camera& camera, const std::vector<Item>& items, const Fade& fade) {
   state_->context.make_current();
   state_->find_light(camera, items);
-  state_->draw_page(camera, items);
+  state_->draw_page(camera, items, fade);
   return state_->read_back();
 }
 

@@ -30,6 +30,12 @@ struct Item {
   bool closed = false;  ///< its back faces are never seen and need not be drawn
 };
 
+/// Where everything turns to paper.
+struct Fade {
+  Frame frame;       ///< beyond it there is nothing [pixel]; empty: the whole page
+  double width = 0;  ///< of the band inside it over which things fade [pixel]
+};
+
 class Renderer {
  public:
   /// Throws PictureError when the machine cannot draw.
@@ -43,7 +49,9 @@ class Renderer {
   /// Puts another mesh in the place of a kept one.
   void replace(int id, const ShadedMesh& mesh);
 
-  [[nodiscard]] Image render(const Camera& camera, const std::vector<Item>& items);
+  [[nodiscard]] Image render(const Camera& camera,
+                             const std::vector<Item>& items,
+                             const Fade& fade = {});
 
  private:
   struct State;

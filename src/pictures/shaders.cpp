@@ -108,7 +108,8 @@ in vec4 paint;
 uniform sampler2D occlusion;
 uniform vec2 page;       // size of the picture in pixels
 uniform float gloss;
-uniform float fade;      // width of the margin in which everything turns to paper, pixels
+uniform vec4 paper;      // left, bottom, right, top beyond which there is nothing but paper, pixels
+uniform float fade;      // width of the band inside in which everything turns to paper, pixels
 out vec4 color;
 const vec3 kKey = vec3(-0.48, 0.62, 0.62);
 const vec3 kFill = vec3(0.77, 0.10, 0.63);
@@ -133,8 +134,8 @@ void main() {
   lit += gloss * fourth * fourth * shine * open;
   // A darker edge sets pale bone off from the white page.
   lit *= mix(0.62, 1.0, smoothstep(0.0, 0.45, facing));
-  vec2 inward = min(gl_FragCoord.xy, page - gl_FragCoord.xy);
-  float ink = smoothstep(0.1, 1.0, min(inward.x, inward.y) / fade);
+  vec2 inward = min(gl_FragCoord.xy - paper.xy, paper.zw - gl_FragCoord.xy);
+  float ink = smoothstep(0.0, 1.0, min(inward.x, inward.y) / fade);
   // x to the power of 1/2.2 within 0.004, by square roots: several times cheaper than pow.
   vec3 half_power = sqrt(clamp(lit, vec3(0.0), vec3(1.0)));
   vec3 quarter = sqrt(half_power);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "results/run_view.h"
+
 namespace condyle {
 namespace {
 
@@ -18,7 +20,7 @@ constexpr double kLeastLift = 40;      // [mm]
 std::vector<Vector3d> touching_points(const Run& run) {
   std::vector<Vector3d> points;
   for (const PoseResult& pose : run.sweep.poses) {
-    if (!pose.converged()) continue;
+    if (!has_place(pose)) continue;
     for (const ContactMark& mark : contact_marks(run.scene, pose)) points.push_back(mark.point);
   }
   return points;

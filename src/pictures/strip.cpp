@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 
 #include "pictures/annotate.h"
 #include "pictures/page_scales.h"
@@ -33,6 +34,18 @@ void draw_page_words(const Pen& pen, const PageLayout& page, const Scenery& scen
   if (shows_arrows(scenery)) draw_force_scale(pen, page, scenery);
 }
 
+/// Above a panel; of a pose that is no result with a sign and its status.
+void draw_value(const Pen& pen, const Eigen::Vector2d& at, const Scenery& scenery) {
+  TextStyle value = pen.style(19, kInk, Align::kCenter);
+  value.bold = true;
+  std::string words = with_unit(swept_quantity(scenery.run.scene), scenery.pose.value);
+  if (!scenery.pose.converged()) words += std::string("  ") + name(scenery.pose.status);
+  pen.canvas.text(at, words, value);
+  if (scenery.pose.converged()) return;
+  const double size = 17 * pen.s, half = 0.5 * pen.canvas.text_width(words, value);
+  draw_alarm_sign(pen, at - Eigen::Vector2d(half + 1.5 * size, 0), size);
+}
+
 }  // namespace
 
 PictureOptions strip_size(View view, std::size_t poses) {
@@ -59,23 +72,21 @@ Image draw_strip(const Run& run,
   panel.height = static_cast<int>(options.height - (kHead + kValueLine + kFoot) * s);
   KneePictures pictures(run, panel);
   Image page = blank_image(options.width, options.height, {255, 255, 255});
-  const SweptQuantity swept = swept_quantity(run.scene);
   const int top = static_cast<int>((kHead + kValueLine) * s);
   Canvas canvas(page);
   const Pen pen{canvas, s};
+  std::optional<Scenery> common;
   for (int i = 0; i < columns; ++i) {
     const std::size_t pose = poses[static_cast<std::size_t>(i)];
-    Image image = pictures.draw(view, pose);
+    auto [image, shown] = pictures.draw_shown(view, pose);
     Canvas on_panel(image);
-    draw_contact_forces({on_panel, s}, panel.width, pictures.scenery(view, pose));
+    draw_contact_forces({on_panel, s}, panel.width, shown);
     paste(image, page, i * panel.width, top);
-    TextStyle value = pen.style(19, kInk, Align::kCenter);
-    value.bold = true;
-    canvas.text({(i + 0.5) * panel.width, (kHead + 22) * s},
-                with_unit(swept, run.sweep.poses[pose].value), value);
+    draw_value(pen, {(i + 0.5) * panel.width, (kHead + 22) * s}, shown);
+    if (!common) common.emplace(shown);
+    common->overlap = std::max(common->overlap, shown.overlap);
   }
-  draw_page_words(pen, {options.width, options.height, s, {}},
-                  pictures.scenery(view, poses.front()));
+  draw_page_words(pen, {options.width, options.height, s, {}}, *common);
   return page;
 }
 

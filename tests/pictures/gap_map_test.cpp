@@ -93,5 +93,47 @@ TEST(GapMap, ColoursGrowLighterFromTouchingToFar) {
   }
 }
 
+TEST(GapMap, PaintsOverlapInAColourOutsideOfTheScaleAndSaysHowDeep) {
+  const auto run = ball_over_plane();
+  std::vector<RigidTransform> X_P(2);
+  X_P[0].p = {0, -1.25, 0};  // the ball's lowest point 0.25 mm below the plane
+  ShadedMesh mesh;
+  for (const double r : {0.0, 20.0})
+    mesh.vertices.push_back({Eigen::Vector3f(static_cast<float>(r), 0, 0), {0, 1, 0}, {}});
+  EXPECT_NEAR(GapMap(run).paint(mesh, 1, X_P, kCartilage), 0.25, 1e-6);
+  const auto color = [&](std::size_t i) {
+    return Rgb{mesh.vertices[i].color[0], mesh.vertices[i].color[1], mesh.vertices[i].color[2]};
+  };
+  EXPECT_EQ(color(0), kAlarmColor);
+  EXPECT_NE(color(1), kAlarmColor);
+  X_P[0].p = {0, -1, 0};  // touching
+  EXPECT_EQ(GapMap(run).paint(mesh, 1, X_P, kCartilage), 0);
+  EXPECT_EQ(color(0), map_color(ColorMap::kGap, 0));
+}
+
+/// What the red-blind and the green-blind see, in linear light [Viénot et al. 1999].
+Vector3d seen_without(bool red, Rgb c) {
+  Vector3d x;
+  for (int i = 0; i < 3; ++i) x[i] = std::pow(c[static_cast<std::size_t>(i)] / 255.0, 2.2);
+  Eigen::Matrix3d M;
+  if (red)
+    M << 0.11238, 0.88762, 0, 0.11238, 0.88762, 0, 0.00401, -0.00401, 1;
+  else
+    M << 0.29275, 0.70725, 0, 0.29275, 0.70725, 0, -0.02234, 0.02234, 1;
+  const Vector3d seen = M * x;
+  return seen.cwiseMax(0).array().pow(1 / 2.2);
+}
+
+TEST(GapMap, OverlapLooksLikeNoGapWithoutColourVisionEither) {
+  for (const bool red : {true, false}) {
+    const Vector3d alarm = seen_without(red, kAlarmColor);
+    for (int i = 0; i <= 60; ++i) {
+      const Vector3d gap = seen_without(red, map_color(ColorMap::kGap, i / 60.0));
+      EXPECT_GT((gap - alarm).norm(), 0.3) << i;
+    }
+    EXPECT_GT((seen_without(red, kCartilage.color) - alarm).norm(), 0.5);
+  }
+}
+
 }  // namespace
 }  // namespace condyle

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 
 #include "pictures/annotate.h"
 #include "pictures/block_knee.h"
 #include "pictures/knee_picture.h"
+#include "pictures/page_scales.h"
 #include "pictures/png_file.h"
 #include "pictures/strip.h"
 
@@ -71,8 +73,9 @@ TEST(Views, TheExplodedKneeShowsBothSurfacesApart) {
   EXPECT_GT(R.row(2).dot(below), 0.3) << "and so do the condyles";
   KneePictures pictures(run, kBare);
   const Camera& camera = pictures.camera(View::kExploded);
-  EXPECT_LT(camera.project(staging.lift * Vector3d(0, 0, 15)).y(),
-            camera.project({0, 0, 15}).y() - 100)
+  const double apart = camera.project({0, 0, 15}).y() -
+                       camera.project(staging.lift * Vector3d(0, 0, 15)).y();  // [pixel]
+  EXPECT_GT(apart * camera.mm_per_pixel, 0.7 * staging.lifted)
       << "the femur's side of a contact stands well above the tibia's";
 }
 
@@ -152,8 +155,154 @@ TEST(Views, AStripHoldsThePosesSideBySide) {
   EXPECT_EQ(strip.rgb, draw_strip(run, View::kAnterior, {0, 1, 2}, size).rgb) << "the same bytes";
 }
 
+bool is_alarm(Rgb c) { return c[0] > 120 && c[1] < 0.5 * c[0] && c[2] < 0.4 * c[0]; }
+
+/// The page's alarm colour as it is drawn flat.
+bool is_flat_alarm(Rgb c) { return c == kAlarmColor; }
+
+int count_in(const Image& image, const Frame& frame, bool (*is)(Rgb)) {
+  int n = 0;
+  for (int y = static_cast<int>(frame.top); y < static_cast<int>(frame.bottom); ++y)
+    for (int x = static_cast<int>(frame.left); x < static_cast<int>(frame.right); ++x)
+      n += is(image.at(x, y)) ? 1 : 0;
+  return n;
+}
+
+Run beyond_edge_run() {
+  Run run = block_run();
+  PoseResult& pose = run.sweep.poses[1];
+  pose.status = PoseStatus::kLeftPatch;
+  pose.reason = "contact \"medial\" 2.3 mm beyond the notch side of \"medial condyle\"";
+  pose.contacts[0].points[0].edge_distance = -2.3;
+  return run;
+}
+
+TEST(Views, APoseBeyondAnEdgeIsMarkedAtThePointAndInWords) {
+  const auto run = beyond_edge_run();
+  KneePictures pictures(run, kBare);
+  const Image bare = pictures.draw(View::kPlateau, 1);
+  const Vector3d point(-4, 0, -15);  // of the medial contact at the second pose
+  for (const double side : {1.0, -1.0}) {
+    // A cross in the plane of the page, its arms 2.6 mm long, beside the dot of 1.5 mm.
+    const double a = 2.1 / std::sqrt(2);
+    EXPECT_TRUE(
+        is_alarm(seen_at(pictures, bare, View::kPlateau, point + Vector3d(a, 0, side * a))));
+  }
+  EXPECT_EQ(count(pictures.draw(View::kPlateau, 0), is_alarm), 0);
+
+  KneePictures with_words(run, {1200, 900});
+  const Frame head = {20, 74, 900, 112}, foot = {800, 820, 1190, 890};
+  const Image good = with_words.draw(View::kPlateau, 0), left = with_words.draw(View::kPlateau, 1);
+  EXPECT_EQ(count_in(good, head, is_flat_alarm) + count_in(good, foot, is_flat_alarm), 0);
+  EXPECT_GT(count_in(left, head, is_flat_alarm), 60) << "the sign";
+  EXPECT_GT(count_in(left, {60, 74, 900, 112}, [](Rgb c) { return c[0] < 90; }), 300) << "words";
+  EXPECT_GT(count_in(left, foot, is_flat_alarm), 20) << "what the cross is";
+}
+
+TEST(Views, AStripMarksAPoseBeyondAnEdge) {
+  const auto run = beyond_edge_run();
+  const PictureOptions size = strip_size(View::kAnterior, 3);
+  const Image strip = draw_strip(run, View::kAnterior, {0, 1, 2}, size);
+  const int panel = (size.width - 96) / 3;
+  for (int i = 0; i < 3; ++i) {
+    const double left = i * panel;
+    const int signs = count_in(strip, {left, 60, left + panel, 95}, is_flat_alarm);
+    EXPECT_EQ(signs > 40, i == 1) << i;
+  }
+}
+
+/// The blocks with shafts of 400 mm, and plates of 25 mm that touch.
+Run long_shafts(double shaft) {
+  Run run = block_run();
+  for (std::size_t i = 0; i < 2; ++i) {
+    SurfaceDescription plate;
+    plate.name = i == 0 ? "condyles" : "plateau";
+    plate.body = static_cast<int>(i);
+    plate.kind = SurfaceKind::kPlane;
+    plate.point = {0, i == 0 ? 2.0 : -2.0, 0};
+    plate.direction = {0, i == 0 ? -1.0 : 1.0, 0};
+    plate.known_radius = 25;
+    run.scene.surfaces.push_back(plate);
+    TriangleMesh& mesh = run.bodies[i].mesh;
+    const double up = i == 0 ? 1 : -1;
+    const TriangleMesh more = box({-12, 40 * up, -12}, {12, (40 + shaft) * up, 12});
+    const int first = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), more.vertices.begin(), more.vertices.end());
+    for (std::array<int, 3> t : more.triangles) {
+      for (int& corner : t) corner += first;
+      mesh.triangles.push_back(t);
+    }
+  }
+  return run;
+}
+
+TEST(Views, TheJointIsFramedWhateverTheLengthOfTheShafts) {
+  const auto stumps = long_shafts(1), bones = long_shafts(400);
+  for (const View view : {View::kAnterior, View::kLateral, View::kPlateau, View::kExploded}) {
+    KneePictures a(stumps, kBare), b(bones, kBare);
+    EXPECT_NEAR(b.camera(view).mm_per_pixel, a.camera(view).mm_per_pixel,
+                0.02 * a.camera(view).mm_per_pixel)
+        << name(view);
+  }
+}
+
+TEST(Views, ShaftsEndBeforeLabelsLegendAndTitle) {
+  const auto run = long_shafts(400);
+  for (const PictureOptions& size :
+       {PictureOptions{1200, 900, false}, {500, 1100, false}, {1500, 500, false}}) {
+    const Image image = draw_knee(run, View::kAnterior, 0, size);
+    const Frame d = page_layout(size.width, size.height).drawing;
+    const auto ink = [](Rgb c) { return !is_white(c); };
+    const double w = size.width, h = size.height;
+    for (const Frame& margin : {Frame{0, 0, w, d.top},
+                                {0, d.bottom + 1, w, h},
+                                {0, 0, d.left, h},
+                                {d.right + 1, 0, w, h}})
+      EXPECT_EQ(count_in(image, margin, ink), 0) << size.width << " " << margin.left;
+    // The shaft itself reaches almost to the title.
+    EXPECT_GT(count_in(image, {0, d.top, w, d.top + 60}, ink), 100);
+  }
+}
+
+TEST(Views, StrainBeyondTheScaleIsATriangleAboveTheBar) {
+  auto run = block_run();
+  const Rgb end = map_color(ColorMap::kStrain, 1);
+  const auto above = [&] {
+    const Image image = draw_knee(run, View::kAnterior, 0);
+    int n = 0;
+    for (int y = 134; y < 148; ++y)  // the bar begins at 150
+      for (int x = 1102; x < 1118; ++x) n += image.at(x, y) == end ? 1 : 0;
+    return n;
+  };
+  EXPECT_EQ(above(), 0);
+  run.sweep.poses[2].ligaments[0].strain = 0.5;
+  EXPECT_GT(above(), 60);
+}
+
+TEST(Views, TheLegendNamesTheOverlapWhereThereIsSome) {
+  auto run = long_shafts(1);
+  run.scene.contacts.resize(1);
+  run.scene.contacts[0].surfaces = {0, 1};
+  for (PoseResult& pose : run.sweep.poses) pose.contacts.resize(1);
+  PictureOptions options;
+  options.proximity = true;
+  const Frame legend = {1090, 700, 1195, 760};
+  EXPECT_EQ(count_in(draw_knee(run, View::kPlateau, 0, options), legend, is_flat_alarm), 0);
+  run.scene.surfaces[0].point.y() = -2.3;  // the condyles 0.3 mm below the plateau
+  const Image overlap = draw_knee(run, View::kPlateau, 0, options);
+  EXPECT_GT(count_in(overlap, legend, is_flat_alarm), 150);
+  EXPECT_GT(count(overlap, is_alarm), 5000) << "and the plateau has its colour";
+}
+
+TEST(Views, WordsSayHowDeepAnOverlapIs) {
+  EXPECT_EQ(overlap_words(0.3), "up to 0.3 mm");
+  EXPECT_EQ(overlap_words(2.37), "up to 2.4 mm");
+  EXPECT_EQ(overlap_words(0.004), "below 0.01 mm");
+}
+
 /// Kept in tests/pictures/data; made by
-///     CONDYLE_KEEP_PICTURES=yes build/condyle_tests --gtest_filter=Views.LooksAsTheKeptPicture
+///     CONDYLE_KEEP_PICTURES=yes build/tests/condyle_pictures_tests
+///     --gtest_filter=Views.LooksAsTheKeptPicture
 TEST(Views, LooksAsTheKeptPicture) {
   const std::string file = CONDYLE_SOURCE_DIR "/tests/pictures/data/blocks_lateral.png";
   PictureOptions options = {320, 240, false};
