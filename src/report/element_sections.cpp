@@ -5,17 +5,12 @@
 
 #include "report/html.h"
 #include "report/sections.h"
+#include "results/run_view.h"
 
 namespace condyle {
 namespace {
 
 using Poses = std::vector<PoseResult>;
-
-const ContactPointResult* strongest(const ContactResult& contact) {
-  if (contact.points.empty()) return nullptr;
-  return &*std::max_element(contact.points.begin(), contact.points.end(),
-                            [](const auto& a, const auto& b) { return a.force < b.force; });
-}
 
 std::string swept_head(const Swept& swept) {
   return swept.units == "1" ? swept.name : fmt::format("{} [{}]", swept.name, swept.units);
@@ -23,7 +18,7 @@ std::string swept_head(const Swept& swept) {
 
 std::vector<std::string> contact_row(const PoseResult& pose, std::size_t index, bool pressed) {
   const ContactResult& contact = pose.contacts[index];
-  const ContactPointResult* point = strongest(contact);
+  const ContactPointResult* point = strongest_point(contact);
   std::vector<std::string> row = {contact.closed ? "closed" : "open", number(contact.force, 1),
                                   fmt::format("{}", contact.closed ? contact.points.size() : 0)};
   for (Eigen::Index k = 0; k < 3; ++k)
@@ -41,7 +36,7 @@ std::vector<std::string> contact_row(const PoseResult& pose, std::size_t index, 
 bool has_pressure(const Poses& poses, std::size_t index) {
   return std::any_of(poses.begin(), poses.end(), [&](const PoseResult& pose) {
     if (!pose.converged()) return false;
-    const ContactPointResult* point = strongest(pose.contacts[index]);
+    const ContactPointResult* point = strongest_point(pose.contacts[index]);
     return point != nullptr && point->hertz.has_value();
   });
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <vector>
 
 #include "pictures/knee_picture.h"
@@ -16,6 +17,7 @@
 #include "report/html.h"
 #include "report/sections.h"
 #include "results/digest.h"
+#include "results/run_view.h"
 
 namespace condyle {
 namespace {
@@ -51,16 +53,29 @@ std::string contents(const fs::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// Evenly over the converged poses, both ends among them.
+/// Evenly over the converged poses, both ends among them; where none converged over those that have
+/// a place.
 std::vector<std::size_t> chosen_poses(const SweepResult& sweep) {
-  std::vector<std::size_t> converged;
+  const bool results = sweep.count_converged() > 0;
+  std::vector<std::size_t> drawable;
   for (std::size_t i = 0; i < sweep.poses.size(); ++i)
-    if (sweep.poses[i].converged()) converged.push_back(i);
-  const std::size_t n = std::min(kMostAngles, converged.size());
+    if (results ? sweep.poses[i].converged() : has_place(sweep.poses[i])) drawable.push_back(i);
+  const std::size_t n = std::min(kMostAngles, drawable.size());
   std::vector<std::size_t> chosen;
   for (std::size_t k = 0; k < n; ++k)
-    chosen.push_back(converged[n == 1 ? 0 : k * (converged.size() - 1) / (n - 1)]);
+    chosen.push_back(drawable[n == 1 ? 0 : k * (drawable.size() - 1) / (n - 1)]);
   return chosen;
+}
+
+/// Of the poses that are no results the one with a contact farthest beyond an edge.
+std::optional<std::size_t> farthest_left_patch(const SweepResult& sweep) {
+  std::optional<std::size_t> farthest;
+  for (std::size_t i = 0; i < sweep.poses.size(); ++i) {
+    const PoseResult& pose = sweep.poses[i];
+    if (pose.converged() || !has_place(pose)) continue;
+    if (!farthest || beyond_edge(pose) > beyond_edge(sweep.poses[*farthest])) farthest = i;
+  }
+  return farthest;
 }
 
 std::string figure(const Image& image, const std::string& caption, const char* kind) {
@@ -92,6 +107,14 @@ std::string single(const Run& run, KneePictures& pictures, View view, std::size_
       "picture");
 }
 
+/// The plateau and the condyles side by side.
+std::string pair_of(const Run& run, KneePictures& pictures, std::size_t pose) {
+  std::string body = "<div class=\"pair\">\n";
+  for (const View view : {View::kPlateau, View::kCondyles})
+    body += single(run, pictures, view, pose);
+  return body + "</div>\n";
+}
+
 void replace_all(std::string& text, std::string_view from, const std::string& to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
     text.replace(at, from.size(), to);
@@ -121,22 +144,23 @@ std::string inlined(std::string svg, const std::string& prefix) {
 }  // namespace
 
 std::string picture_section(const Run& run) {
-  if (run.sweep.count_converged() == 0 || (run.bodies.empty() && run.patches.empty())) return "";
+  if (count_with_place(run.sweep) == 0 || (run.bodies.empty() && run.patches.empty())) return "";
   const std::vector<std::size_t> poses = chosen_poses(run.sweep);
   std::string body = strip(run, View::kMedial, poses) + strip(run, View::kAnterior, poses);
   PictureOptions options;
   options.width = 1000;
   options.height = 750;
   KneePictures pictures(run, options);
-  body += "<div class=\"pair\">\n";
-  for (const View view : {View::kPlateau, View::kCondyles})
-    body += single(run, pictures, view, poses[poses.size() / 2]);
-  body += "</div>\n";
+  body += pair_of(run, pictures, poses[poses.size() / 2]);
+  if (const auto left = farthest_left_patch(run.sweep)) {
+    body += "<p>A contact beyond the edge of the known surface: this pose is no result.</p>\n" +
+            pair_of(run, pictures, *left);
+  }
   return section("pictures", "Pictures", body);
 }
 
 std::string plot_section(const Run& run) {
-  if (run.sweep.count_converged() == 0 && !run.laxity) return "";
+  if (count_with_place(run.sweep) == 0 && !run.laxity) return "";
   const PassingFolder folder;
   std::string body;
   int count = 0;

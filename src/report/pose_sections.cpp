@@ -8,6 +8,7 @@
 #include "report/sections.h"
 #include "report/summary_json.h"
 #include "results/run_layout.h"
+#include "results/run_view.h"
 #include "scene/sweep_range.h"
 
 namespace condyle {
@@ -106,7 +107,7 @@ std::string pose_section(const Run& run) {
       if (joint && swept.name == kJointColumns[k].name) continue;
       const double value = joint ? pose.joint.*kJointColumns[k].member / kJointColumns[k].unit
                                  : pose.X_BA.p[static_cast<Eigen::Index>(k)];
-      row.push_back(number(pose.converged() ? value : none, 2));
+      row.push_back(number(has_place(pose) ? value : none, 2));
     }
     row.emplace_back(pose.stability == 1 ? "stable" : pose.stability == 0 ? "not stable" : "-");
     row.push_back(name(pose.status) + (pose.reason.empty() ? "" : ": " + pose.reason));

@@ -11,6 +11,7 @@
 #include "report/sections.h"
 #include "results/digest.h"
 #include "results/run_layout.h"
+#include "results/strain_scale.h"
 
 namespace condyle {
 namespace {
@@ -25,6 +26,7 @@ constexpr const char* kMarkup = R"(<p id="viewer-message">The 3-D view needs scr
 <div class="line"><button type="button" class="play">play</button>
 <input class="poses" type="range" min="0" step="0.02" value="0" aria-label="pose">
 <output></output></div>
+<p class="alarm" role="status" hidden></p>
 <ul class="coordinates"></ul>
 <div class="views" role="group" aria-label="views"></div>
 <div class="toggles" role="group" aria-label="bodies"></div>
@@ -48,6 +50,8 @@ class ViewerData {
                                                      : 1},
                      {"values", series([&](const PoseResult& p) { return p.value / swept.unit; })}};
     json["coordinates"] = coordinates(swept);
+    json["alarms"] = alarms();
+    json["missing"] = missing();
     add_scene(json);
     add_elements(json);
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -79,6 +83,25 @@ class ViewerData {
     return rows;
   }
 
+  /// Of each pose what is wrong with it; nothing where it is a result.
+  [[nodiscard]] Json alarms() const {
+    Json words = Json::array();
+    for (const ShownPose& shown : shown_) {
+      const PoseResult& pose = run_.sweep.poses[shown.index];
+      const std::string reason = pose.reason.empty() ? "" : ": " + pose.reason;
+      words.push_back(pose.converged() ? "" : name(pose.status) + reason);
+    }
+    return words;
+  }
+
+  /// How many poses are missing between each pose and the next.
+  [[nodiscard]] Json missing() const {
+    Json counts = Json::array();
+    for (std::size_t i = 1; i < shown_.size(); ++i)
+      counts.push_back(shown_[i].index - shown_[i - 1].index - 1);
+    return counts;
+  }
+
   void add_scene(Json& json) const {
     json["side"] = Json();
     json["femur"] = Json();
@@ -98,16 +121,15 @@ class ViewerData {
           {{"name", scene_.contacts[i].name},
            {"force", series([&](const PoseResult& p) { return p.contacts[i].force; })}});
     }
-    double greatest = 0.01;
     for (std::size_t i = 0; i < scene_.ligaments.size(); ++i) {
-      for (const ShownPose& shown : shown_)
-        greatest = std::max(greatest, run_.sweep.poses[shown.index].ligaments[i].strain);
       json["ligaments"].push_back(
           {{"name", scene_.ligaments[i].name},
            {"strain", series([&](const PoseResult& p) { return p.ligaments[i].strain; })},
            {"force", series([&](const PoseResult& p) { return p.ligaments[i].force; })}});
     }
-    json["greatest_strain"] = std::ceil(100 * greatest) / 100;
+    const StrainScale strain = strain_scale(run_);
+    json["strain_top"] = strain.top;
+    json["greatest_strain"] = strain.greatest;
   }
 
   const Run& run_;
@@ -118,7 +140,7 @@ class ViewerData {
 }  // namespace
 
 std::string viewer_section(const Run& run, const std::string& file) {
-  if (run.sweep.count_converged() == 0) return "";
+  if (count_with_place(run.sweep) == 0) return "";
   if (viewer_script().empty()) {
     return section("view", "In three dimensions",
                    "<p>This condyle was built without the 3-D view.</p>\n");

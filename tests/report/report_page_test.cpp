@@ -173,11 +173,31 @@ TEST(ReportPage, CarriesAllItShows) {
   EXPECT_EQ(length, model.size());
 }
 
+TEST(ReportPage, TheViewerKnowsWhatIsWrongAndWhatIsMissing) {
+  if (viewer_script().empty()) GTEST_SKIP() << "built without the 3-D view";
+  condyle::Run run = block_run();
+  run.sweep.poses.push_back(run.sweep.poses[2]);
+  run.sweep.poses[3].value = run.sweep.poses[3].joint.flexion = 1.5;
+  run.sweep.poses[3].ligaments[0].strain = 0.5;
+  run.sweep.poses[1].status = PoseStatus::kSingular;
+  run.sweep.poses[2].status = PoseStatus::kLeftPatch;
+  run.sweep.poses[2].reason = "2 mm beyond the notch side";
+  const std::string page = report_page(run, "run.h5");
+  EXPECT_NE(page.find("\"alarms\":[\"\",\"left patch: 2 mm beyond the notch side\",\"\"]"),
+            std::string::npos);
+  EXPECT_NE(page.find("\"missing\":[1,0]"), std::string::npos);
+  EXPECT_NE(page.find("\"strain_top\":0.1,\"greatest_strain\":0.5"), std::string::npos);
+}
+
 #ifdef CONDYLE_PICTURES
 TEST(ReportPage, ShowsPicturesAndPlots) {
   const std::string page = report_page(block_run(), "run.h5");
   EXPECT_EQ(count(page, "<img "), 4U);  // two strips, the plateau and the condyles
-  EXPECT_GE(count(page, "<svg"), 3U);   // coordinates, contacts, ligaments
+  condyle::Run left = block_run();
+  left.sweep.poses[1].status = PoseStatus::kLeftPatch;
+  EXPECT_EQ(count(report_page(left, "run.h5"), "<img "), 6U)
+      << "both of the pose that is no result";
+  EXPECT_GE(count(page, "<svg"), 3U);  // coordinates, contacts, ligaments
   EXPECT_EQ(count(page, "<svg"), count(page, "</svg>"));
   EXPECT_EQ(page.find("<?xml"), std::string::npos);
   EXPECT_EQ(without_program(page).find("xmlns"), std::string::npos);

@@ -61,13 +61,16 @@ function addLegend(place, data) {
     return;
   }
   place.querySelector('.scale').style.background = cssGradient();
-  const most = 100 * data.greatest_strain;
+  const most = 100 * data.strain_top;
+  const above = data.greatest_strain > data.strain_top * (1 + 1e-6);
+  place.classList.toggle('above', above);  // an arrow at the end of the scale
   const marks = place.querySelector('.marks');
   for (const part of [0, 0.5, 1]) {
     const mark = document.createElement('span');
     mark.textContent = `${(most * part).toFixed(most < 4 ? 1 : 0)} %`;
     marks.append(mark);
   }
+  if (above) place.querySelector('span').textContent += `, some up to ${(100 * data.greatest_strain).toFixed(0)} %`;
 }
 
 function words(scene, data, at) {
@@ -81,14 +84,26 @@ function words(scene, data, at) {
   return rows;
 }
 
+/// What must be known of a place between poses: a pose that is no result, or that poses are missing.
+function alarm(data, at) {
+  const before = Math.floor(at), nearest = Math.round(at);
+  if (data.alarms[nearest]) return `\u26a0 ${data.alarms[nearest]}`;
+  const missing = at > before ? data.missing[before] : 0;
+  if (!missing) return '';
+  return `\u26a0 ${missing} ${missing === 1 ? 'pose is' : 'poses are'} missing here: the knee is moved straight from the one before to the next`;
+}
+
 export function createControls(place, scene, data) {
   const slider = place.querySelector('input.poses');
   const label = place.querySelector('output');
   const list = place.querySelector('ul.coordinates');
+  const warning = place.querySelector('.alarm');
   slider.max = data.times.length - 1;
   scene.listeners.push((at) => {
     slider.value = at;
     const swept = scene.number(data.swept.values, at);
+    warning.textContent = alarm(data, at);
+    warning.hidden = warning.textContent === '';
     label.textContent = `${data.swept.name} ${swept.toFixed(data.swept.digits)} ${data.swept.units}`;
     list.replaceChildren(...words(scene, data, at).map((text) => {
       const item = document.createElement('li');

@@ -18,9 +18,11 @@ function addLights(scene, camera) {
   key.target.position.set(0, 0, -1);
 }
 
+const MARGIN = 1.12;  // of the joint in the window
+
 /// Every mesh gets a material of its own, so that one can be coloured or faded without the others.
 function sortMeshes(root, data) {
-  const meshes = { bones: [], ligaments: new Map(), bodies: new Map(data.bodies.map((b) => [b, []])) };
+  const meshes = { bones: [], cartilage: [], ligaments: new Map(), bodies: new Map(data.bodies.map((b) => [b, []])) };
   root.traverse((node) => {
     const name = nameOf(node);
     if (meshes.bodies.has(name) && meshes.bodies.get(name).length === 0) meshes.bodies.get(name).push(node);
@@ -28,6 +30,7 @@ function sortMeshes(root, data) {
     const kind = node.material.name;
     node.material = node.material.clone();
     if (kind === 'bone') meshes.bones.push(node);
+    if (kind === 'cartilage') meshes.cartilage.push(node);
     if (kind === 'cartilage') {  // lies in the bone's surface: a millimetre nearer to the eye
       node.material.polygonOffset = true;
       node.material.polygonOffsetUnits = -400;
@@ -49,6 +52,23 @@ function setOpacity(bones, opacity) {
     bone.renderOrder = 1;  // after what lies behind it
     bone.material.needsUpdate = true;
   }
+}
+
+const NEAR = 2;  // of half the diagonal of what touches: insertions farther away are no part of the joint
+
+/// The articular surfaces and the ends of ligaments near them; of a knee without surfaces all there is.
+function jointBox(meshes, root) {
+  const box = new Box3();
+  for (const mesh of meshes.cartilage) box.expandByObject(mesh);
+  if (box.isEmpty()) return box.setFromObject(root);
+  const center = box.getCenter(new Vector3()), reach = NEAR * 0.5 * box.getSize(new Vector3()).length();
+  for (const ligament of meshes.ligaments.values()) {
+    for (const end of [new Vector3(0, 0, 0), new Vector3(0, 1, 0)]) {
+      const p = ligament.localToWorld(end);
+      if (p.distanceTo(center) < reach) box.expandByPoint(p);
+    }
+  }
+  return box;
 }
 
 /// A place between poses: the pose before it, the next, and how far from one to the other.
@@ -92,7 +112,7 @@ export async function createScene(canvas, model, data) {
       if (!mesh) continue;
       const taut = between(ligament.force, at) > 0;
       const strain = between(ligament.strain, at);
-      const rgb = taut ? colorAt(strain / data.greatest_strain) : SLACK;
+      const rgb = taut ? colorAt(strain / data.strain_top) : SLACK;
       mesh.material.color = new Color().setRGB(...rgb, SRGBColorSpace);
       mesh.material.transparent = !taut;
       mesh.material.opacity = taut ? 1 : 0.55;
@@ -111,10 +131,11 @@ export async function createScene(canvas, model, data) {
 
   mixer.setTime(first);
   gltf.scene.updateMatrixWorld(true);
-  const first_box = new Box3().setFromObject(gltf.scene);
-  /// Looks from a direction (x to the person's left, y up, z to the front) at the first pose and the one that is shown.
+  const first_box = jointBox(meshes, gltf.scene);
+  /// Looks from a direction (x to the person's left, y up, z to the front) at the joint in the first pose and the one
+  /// that is shown.
   api.look = (direction) => {
-    const box = new Box3().setFromObject(gltf.scene).union(first_box);
+    const box = jointBox(meshes, gltf.scene).union(first_box);
     const center = box.getCenter(new Vector3()), half = box.getSize(new Vector3()).multiplyScalar(0.5);
     const back = new Vector3(...direction).normalize();
     const right = new Vector3(0, 1, 0).cross(back).normalize(), up = back.clone().cross(right);
@@ -123,11 +144,11 @@ export async function createScene(canvas, model, data) {
     for (let corner = 0; corner < 8; ++corner) {
       const p = new Vector3(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y, corner & 4 ? half.z : -half.z);
       const wide = Math.max(Math.abs(p.dot(up)), Math.abs(p.dot(right)) / camera.aspect);
-      distance = Math.max(distance, p.dot(back) + (1.04 * wide) / slope);
+      distance = Math.max(distance, p.dot(back) + (MARGIN * wide) / slope);
     }
     camera.position.copy(center).addScaledVector(back, distance);
     camera.near = distance / 100;
-    camera.far = distance * 10;
+    camera.far = distance * 20;
     camera.updateProjectionMatrix();
     orbit.target.copy(center);
     orbit.update();
