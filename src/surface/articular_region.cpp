@@ -12,12 +12,19 @@
 #include "input_error.h"
 #include "mesh/mesh_measures.h"
 #include "mesh/orient_mesh.h"
+#include "surface/condyle_chart.h"
 
 namespace condyle {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+
+constexpr double kCrestCosine = 0.55;   // of normal and radial direction: what the chart follows
+constexpr double kPlateauCosine = 0.5;  // of normal and plateau direction: what gives its slope
+constexpr double kChartCosine = 0.5;    // of normal and chart direction: beyond it the chart folds
+constexpr double kBeyondCrest = 3;      // that a plateau may reach over its crest [mm]
+constexpr double kBeyondDivide = 8;     // that a condyle may reach over the dividing plane [mm]
 
 void turn_components(CleanMesh& mesh, const std::vector<double>& outwardness) {
   for (std::size_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
@@ -78,17 +85,30 @@ std::vector<bool> select(const TriangleMesh& mesh, const std::vector<bool>& vert
 using Chart = std::function<Vector2d(const Vector3d&)>;
 using ChartDirection = std::function<Vector3d(const Vector3d&)>;
 
+/// Vertices of the triangles that are kept.
+std::vector<bool> vertices_of(const TriangleMesh& mesh, const std::vector<bool>& keep) {
+  std::vector<bool> used(mesh.vertices.size());
+  for (std::size_t t = 0; t < keep.size(); ++t)
+    if (keep[t])
+      for (const int v : mesh.triangles[t]) used[v] = true;
+  return used;
+}
+
+/// The triangles that are kept, with those of `face` as the articular face proper.
 ArticularRegion make_region(const TriangleMesh& mesh,
                             const std::vector<bool>& keep,
+                            const std::vector<bool>& face,
                             const Chart& chart,
                             const ChartDirection& direction) {
   const std::vector<Vector3d> normals = vertex_normals(mesh);
+  const std::vector<bool> on_face = vertices_of(mesh, face);
   const SubMesh part = sub_mesh(mesh, keep);
   ArticularRegion region;
   region.mesh = part.mesh;
   for (std::size_t i = 0; i < part.mesh.vertices.size(); ++i) {
     const Vector3d& p = part.mesh.vertices[i];
     region.normals.push_back(normals[part.old_index[i]]);
+    region.face.push_back(on_face[part.old_index[i]]);
     region.chart.push_back(chart(p));
     region.slope.push_back(region.normals.back().dot(direction(p)));
   }
@@ -119,12 +139,14 @@ Vector3d centroid(const TriangleMesh& mesh, const std::vector<bool>& keep) {
 /// Region and chart over a plane, (0, 0) at `origin`: `forward` gives the direction of u.
 ArticularRegion plane_region(const TriangleMesh& mesh,
                              const std::vector<bool>& keep,
+                             const std::vector<bool>& face,
                              const Vector3d& origin,
                              const Vector3d& height,
                              const Vector3d& forward) {
   const Vector3d u = (forward - height * height.dot(forward)).normalized(), v = height.cross(u);
   return make_region(
-      mesh, keep, [=](const Vector3d& p) { return Vector2d(u.dot(p - origin), v.dot(p - origin)); },
+      mesh, keep, face,
+      [=](const Vector3d& p) { return Vector2d(u.dot(p - origin), v.dot(p - origin)); },
       [=](const Vector3d&) { return height; });
 }
 
@@ -133,11 +155,17 @@ struct InnerEnds {
   double medial, lateral;
 };
 
-/// In the gap between two sheets; on a whole bone at the crests of the medial and the lateral half
-/// of the eminence. A mesh that is deeper than wide is one plateau alone.
-InnerEnds inner_ends(const TriangleMesh& mesh,
-                     const BoneFrame& frame,
-                     const std::vector<bool>& upward) {
+/// Of their articular faces, and of all that belongs to either.
+struct PlateauEnds {
+  InnerEnds face, all;
+};
+
+/// In the gap between two sheets. On a whole bone the faces end at the crests of the medial and the
+/// lateral half of the eminence, and what belongs to them 3 mm beyond, or at the saddle between. A
+/// mesh that is deeper than wide is one plateau alone.
+PlateauEnds inner_ends(const TriangleMesh& mesh,
+                       const BoneFrame& frame,
+                       const std::vector<bool>& upward) {
   std::vector<double> z;
   Eigen::AlignedBox3d box;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -149,10 +177,13 @@ InnerEnds inner_ends(const TriangleMesh& mesh,
   if (z.size() < 20)
     throw InputError(
         "no tibial plateau found: expected faces towards the proximal direction of [joint]");
-  if (box.sizes().z() < 1.1 * box.sizes().x()) return {box.max().z() + 1, box.min().z() - 1};
+  if (box.sizes().z() < 1.1 * box.sizes().x()) {
+    const InnerEnds none{box.max().z() + 1, box.min().z() - 1};
+    return {none, none};
+  }
   const double first = box.min().z(), extent = box.sizes().z();
   if (const Gap gap = widest_gap(std::move(z)); gap.width > 0.03 * extent)
-    return {gap.center, gap.center};
+    return {{gap.center, gap.center}, {gap.center, gap.center}};
 
   constexpr int kBins = 40;
   std::vector<double> top(kBins, -1e300);
@@ -162,11 +193,18 @@ InnerEnds inner_ends(const TriangleMesh& mesh,
     const int bin = std::clamp(static_cast<int>((p.z() - first) / extent * kBins), 0, kBins - 1);
     top[bin] = std::max(top[bin], p.y());
   }
-  const auto crest = [&](int from, int to) {
-    const auto highest = std::max_element(top.begin() + from, top.begin() + to);
-    return first + (static_cast<double>(highest - top.begin()) + 0.5) / kBins * extent;
+  const auto highest = [&](int from, int to) {
+    return std::max_element(top.begin() + from, top.begin() + to) - top.begin();
   };
-  return {crest(kBins / 3, kBins / 2), crest(kBins / 2, kBins - kBins / 3)};
+  const auto medial = highest(kBins / 3, kBins / 2),
+             lateral = highest(kBins / 2, kBins - kBins / 3);
+  const auto lowest = std::min_element(top.begin() + medial, top.begin() + lateral) - top.begin();
+  const auto place = [&](std::ptrdiff_t bin) {
+    return first + (static_cast<double>(bin) + 0.5) / kBins * extent;
+  };
+  return {{place(medial), place(lateral)},
+          {std::min(place(lowest), place(medial) + kBeyondCrest),
+           std::max(place(lowest), place(lateral) - kBeyondCrest)}};
 }
 
 }  // namespace
@@ -201,32 +239,31 @@ ArticularRegion femoral_region(const TriangleMesh& mesh,
                                Half half,
                                const RegionOptions& options) {
   const double radius = half == Half::kMedial ? axis.medial_radius : axis.lateral_radius;
-  const auto radial = [&axis](const Vector3d& p) -> Vector3d {
-    const Vector3d q = p - axis.point;
-    return q - axis.direction * axis.direction.dot(q);
-  };
-  const auto angle = [&axis](const Vector3d& r) {
-    return std::atan2(r.dot(axis.posterior), r.dot(axis.distal));
-  };
-
   const std::vector<Vector3d> normals = smoothed_normals(mesh, options.normal_smoothing);
-  std::vector<bool> passes(mesh.vertices.size());
-  for (std::size_t i = 0; i < passes.size(); ++i) {
-    const Vector3d& p = mesh.vertices[i];
-    const Vector3d q = radial(p);
-    const double r = q.norm(), theta = angle(q),
-                 z = axis.direction.dot(p - axis.point) - axis.split;
-    passes[i] = (half == Half::kMedial) == (z < 0) && theta > options.femur_first_angle &&
-                theta < options.femur_last_angle &&
-                normals[i].dot(q) > options.femur_least_cosine * r && r > 0.55 * radius &&
-                r < 2.2 * radius;
-  }
+  const auto passing = [&](const auto& test) {
+    std::vector<bool> passes(mesh.vertices.size());
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+      const AboutAxis q = about_axis(axis, mesh.vertices[i]);
+      passes[i] = q.angle > options.femur_first_angle && q.angle < options.femur_last_angle &&
+                  q.radius > 0.55 * radius && q.radius < 2.2 * radius && test(i, q);
+    }
+    return select(mesh, passes);
+  };
+  // Beyond the dividing plane, positive towards the other condyle.
+  const auto beyond = [half](const AboutAxis& q) {
+    return half == Half::kMedial ? q.along : -q.along;
+  };
+  const std::vector<bool> crest = passing([&](std::size_t i, const AboutAxis& q) {
+    return beyond(q) < 0 && normals[i].dot(q.radial) > kCrestCosine;
+  });
+  const CondyleChart chart(mesh, crest, axis, radius);
+  const std::vector<bool> keep = passing([&](std::size_t i, const AboutAxis& q) {
+    return beyond(q) < kBeyondDivide && normals[i].dot(q.radial) > options.femur_least_cosine &&
+           normals[i].dot(chart.direction(mesh.vertices[i])) > kChartCosine;
+  });
   ArticularRegion region = make_region(
-      mesh, select(mesh, passes),
-      [&](const Vector3d& p) {
-        return Vector2d(radius * angle(radial(p)), axis.direction.dot(p - axis.point));
-      },
-      [&](const Vector3d& p) -> Vector3d { return radial(p).normalized(); });
+      mesh, keep, crest, [&](const Vector3d& p) { return chart.at(p); },
+      [&](const Vector3d& p) { return chart.direction(p); });
   double low = 10, high = -10;
   for (const Vector2d& uv : region.chart) {
     low = std::min(low, uv.x() / radius);
@@ -253,25 +290,34 @@ ArticularRegion tibial_region(const TriangleMesh& mesh,
   const double depth = 0.4 * (high - low);  // of the head below the eminence
   std::vector<bool> upward(mesh.vertices.size());
   for (std::size_t i = 0; i < upward.size(); ++i)
-    upward[i] = normals[i].dot(frame.proximal) > options.tibia_least_cosine &&
+    upward[i] = normals[i].dot(frame.proximal) > kPlateauCosine &&
                 frame.proximal.dot(mesh.vertices[i] - frame.origin) > top - depth;
-  const InnerEnds ends = inner_ends(mesh, frame, upward);
+  const PlateauEnds ends = inner_ends(mesh, frame, upward);
 
   Vector3d height = frame.proximal;
-  std::vector<bool> keep;
-  for (int round = 0; round < 3; ++round) {
+  // Vertices whose normal is steeper than that of a plateau pass only on the inner side of
+  // `middle`.
+  const auto passing = [&](const InnerEnds& inner, double middle, double least_cosine) {
     std::vector<bool> passes(mesh.vertices.size());
     for (std::size_t i = 0; i < passes.size(); ++i) {
       const Vector3d q = frame.components(mesh.vertices[i] - frame.origin);
-      passes[i] = (half == Half::kMedial ? q.z() < ends.medial : q.z() > ends.lateral) &&
-                  q.y() > top - depth && normals[i].dot(height) > options.tibia_least_cosine;
+      const bool medial = half == Half::kMedial;
+      const double least = (q.z() > middle) == medial ? least_cosine : kPlateauCosine;
+      passes[i] = (medial ? q.z() < inner.medial : q.z() > inner.lateral) && q.y() > top - depth &&
+                  normals[i].dot(height) > least;
     }
-    keep = select(mesh, passes);
-    if (std::find(keep.begin(), keep.end(), true) == keep.end())
+    return select(mesh, passes);
+  };
+  std::vector<bool> face;
+  for (int round = 0; round < 3; ++round) {
+    face = passing(ends.face, 0, kPlateauCosine);
+    if (std::find(face.begin(), face.end(), true) == face.end())
       throw InputError("no tibial plateau found");
-    height = total_area(mesh, keep).normalized();
+    height = total_area(mesh, face).normalized();
   }
-  ArticularRegion region = plane_region(mesh, keep, frame.origin, height, frame.anterior);
+  const double middle = frame.lateral.dot(centroid(mesh, face) - frame.origin);
+  const std::vector<bool> keep = passing(ends.all, middle, options.tibia_least_cosine);
+  ArticularRegion region = plane_region(mesh, keep, face, frame.origin, height, frame.anterior);
   const Vector3d h = frame.components(height);
   region.notes.push_back(
       fmt::format("plateau slopes {:.1f} degrees backwards, {:.1f} towards lateral",
@@ -302,7 +348,7 @@ ArticularRegion box_region(const TriangleMesh& mesh, const std::array<Vector3d, 
       spread += flat * flat.transpose();
     }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(spread);
-  return plane_region(mesh, keep, center, height, principal.eigenvectors().col(2));
+  return plane_region(mesh, keep, keep, center, height, principal.eigenvectors().col(2));
 }
 
 }  // namespace condyle

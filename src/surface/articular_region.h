@@ -25,7 +25,9 @@ struct ArticularRegion {
   TriangleMesh mesh;                     ///< of the region alone, facing out of the bone
   std::vector<Eigen::Vector3d> normals;  ///< unit normals of the vertices, out of the bone
   std::vector<Eigen::Vector2d> chart;    ///< (u, v) of the vertices [mm of chart length]
-  std::vector<double> slope;       ///< cosine between normal and chart direction at the vertices
+  std::vector<double> slope;  ///< cosine between normal and chart direction at the vertices
+  std::vector<bool> face;     ///< vertices of the articular face proper, without flanks and crests;
+                              ///< empty: all. It sets the smoothing.
   std::vector<std::string> notes;  ///< what was chosen and left out, one line each
 };
 
@@ -34,9 +36,9 @@ struct RegionOptions {
   double femur_first_angle = -0.98,
          femur_last_angle = 2.45;  ///< about the condylar axis, 0 distal, + posterior [rad]
   double femur_least_cosine =
-      0.55;  ///< of normal and radial direction: beyond it lie notch and side walls
+      0.25;  ///< of normal and radial direction: beyond it lie notch and side walls
   double tibia_least_cosine =
-      0.5;  ///< of normal and plateau direction: beyond lie eminence and rim walls
+      0.3;  ///< of normal and plateau direction on the side of the eminence: beyond lie its walls
   double normal_smoothing =
       1.5;  ///< normals are averaged over this distance before they decide [mm]
 };

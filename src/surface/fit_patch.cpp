@@ -20,8 +20,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kMargin = 1;  // of the parameter box around the data [mm]
-constexpr double kEdgeSmoothing = 0.7,
-                 kEdgeBand = 8;  // smoothing length at the edge as a fraction; over [mm]
+// The smoothing length as a fraction of what is chosen: at the edge of the face, rising to 1 over a
+// band within it and falling over one beyond it [mm].
+constexpr double kEdgeSmoothing = 0.7, kEdgeBand = 8;
+constexpr double kLeastSmoothing = 0.5, kBeyondBand = 2;
+constexpr double kGuess = 2;  // smoothing length of the first guess [mm]
 
 SplineGrid make_grid(const ArticularRegion& region, const FitOptions& options) {
   Eigen::AlignedBox2d box;
@@ -69,34 +72,24 @@ std::vector<DataPoint> data_points(const ArticularRegion& region) {
   return points;
 }
 
-/// Less smoothing near the edge, where bones are round with small radii.
+/// Less smoothing towards the edge of the face and beyond it, where bones are round with small
+/// radii.
 double edge_fraction(double inside) {
-  return std::clamp(kEdgeSmoothing + (1 - kEdgeSmoothing) * inside / kEdgeBand, kEdgeSmoothing,
-                    1.0);
+  const double change = inside > 0 ? (1 - kEdgeSmoothing) / kEdgeBand
+                                   : (kEdgeSmoothing - kLeastSmoothing) / kBeyondBand;
+  return std::clamp(kEdgeSmoothing + change * inside, kLeastSmoothing, 1.0);
 }
 
-/// Stretch of the chart on a patch at the centres of the cells; which cells hold data, from its
-/// mask.
-std::vector<CellMetric> measure_cells(const SplineGrid& grid, const Patch& patch) {
-  std::vector<CellMetric> cells;
-  for (int i = 0; i < grid.cells_u(); ++i)
-    for (int j = 0; j < grid.cells_v(); ++j) {
-      const double u = grid.u_min + (i + 0.5) * grid.step_u(),
-                   v = grid.v_min + (j + 0.5) * grid.step_v();
-      const PatchDerivatives d = patch.derivatives(u, v);
-      const double inside = patch.edge_distance({u, v, 0});
-      cells.push_back({.stretch_u = std::clamp(d.c_u.norm(), 0.5, 4.0),
-                       .stretch_v = std::clamp(d.c_v.norm(), 0.5, 4.0),
-                       .smoothing = inside < -2 ? 1 : edge_fraction(inside),
-                       .known = inside > -0.5});
-    }
-  return cells;
-}
+/// The chart as flat patches whose masks tell how far the edge is: of all data, and of the
+/// articular face.
+struct FlatCharts {
+  Patch all, face;
+};
 
-/// The chart itself as a flat patch, with its mask.
-Patch flat_patch(const SplineGrid& grid,
-                 const ArticularRegion& region,
-                 const RegionOutline& outline) {
+Patch flat_chart(const SplineGrid& grid,
+                 const TriangleMesh& mesh,
+                 const std::vector<Vector2d>& chart,
+                 double small_hole) {
   std::vector<Vector3d> net;
   for (int i = 0; i < grid.nu; ++i)
     for (int j = 0; j < grid.nv; ++j)
@@ -104,26 +97,77 @@ Patch flat_patch(const SplineGrid& grid,
                        grid.v_min + (j - (grid.degree - 1) / 2.0) * grid.step_v(), 0);
   PatchData flat = patch_data(grid, std::move(net));
   TriangleMesh plane;
-  plane.triangles = region.mesh.triangles;
-  for (const Vector2d& uv : region.chart) plane.vertices.emplace_back(uv.x(), uv.y(), 0);
-  fill_mask(flat, plane, outline, region.chart);
+  plane.triangles = mesh.triangles;
+  for (const Vector2d& uv : chart) plane.vertices.emplace_back(uv.x(), uv.y(), 0);
+  fill_mask(flat, plane, trace_outline(mesh, small_hole), chart);
   return Patch(std::move(flat));
 }
 
-/// The smoothing length is judged away from the edge, where side walls and rims begin, as long as
-/// that leaves enough.
-std::vector<Judgement> judged_points(const Patch& flat, const std::vector<DataPoint>& points) {
+FlatCharts flat_charts(const SplineGrid& grid, const ArticularRegion& region, double small_hole) {
+  Patch all = flat_chart(grid, region.mesh, region.chart, small_hole);
+  std::vector<bool> keep;
+  if (!region.face.empty())
+    for (const auto& [a, b, c] : region.mesh.triangles)
+      keep.push_back(region.face[a] && region.face[b] && region.face[c]);
+  if (std::find(keep.begin(), keep.end(), true) == keep.end()) return {all, all};
+  const SubMesh part = sub_mesh(region.mesh, keep);
+  std::vector<Vector2d> chart;
+  for (const int old : part.old_index) chart.push_back(region.chart[old]);
+  return {std::move(all), flat_chart(grid, part.mesh, chart, small_hole)};
+}
+
+/// Which cells hold data, and the smoothing length there.
+std::vector<CellMetric> describe_cells(const SplineGrid& grid, const FlatCharts& flat) {
+  std::vector<CellMetric> cells;
+  for (int i = 0; i < grid.cells_u(); ++i)
+    for (int j = 0; j < grid.cells_v(); ++j) {
+      const Place place(grid.u_min + (i + 0.5) * grid.step_u(),
+                        grid.v_min + (j + 0.5) * grid.step_v(), 0);
+      const double inside = flat.all.edge_distance(place);
+      cells.push_back({.smoothing = inside < -2 ? 1 : edge_fraction(flat.face.edge_distance(place)),
+                       .known = inside > -0.5});
+    }
+  return cells;
+}
+
+/// Stretch of the chart on a patch at the centres of the cells.
+void measure_stretch(const SplineGrid& grid, const Patch& patch, std::vector<CellMetric>& cells) {
+  for (int i = 0; i < grid.cells_u(); ++i)
+    for (int j = 0; j < grid.cells_v(); ++j) {
+      const PatchDerivatives d = patch.derivatives(grid.u_min + (i + 0.5) * grid.step_u(),
+                                                   grid.v_min + (j + 0.5) * grid.step_v());
+      CellMetric& cell = cells[static_cast<std::size_t>(i) * grid.cells_v() + j];
+      cell.stretch_u = std::clamp(d.c_u.norm(), 0.5, 4.0);
+      cell.stretch_v = std::clamp(d.c_v.norm(), 0.5, 4.0);
+    }
+}
+
+/// The smoothing length is chosen from the data of the face alone, so that crests and flanks, which
+/// bend with small radii, have no say; judged away from its edge, as long as that leaves enough.
+double choose_on_face(const SplineGrid& grid,
+                      const ArticularRegion& region,
+                      const Patch& face,
+                      const std::vector<DataPoint>& points,
+                      std::vector<CellMetric> cells) {
   constexpr double kEdge = 2;  // [mm]
+  std::vector<DataPoint> on_face;
   std::vector<Judgement> judged;
   std::size_t count = 0;
-  for (const DataPoint& p : points) {
-    const double inside = flat.edge_distance({p.uv.x(), p.uv.y(), 0});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!region.face.empty() && !region.face[i]) continue;
+    const double inside = face.edge_distance({points[i].uv.x(), points[i].uv.y(), 0});
+    on_face.push_back(points[i]);
     judged.push_back({.counts = inside > kEdge, .smoothing = edge_fraction(inside)});
     count += inside > kEdge;
   }
-  if (count < points.size() / 5)
+  if (count < on_face.size() / 5)
     for (Judgement& judgement : judged) judgement.counts = true;
-  return judged;
+  const std::vector<CellMetric> within = describe_cells(grid, {face, face});
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    cells[k].smoothing = within[k].smoothing;
+    cells[k].known = within[k].known;
+  }
+  return choose_smoothing(grid, on_face, judged, assemble_penalty(grid, cells)).length;
 }
 
 /// Closest points from the last parameters; where the way leads astray, from the nearest seed of
@@ -179,19 +223,21 @@ void finish(const ArticularRegion& region,
 
 PatchFit fit_patch(const ArticularRegion& region, const FitOptions& options) {
   const SplineGrid grid = make_grid(region, options);
-  const double edge = mean_edge_length(region.mesh);
-  const RegionOutline outline = trace_outline(region.mesh, std::max(12.0, 8 * edge));
+  const double small_hole = std::max(12.0, 8 * mean_edge_length(region.mesh));
+  const RegionOutline outline = trace_outline(region.mesh, small_hole);
   std::vector<DataPoint> points = data_points(region);
-  const Patch flat = flat_patch(grid, region, outline);
-  std::vector<CellMetric> cells = measure_cells(grid, flat);
+  const FlatCharts flat = flat_charts(grid, region, small_hole);
+  std::vector<CellMetric> cells = describe_cells(grid, flat);
+  DataTerm term = assemble_data(grid, points);
+  // A first guess tells how the chart is stretched, so that lengths are those of the surface.
+  const PenaltyTerm unstretched = assemble_penalty(grid, cells);
+  measure_stretch(grid, Patch(patch_data(grid, solve_fit(term, unstretched, kGuess))), cells);
   PenaltyTerm penalty = assemble_penalty(grid, cells);
 
   PatchFit fit;
-  fit.smoothing_length =
-      options.smoothing_length
-          ? *options.smoothing_length
-          : choose_smoothing(grid, points, judged_points(flat, points), penalty).length;
-  DataTerm term = assemble_data(grid, points);
+  fit.smoothing_length = options.smoothing_length
+                             ? *options.smoothing_length
+                             : choose_on_face(grid, region, flat.face, points, cells);
   PatchData data = patch_data(grid, solve_fit(term, penalty, fit.smoothing_length));
 
   const std::vector<double> areas = vertex_areas(region.mesh);
@@ -200,11 +246,7 @@ PatchFit fit_patch(const ArticularRegion& region, const FitOptions& options) {
        ++fit.rounds) {
     const Patch patch(data);
     change = correct_parameters(grid, patch, points);
-    const std::vector<CellMetric> stretched = measure_cells(grid, patch);
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-      cells[k].stretch_u = stretched[k].stretch_u;
-      cells[k].stretch_v = stretched[k].stretch_v;
-    }
+    measure_stretch(grid, patch, cells);
     penalty = assemble_penalty(grid, cells);
     term = assemble_data(grid, points);
     data = patch_data(grid, solve_fit(term, penalty, fit.smoothing_length));

@@ -98,8 +98,9 @@ TEST(FitSurfaces, FindsTheExactPhantomUnderItsRoughness) {
     EXPECT_LT(std::sqrt(angle_square / count) * 180 / M_PI, 3.5) << scene.surfaces[i].name;
     const FitReport& report = *fitted[i].report;
     EXPECT_EQ(report.surface, scene.surfaces[i].name);
-    // The roughness of the mesh is 0.2 mm; at the rims a patch this smooth leaves more.
-    EXPECT_LE(report.rms, 0.23);
+    // The roughness of the mesh is 0.2 mm; at the rims, and on the crest of the eminence with its
+    // radius of 2.3 mm, a patch this smooth leaves more.
+    EXPECT_LE(report.rms, 0.24);
     EXPECT_LE(report.rms, report.max);
     EXPECT_GT(report.smoothing_length, 1);
   }
@@ -239,8 +240,9 @@ KneeFiles lenhart_files(const std::string& resolution) {
           .to_mm = 1000};
 }
 
-/// rms difference of curvature between the patches of two knees, farther than 4 mm from both edges.
-double curvature_difference(const FittedSurface& a, const FittedSurface& b) {
+/// rms difference of curvature between the patches of two knees, farther than 4 mm from both edges
+/// and where neither bends with a radius below `least_radius` [mm].
+double curvature_difference(const FittedSurface& a, const FittedSurface& b, double least_radius) {
   const double rim_a = kUncertainRim * a.report->smoothing_length,
                rim_b = kUncertainRim * b.report->smoothing_length;
   double square = 0, count = 0;
@@ -249,22 +251,27 @@ double curvature_difference(const FittedSurface& a, const FittedSurface& b) {
     const Place other = b.surface->closest(at.c, b.surface->seed(at.c));
     if (a.surface->edge_distance(place) + rim_a < 4 || b.surface->edge_distance(other) + rim_b < 4)
       continue;
-    square += (at.K - b.surface->evaluate(other).K).squaredNorm() / 2;  // two curvatures
+    const SurfacePoint opposite = b.surface->evaluate(other);
+    if (std::max(at.K.norm(), opposite.K.norm()) * least_radius > 1) continue;
+    square += (at.K - opposite.K).squaredNorm() / 2;  // two curvatures
     ++count;
   }
   return std::sqrt(square / count);
 }
 
 // Three meshes of one knee, 13, 3 and 1 thousand vertices for the femur: what they differ in must
-// not look like curvature. Limits from a prototype with smoothing lengths fixed at 2 and 1.5 mm.
+// not look like curvature. Limits from a prototype with smoothing lengths fixed at 2 and 1.5 mm,
+// whose regions ended before the shoulder of the eminence: there, where the bone bends with radii
+// of 4 to 10 mm, the difference may be larger.
 TEST(FitSurfaces, FindsTheSameCurvatureInMeshesOfDifferentResolution) {
   if (!fs::exists(kSpecimens / "lenhart2015")) GTEST_SKIP() << "no specimens here";
   const auto full = fit_surfaces(knee(lenhart_files(".obj"))),
              medium = fit_surfaces(knee(lenhart_files("-medium.stl"))),
              coarse = fit_surfaces(knee(lenhart_files("-coarse.stl")));
   for (std::size_t i = 0; i < full.size(); ++i) {
-    EXPECT_LT(curvature_difference(full[i], medium[i]), 0.0006) << full[i].report->surface;
-    EXPECT_LT(curvature_difference(full[i], coarse[i]), 0.003) << full[i].report->surface;
+    EXPECT_LT(curvature_difference(full[i], medium[i], 10), 0.0006) << full[i].report->surface;
+    EXPECT_LT(curvature_difference(full[i], medium[i], 0), 0.001) << full[i].report->surface;
+    EXPECT_LT(curvature_difference(full[i], coarse[i], 0), 0.003) << full[i].report->surface;
     EXPECT_LT(full[i].report->seconds, 1);
   }
 }
