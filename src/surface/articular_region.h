@@ -3,10 +3,9 @@
 /// The articular part of a bone or cartilage mesh, and the chart on which a patch is laid over it.
 ///
 /// Works on open cartilage sheets (one femoral sheet for both condyles, two tibial ones), closed
-/// cartilage slabs (the inner face is left out) and whole bones (shaft, trochlea, notch walls and
-/// eminence walls are left out). The femur is charted by (arc length, width) about the common axis
-/// of its posterior condyles, the tibia by its height over the mean plane of the plateau; see
-/// docs/surface.md.
+/// cartilage slabs (the inner face is left out) and whole bones (shaft, trochlea, roof of the notch
+/// and rim are left out). A condyle is charted about a line within it (condyle_chart.h), the tibia
+/// by its height over the mean plane of the plateau; see docs/surface.md.
 
 #include <array>
 #include <string>
