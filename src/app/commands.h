@@ -20,6 +20,7 @@ void setup_export(CLI::App& program, int& status);
 void setup_import(CLI::App& program, int& status);
 void setup_render(CLI::App& program, int& status);  // built with CONDYLE_PICTURES only
 void setup_plot(CLI::App& program, int& status);    // built with CONDYLE_PICTURES only
+void setup_verify(CLI::App& program, int& status);
 void setup_report(CLI::App& program, int& status);
 void setup_completion(CLI::App& program, int& status);  // of a shell, for the other commands
 void setup_manual(CLI::App& program, int& status);

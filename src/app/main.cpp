@@ -32,6 +32,7 @@ void setup(CLI::App& program, int& status) {
   setup_render(program, status);
   setup_plot(program, status);
 #endif
+  setup_verify(program, status);
   setup_report(program, status);
   setup_completion(program, status);
   setup_manual(program, status);

@@ -10,6 +10,7 @@
 #include "results/run_layout.h"
 #include "results/run_view.h"
 #include "scene/sweep_range.h"
+#include "verify/verify.h"
 
 namespace condyle {
 namespace {
@@ -43,6 +44,18 @@ std::string failed_poses(const Run& run, const Swept& swept) {
   return table.rows.empty() ? "" : html(table);
 }
 
+/// By the code of the room `verify`, at the moment the page is written.
+std::string verified(const Run& run) {
+  const Verification verification = verify_run(run);
+  std::string body =
+      fmt::format("<p class=\"verdict {}\">Verified: {}</p>\n",
+                  verification.verified() ? "good" : "bad", escaped(verdict(verification)));
+  std::vector<std::string> lines;
+  for (const Fault& fault : verification.faults) lines.push_back(fault.text);
+  if (!lines.empty()) body += list_of(lines, "warnings");
+  return body;
+}
+
 std::string laxity_verdict(const LaxityResult& laxity) {
   int converged = 0;
   std::size_t all = 0;
@@ -72,6 +85,7 @@ std::string status_section(const Run& run) {
   if (!run.sweep.poses.empty()) {
     body += verdict(run.sweep.count_converged(), run.sweep.poses.size());
     body += failed_poses(run, swept_of(run.scene));
+    body += verified(run);
   }
   if (run.laxity) body += laxity_verdict(*run.laxity);
   const std::vector<std::string> warnings = run_warnings(run);

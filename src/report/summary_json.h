@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "results/run_file.h"
+#include "verify/verify.h"
 
 namespace condyle {
 
@@ -21,6 +22,11 @@ struct CommandSummary {
 };
 
 [[nodiscard]] std::string json_summary(const CommandSummary& summary, const Run& run);
+
+/// What `condyle verify` found; of the run only its scene and title.
+[[nodiscard]] std::string json_verification(const CommandSummary& summary,
+                                            const Run& run,
+                                            const Verification& verification);
 
 /// {"command": ..., "version": ..., "exit_code": 1, "error": ...}
 [[nodiscard]] std::string json_error(const std::string& command,

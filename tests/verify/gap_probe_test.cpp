@@ -1,0 +1,133 @@
+/// The lowest gap of two surfaces, against exact distances and brute force.
+
+#include "verify/gap_probe.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "math/rotation.h"
+#include "surface/bspline_basis.h"
+
+namespace condyle::verification {
+namespace {
+
+SurfaceDescription described(SurfaceKind kind) {
+  SurfaceDescription surface;
+  surface.kind = kind;
+  return surface;
+}
+
+std::unique_ptr<SurfaceSide> floor_of(double radius) {
+  SurfaceDescription plane = described(SurfaceKind::kPlane);
+  plane.known_radius = radius;
+  return make_exact_side(plane);
+}
+
+RigidTransform raised(double z) {
+  return {exp_rotation({0.3, -0.2, 0.4}), Vector3d(1.234, -2.345, z)};
+}
+
+TEST(GapProbe, FindsHowFarABallIsFromAFloor) {
+  SurfaceDescription sphere = described(SurfaceKind::kSphere);
+  sphere.radius = 20;
+  const auto ball = make_exact_side(sphere), ground = floor_of(30);
+  for (const double gap : {0.3, 1e-5, 0.0, -1e-5, -0.02, -4.0}) {
+    const RigidTransform X = raised(20 + gap);
+    const double from_ball = GapProbe(*ball, *ground).lowest(X).gap,
+                 from_floor = GapProbe(*ground, *ball).lowest(X.inverse()).gap;
+    // Gaps above zero need not be exact.
+    const double tolerance = gap > 0.01 ? 0.01 : 1e-9;
+    EXPECT_NEAR(from_ball, gap, tolerance);
+    EXPECT_NEAR(from_floor, gap, tolerance);
+  }
+}
+
+TEST(GapProbe, KnowsWhereASurfaceEnds) {
+  SurfaceDescription sphere = described(SurfaceKind::kSphere);
+  sphere.radius = 5;
+  const auto ball = make_exact_side(sphere), ground = floor_of(10);
+  // Its lowest point, 1 mm under the floor, lies 4 mm beyond the rim: on the rim the ball is above.
+  const RigidTransform X{Eigen::Matrix3d::Identity(), Vector3d(14, 0, 4)};
+  EXPECT_GE(GapProbe(*ball, *ground).lowest(X).gap, 0);
+  EXPECT_GE(GapProbe(*ground, *ball).lowest(X.inverse()).gap, 0);
+  // 2 mm beyond it the rim is 0.39 mm inside the ball, which is lower beside than on the rim.
+  const RigidTransform Y{Eigen::Matrix3d::Identity(), Vector3d(12, 0, 4)};
+  EXPECT_NEAR(GapProbe(*ground, *ball).lowest(Y.inverse()).gap, std::sqrt(20.0) - 5, 1e-3);
+}
+
+TEST(GapProbe, SeesBallsInSocketsAndToriFromAllSides) {
+  SurfaceDescription socket = described(SurfaceKind::kEllipsoid);
+  socket.semi_axes = {25, 22, 20};
+  socket.solid_inside = false;
+  SurfaceDescription ring = described(SurfaceKind::kTorus);
+  ring.radius = 10;
+  ring.minor_radius = 4;
+  const auto outside = make_exact_side(socket), torus = make_exact_side(ring);
+  for (const double sink : {0.0, 0.7}) {
+    // The tube's outermost circle at (14 cos, 14 sin, 0) pushed along x: 25 - 14 = 11 mm of room.
+    const RigidTransform X{Eigen::Matrix3d::Identity(), Vector3d(11 + sink, 0, 0)};
+    const LowestGap from_ring = GapProbe(*torus, *outside).lowest(X),
+                    from_socket = GapProbe(*outside, *torus).lowest(X.inverse());
+    EXPECT_NEAR(from_ring.gap, -sink, 1e-9);
+    EXPECT_NEAR(from_socket.gap, -sink, 1e-9);
+  }
+}
+
+/// A sheet over [0, 30]² with a random field of height on it, 3 mm from control point to control
+/// point.
+PatchData bumpy(double rms, unsigned seed) {
+  PatchData data;
+  data.nu = data.nv = 13;
+  data.knots_u = data.knots_v = uniform_knots(13, 3, 0, 30);
+  std::mt19937 random(seed);
+  std::normal_distribution<double> height(0, rms);
+  for (int i = 0; i < data.nu; ++i)
+    for (int j = 0; j < data.nv; ++j)
+      data.control_points.emplace_back(3 * i - 3, 3 * j - 3, height(random));
+  return data;
+}
+
+TEST(GapProbe, MissesNothingThatBruteForceFinds) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    const PatchData data = bumpy(0.05 * seed, seed);
+    const Patch patch(data);
+    SurfaceDescription sphere = described(SurfaceKind::kSphere);
+    sphere.radius = 300;
+    sphere.point = {15, 15, 300};
+    const auto sheet = make_spline_side(data), ball = make_exact_side(sphere);
+    double highest = -1e9;  // of a sheet under a ball: how far it comes towards its centre
+    for (double u = 0; u <= 30; u += 0.05)
+      for (double v = 0; v <= 30; v += 0.05)
+        highest = std::max(highest, 300 - (patch.derivatives(u, v).c - sphere.point).norm());
+    // Sink the ball until 0.01 mm of the highest bump is inside.
+    const RigidTransform X{Eigen::Matrix3d::Identity(), Vector3d(0, 0, -highest + 0.01)};
+    const double from_sheet = GapProbe(*sheet, *ball).lowest(X).gap,
+                 from_ball = GapProbe(*ball, *sheet).lowest(X.inverse()).gap;
+    EXPECT_LT(from_sheet, -0.01 + 2e-4) << "seed " << seed;
+    EXPECT_GT(from_sheet, -0.03) << "seed " << seed;
+    EXPECT_NEAR(from_ball, from_sheet, 1e-3) << "seed " << seed;
+  }
+}
+
+TEST(GapProbe, LooksOnlyAtWhatIsKnown) {
+  PatchData data = bumpy(0, 1);
+  data.mask_nu = data.mask_nv = 30;  // known for u < 15
+  for (int i = 0; i <= 30; ++i)
+    for (int j = 0; j <= 30; ++j) data.mask.push_back(15 - i);
+  SurfaceDescription sphere = described(SurfaceKind::kSphere);
+  sphere.radius = 20;
+  const auto sheet = make_spline_side(data), ball = make_exact_side(sphere);
+  const auto lowest = [&](double x) {
+    const RigidTransform X{Eigen::Matrix3d::Identity(), Vector3d(x, 15, 19.5)};
+    return std::min(GapProbe(*sheet, *ball).lowest(X.inverse()).gap,
+                    GapProbe(*ball, *sheet).lowest(X).gap);
+  };
+  EXPECT_NEAR(lowest(10), -0.5, 1e-9);
+  EXPECT_GE(lowest(25), 0);  // 10 mm beyond: the ball has risen over the sheet by then
+}
+
+}  // namespace
+}  // namespace condyle::verification

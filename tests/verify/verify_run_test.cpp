@@ -1,0 +1,224 @@
+/// What is right passes, on every scene and specimen; what is wrong is found and named.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "input_error.h"
+#include "math/rotation.h"
+#include "scene/read_scene.h"
+#include "verify/computed_run.h"
+#include "verify/verify.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+using test::computed_run;
+using test::kSource;
+using test::kSpecimens;
+using test::phantom_run;
+
+void expect_verified(const Run& run, const std::string& name, bool meshes = true) {
+  VerifyOptions options;
+  options.meshes = meshes;
+  const Verification verification = verify_run(run, options);
+  for (const Fault& fault : verification.faults) ADD_FAILURE() << name << ": " << fault.text;
+}
+
+std::vector<std::filesystem::path> scenes_in(const std::string& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(kSource / folder))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+TEST(VerifyRun, FindsNothingWrongInShippedScenes) {
+  for (const char* folder : {"data/dortmans", "data/hard", "data/wismans-type", "data/phantom"})
+    for (const std::filesystem::path& file : scenes_in(folder)) {
+      const Scene scene = read_scene(file);
+      if (scene.sweep && !scene.laxity) expect_verified(computed_run(file), file.string());
+    }
+}
+
+TEST(VerifyRun, FindsNothingWrongInAMotion) {
+  const std::filesystem::path file = kSource / "data/phantom/blow.toml";
+  expect_verified(computed_run(file, "simulate"), file.string(), false);
+}
+
+TEST(VerifyRun, FindsNothingWrongInSpecimens) {
+  if (!std::filesystem::exists(kSpecimens)) GTEST_SKIP() << "no specimens beside the source";
+  for (const char* scene :
+       {"lenhart2015/knee.toml", "clouthier2019_ssm/knee.toml",
+        "clouthier2019_ssm/population/S001.toml", "clouthier2019_ssm/population/S060.toml"})
+    expect_verified(computed_run(kSpecimens / scene), scene);
+}
+
+TEST(VerifyRun, LooksAtEverythingThatTheFileHolds) {
+  VerifyOptions options;
+  options.pushes = true;
+  const Verification v = verify_run(phantom_run(), options);
+  EXPECT_EQ(v.converged, 25U);
+  EXPECT_EQ(verdict(v), "25 of 25 poses converged, none of them is false");
+  for (const CheckSummary& check : v.checks) EXPECT_GT(check.count, 0) << check.name;
+}
+
+/// The fault of one kind at pose 5 (25 degrees), and that there is one at no other pose.
+std::string fault_of(const Run& run, Check check, bool alone = true) {
+  VerifyOptions options;
+  options.meshes = check == Check::kMesh;
+  options.pushes = check == Check::kStability;
+  const Verification v = verify_run(run, options);
+  std::string text;
+  for (const Fault& fault : v.faults) {
+    if (alone) {
+      EXPECT_EQ(fault.pose, 5U) << fault.text;
+    }
+    if (fault.check == check && fault.pose == 5) text = fault.text;
+  }
+  EXPECT_FALSE(v.verified());
+  return text;
+}
+
+PoseResult& pose_of(Run& run) { return run.sweep.poses.at(5); }
+
+#define EXPECT_WORDS(text, words) EXPECT_NE((text).find(words), std::string::npos) << (text)
+
+TEST(VerifyCatches, APoseThatMovedByAHundredthOfAMillimetre) {
+  for (int axis = 0; axis < 3; ++axis) {
+    condyle::Run run = phantom_run();
+    pose_of(run).X_BA.p[axis] += 0.01;
+    EXPECT_WORDS(fault_of(run, Check::kTogether), "flexion = 25 deg: contact \"");
+    EXPECT_WORDS(fault_of(run, Check::kLength), "flexion = 25 deg: ligament \"");
+  }
+}
+
+TEST(VerifyCatches, APoseThatIsNoMotion) {
+  condyle::Run run = phantom_run();
+  pose_of(run).X_BA.R *= 1 + 1e-9;
+  EXPECT_WORDS(fault_of(run, Check::kPose), "rotation is orthonormal");
+  pose_of(run).X_BA.R(1, 1) = std::nan("");
+  EXPECT_WORDS(fault_of(run, Check::kPose), "no rotation");
+}
+
+TEST(VerifyCatches, AForceThatIsWrongByAMillionth) {
+  condyle::Run run = phantom_run();
+  std::size_t taut = 0;
+  for (std::size_t i = 0; i < pose_of(run).ligaments.size(); ++i)
+    if (pose_of(run).ligaments[i].force > 10) taut = i;
+  pose_of(run).ligaments[taut].force *= 1 + 1e-6;
+  EXPECT_WORDS(fault_of(run, Check::kLaw), "but its law gives");
+
+  condyle::Run pressed = phantom_run();
+  ContactResult& contact = pose_of(pressed).contacts[0];
+  contact.force *= 1 + 1e-6;
+  for (ContactPointResult& point : contact.points) point.force *= 1 + 1e-6;
+  EXPECT_WORDS(fault_of(pressed, Check::kForces), "flexion = 25 deg: forces add up to");
+
+  condyle::Run held = phantom_run();
+  pose_of(held).conditions[0].multiplier += 1;  // N mm
+  EXPECT_WORDS(fault_of(held, Check::kMoments), "flexion = 25 deg: moments add up to");
+}
+
+TEST(VerifyCatches, AContactThatPulls) {
+  condyle::Run run = phantom_run();
+  ContactPointResult& point = pose_of(run).contacts[1].points[0];
+  point.force = -point.force;
+  pose_of(run).contacts[1].force = point.force;
+  EXPECT_WORDS(fault_of(run, Check::kPush), "contact \"lateral\": pulls with");
+}
+
+TEST(VerifyCatches, ANormalThatTurned) {
+  condyle::Run run = phantom_run();
+  Vector3d& n = pose_of(run).contacts[0].points[0].normal_ground;
+  n = (n + 1e-5 * n.unitOrthogonal()).normalized();
+  EXPECT_WORDS(fault_of(run, Check::kNormal), "contact \"medial\": the normal at");
+}
+
+TEST(VerifyCatches, AJointCoordinateAndAPrescribedAngleThatAreOff) {
+  condyle::Run run = phantom_run();
+  pose_of(run).joint.internal_rotation += 1e-8;
+  EXPECT_WORDS(fault_of(run, Check::kJoint), "internal rotation");
+  condyle::Run other = phantom_run();
+  pose_of(other).value += 1e-8;
+  EXPECT_WORDS(fault_of(other, Check::kCondition), "condition \"flexion\": is ");
+}
+
+TEST(VerifyCatches, AControlPointThatMoved) {
+  condyle::Run run = phantom_run();
+  const Vector3d touch = pose_of(run).contacts[0].points[0].point_ground;
+  PatchData* patch = nullptr;
+  for (RunPatch& one : run.patches)
+    if (one.surface == "medial condyle") patch = &one.data;
+  ASSERT_NE(patch, nullptr);
+  auto nearest = std::min_element(patch->control_points.begin(), patch->control_points.end(),
+                                  [&](const Vector3d& a, const Vector3d& b) {
+                                    return (a - touch).norm() < (b - touch).norm();
+                                  });
+  *nearest += 0.01 * (*nearest - touch).normalized() + Vector3d(0, 0.01, 0);
+  EXPECT_WORDS(fault_of(run, Check::kOnSurface, false), "beside surface \"medial condyle\"");
+}
+
+TEST(VerifyCatches, BonesInsideEachOther) {
+  // The whole tibia pushed up by a millimetre, with the points that are stored for it.
+  condyle::Run run = phantom_run();
+  PoseResult& pose = pose_of(run);
+  pose.X_BA.p += pose.X_BA.R * Vector3d(0, 1, 0);
+  const std::string text = fault_of(run, Check::kGap);
+  EXPECT_WORDS(text, "flexion = 25 deg: contact \"");
+  EXPECT_WORDS(text, "overlap by ");
+  const double depth = std::stod(text.substr(text.find("overlap by ") + 11));
+  EXPECT_GT(depth, 0.8);
+  EXPECT_LT(depth, 1.1);
+}
+
+TEST(VerifyCatches, BonesThatPassedThroughEachOther) {
+  condyle::Run run = phantom_run();
+  PoseResult& pose = pose_of(run);
+  pose.X_BA.p += pose.X_BA.R * Vector3d(0, 25, 0);
+  for (ContactResult& contact : pose.contacts) {
+    contact.closed = false;
+    contact.points.clear();
+    contact.force = 0;
+  }
+  EXPECT_WORDS(fault_of(run, Check::kMesh), "bones passed through each other");
+  EXPECT_WORDS(fault_of(run, Check::kGap), "overlap by ");
+}
+
+TEST(VerifyCatches, AnEdgeThatWasPassed) {
+  condyle::Run run = phantom_run();
+  for (RunPatch& patch : run.patches)
+    if (patch.surface == "lateral plateau")
+      for (double& distance : patch.data.mask) distance -= 30;
+  EXPECT_WORDS(fault_of(run, Check::kKnown, false),
+               "beyond the known part of surface \"lateral plateau\"");
+}
+
+TEST(VerifyCatches, AnUnstablePoseThatIsCalledStable) {
+  condyle::Run run = computed_run(kSource / "data/hard/bifurcation.toml");
+  int unstable = 0;
+  for (PoseResult& pose : run.sweep.poses) {
+    if (!pose.converged() || !(pose.lowest_stiffness < -0.01)) continue;
+    ++unstable;
+    pose.stability = 1;
+  }
+  ASSERT_GT(unstable, 0);
+  VerifyOptions options;
+  options.pushes = true;
+  const Verification v = verify_run(run, options);
+  EXPECT_EQ(v.checks[static_cast<std::size_t>(Check::kStability)].failed, unstable);
+}
+
+TEST(VerifyRun, RefusesWhatHoldsNoPoses) {
+  condyle::Run run = phantom_run();
+  run.sweep.poses.clear();
+  EXPECT_THROW((void)verify_run(run), InputError);
+  run = phantom_run();
+  run.patches.clear();
+  EXPECT_THROW((void)verify_run(run), InputError);
+}
+
+}  // namespace
+}  // namespace condyle
