@@ -75,7 +75,8 @@ void Ledger::note(Check check,
   if (summary.count++ == 0 || share > summary.worst) {
     summary.worst = share;
     summary.figure = figure;
-    summary.where = pose_name_.empty() ? element : pose_name_ + (element.empty() ? "" : ", " + element);
+    summary.where =
+        pose_name_.empty() ? element : pose_name_ + (element.empty() ? "" : ", " + element);
   }
   if (share <= 1) return;
   ++summary.failed;

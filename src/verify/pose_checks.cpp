@@ -81,7 +81,9 @@ bool check_motion(const Subject& subject, const PoseResult& pose, Ledger& ledger
   for (std::size_t i = 0; i < 6; ++i) {
     const double off_by = i < 3 ? kDegrees * std::remainder(stored[i] - q[i], 2 * std::numbers::pi)
                                 : stored[i] - q[i];
-    ledger.note(Check::kJoint, std::abs(off_by) * node, kJointNames[i]);
+    ledger.note(
+        Check::kJoint, std::abs(off_by) * node, kJointNames[i],
+        fmt::format("is stored {:.3g} {} off what the pose gives", off_by, i < 3 ? "deg" : "mm"));
   }
   return true;
 }

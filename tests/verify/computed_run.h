@@ -35,4 +35,11 @@ inline const Run& phantom_run() {
   return run;
 }
 
+/// Three poses of it, at 20, 25 and 30 degrees: enough to damage the middle one.
+inline Run phantom_poses() {
+  Run run = phantom_run();
+  run.sweep.poses = {run.sweep.poses.at(4), run.sweep.poses.at(5), run.sweep.poses.at(6)};
+  return run;
+}
+
 }  // namespace condyle::test

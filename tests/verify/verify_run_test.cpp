@@ -65,7 +65,7 @@ TEST(VerifyRun, LooksAtEverythingThatTheFileHolds) {
   for (const CheckSummary& check : v.checks) EXPECT_GT(check.count, 0) << check.name;
 }
 
-/// The fault of one kind at pose 5 (25 degrees), and that there is one at no other pose.
+/// The fault of one kind at 25 degrees, and that there is none at another pose.
 std::string fault_of(const Run& run, Check check, bool alone = true) {
   VerifyOptions options;
   options.meshes = check == Check::kMesh;
@@ -74,21 +74,21 @@ std::string fault_of(const Run& run, Check check, bool alone = true) {
   std::string text;
   for (const Fault& fault : v.faults) {
     if (alone) {
-      EXPECT_EQ(fault.pose, 5U) << fault.text;
+      EXPECT_EQ(fault.pose, 1U) << fault.text;
     }
-    if (fault.check == check && fault.pose == 5) text = fault.text;
+    if (fault.check == check && fault.pose == 1) text = fault.text;
   }
   EXPECT_FALSE(v.verified());
   return text;
 }
 
-PoseResult& pose_of(Run& run) { return run.sweep.poses.at(5); }
+PoseResult& pose_of(Run& run) { return run.sweep.poses.at(1); }
 
 #define EXPECT_WORDS(text, words) EXPECT_NE((text).find(words), std::string::npos) << (text)
 
 TEST(VerifyCatches, APoseThatMovedByAHundredthOfAMillimetre) {
   for (int axis = 0; axis < 3; ++axis) {
-    condyle::Run run = phantom_run();
+    condyle::Run run = test::phantom_poses();
     pose_of(run).X_BA.p[axis] += 0.01;
     EXPECT_WORDS(fault_of(run, Check::kTogether), "flexion = 25 deg: contact \"");
     EXPECT_WORDS(fault_of(run, Check::kLength), "flexion = 25 deg: ligament \"");
@@ -96,7 +96,7 @@ TEST(VerifyCatches, APoseThatMovedByAHundredthOfAMillimetre) {
 }
 
 TEST(VerifyCatches, APoseThatIsNoMotion) {
-  condyle::Run run = phantom_run();
+  condyle::Run run = test::phantom_poses();
   pose_of(run).X_BA.R *= 1 + 1e-9;
   EXPECT_WORDS(fault_of(run, Check::kPose), "rotation is orthonormal");
   pose_of(run).X_BA.R(1, 1) = std::nan("");
@@ -104,26 +104,26 @@ TEST(VerifyCatches, APoseThatIsNoMotion) {
 }
 
 TEST(VerifyCatches, AForceThatIsWrongByAMillionth) {
-  condyle::Run run = phantom_run();
+  condyle::Run run = test::phantom_poses();
   std::size_t taut = 0;
   for (std::size_t i = 0; i < pose_of(run).ligaments.size(); ++i)
     if (pose_of(run).ligaments[i].force > 10) taut = i;
   pose_of(run).ligaments[taut].force *= 1 + 1e-6;
   EXPECT_WORDS(fault_of(run, Check::kLaw), "but its law gives");
 
-  condyle::Run pressed = phantom_run();
+  condyle::Run pressed = test::phantom_poses();
   ContactResult& contact = pose_of(pressed).contacts[0];
   contact.force *= 1 + 1e-6;
   for (ContactPointResult& point : contact.points) point.force *= 1 + 1e-6;
   EXPECT_WORDS(fault_of(pressed, Check::kForces), "flexion = 25 deg: forces add up to");
 
-  condyle::Run held = phantom_run();
+  condyle::Run held = test::phantom_poses();
   pose_of(held).conditions[0].multiplier += 1;  // N mm
   EXPECT_WORDS(fault_of(held, Check::kMoments), "flexion = 25 deg: moments add up to");
 }
 
 TEST(VerifyCatches, AContactThatPulls) {
-  condyle::Run run = phantom_run();
+  condyle::Run run = test::phantom_poses();
   ContactPointResult& point = pose_of(run).contacts[1].points[0];
   point.force = -point.force;
   pose_of(run).contacts[1].force = point.force;
@@ -131,23 +131,23 @@ TEST(VerifyCatches, AContactThatPulls) {
 }
 
 TEST(VerifyCatches, ANormalThatTurned) {
-  condyle::Run run = phantom_run();
+  condyle::Run run = test::phantom_poses();
   Vector3d& n = pose_of(run).contacts[0].points[0].normal_ground;
   n = (n + 1e-5 * n.unitOrthogonal()).normalized();
   EXPECT_WORDS(fault_of(run, Check::kNormal), "contact \"medial\": the normal at");
 }
 
 TEST(VerifyCatches, AJointCoordinateAndAPrescribedAngleThatAreOff) {
-  condyle::Run run = phantom_run();
+  condyle::Run run = test::phantom_poses();
   pose_of(run).joint.internal_rotation += 1e-8;
   EXPECT_WORDS(fault_of(run, Check::kJoint), "internal rotation");
-  condyle::Run other = phantom_run();
+  condyle::Run other = test::phantom_poses();
   pose_of(other).value += 1e-8;
   EXPECT_WORDS(fault_of(other, Check::kCondition), "condition \"flexion\": is ");
 }
 
 TEST(VerifyCatches, AControlPointThatMoved) {
-  condyle::Run run = phantom_run();
+  condyle::Run run = test::phantom_poses();
   const Vector3d touch = pose_of(run).contacts[0].points[0].point_ground;
   PatchData* patch = nullptr;
   for (RunPatch& one : run.patches)
@@ -163,7 +163,7 @@ TEST(VerifyCatches, AControlPointThatMoved) {
 
 TEST(VerifyCatches, BonesInsideEachOther) {
   // The whole tibia pushed up by a millimetre, with the points that are stored for it.
-  condyle::Run run = phantom_run();
+  condyle::Run run = test::phantom_poses();
   PoseResult& pose = pose_of(run);
   pose.X_BA.p += pose.X_BA.R * Vector3d(0, 1, 0);
   const std::string text = fault_of(run, Check::kGap);
@@ -175,7 +175,7 @@ TEST(VerifyCatches, BonesInsideEachOther) {
 }
 
 TEST(VerifyCatches, BonesThatPassedThroughEachOther) {
-  condyle::Run run = phantom_run();
+  condyle::Run run = test::phantom_poses();
   PoseResult& pose = pose_of(run);
   pose.X_BA.p += pose.X_BA.R * Vector3d(0, 25, 0);
   for (ContactResult& contact : pose.contacts) {
@@ -188,7 +188,7 @@ TEST(VerifyCatches, BonesThatPassedThroughEachOther) {
 }
 
 TEST(VerifyCatches, AnEdgeThatWasPassed) {
-  condyle::Run run = phantom_run();
+  condyle::Run run = test::phantom_poses();
   for (RunPatch& patch : run.patches)
     if (patch.surface == "lateral plateau")
       for (double& distance : patch.data.mask) distance -= 30;
@@ -212,10 +212,10 @@ TEST(VerifyCatches, AnUnstablePoseThatIsCalledStable) {
 }
 
 TEST(VerifyRun, RefusesWhatHoldsNoPoses) {
-  condyle::Run run = phantom_run();
+  condyle::Run run = test::phantom_poses();
   run.sweep.poses.clear();
   EXPECT_THROW((void)verify_run(run), InputError);
-  run = phantom_run();
+  run = test::phantom_poses();
   run.patches.clear();
   EXPECT_THROW((void)verify_run(run), InputError);
 }
