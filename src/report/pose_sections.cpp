@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "input_error.h"
 #include "report/html.h"
 #include "report/sections.h"
 #include "report/summary_json.h"
@@ -46,7 +47,12 @@ std::string failed_poses(const Run& run, const Swept& swept) {
 
 /// By the code of the room `verify`, at the moment the page is written.
 std::string verified(const Run& run) {
-  const Verification verification = verify_run(run);
+  Verification verification;
+  try {
+    verification = verify_run(run);
+  } catch (const InputError& error) {
+    return fmt::format("<p class=\"verdict bad\">Not verified: {}</p>\n", escaped(error.what()));
+  }
   std::string body =
       fmt::format("<p class=\"verdict {}\">Verified: {}</p>\n",
                   verification.verified() ? "good" : "bad", escaped(verdict(verification)));

@@ -23,6 +23,17 @@ void check_kind(const Run& run, std::vector<std::string>& not_checked) {
         fmt::format("{}: the run holds no poses{}, expected one of sweep, compare or "
                     "simulate",
                     run.scene.file.string(), run.laxity ? " (a test of laxity stores none)" : ""));
+  const Scene& scene = run.scene;
+  for (const ContactDescription& contact : scene.contacts)
+    for (const int surface : contact.surfaces)
+      if (surface < 0 || static_cast<std::size_t>(surface) >= scene.surfaces.size())
+        throw InputError(
+            fmt::format("contact \"{}\" has no surfaces, expected two of the scene", contact.name));
+  for (const PoseResult& pose : run.sweep.poses)
+    if (pose.converged() && (pose.contacts.size() != scene.contacts.size() ||
+                             pose.ligaments.size() != scene.ligaments.size() ||
+                             pose.conditions.size() != scene.conditions.size()))
+      throw InputError("a pose has not one result for each element of the scene");
   if (run.simulation || (run.scene.simulation && !run.scene.sweep))
     not_checked.emplace_back("a motion is no series of equilibria: forces do not have to balance");
   if (run.comparison) not_checked.emplace_back("the poses of the reference model");
