@@ -188,6 +188,12 @@ FitReport report_of(const std::string& name, const ArticularRegion& region, cons
     report.notes.push_back(
         fmt::format("warning: fold: the patch faces away from the mesh at {} of {} vertices",
                     figures.folded, report.mesh_vertices));
+  constexpr double kPoor = 0.3;  // as much as a rough segmentation leaves in a smooth patch [mm]
+  if (figures.core_rms > kPoor)
+    report.notes.push_back(fmt::format(
+        "warning: poor fit: {:.2f} mm rms and up to {:.2f} mm off the mesh away from its "
+        "edge, expected at most {:g} mm rms: more control points or less smoothing",
+        figures.core_rms, figures.core_max, kPoor));
   constexpr double kThin = 4;  // [mm]
   if (figures.depth < kThin)
     report.notes.push_back(

@@ -94,6 +94,15 @@ TEST_F(FitWarnings, NameAMeshThatWasMirrored) {
                     "triangles faced into the bone, as after mirroring: check the side"));
 }
 
+// Six by four control points cannot follow a condyle; those that are chosen leave 0.2 mm of
+// roughness.
+TEST_F(FitWarnings, NameAPatchThatMissesItsMesh) {
+  EXPECT_FALSE(holds(notes_of(phantom_femur(), medial()), "poor fit"));
+  PatchDescription coarse = medial();
+  coarse.smoothing = 30;
+  EXPECT_TRUE(holds(notes_of(phantom_femur(), coarse), "warning: poor fit: "));
+}
+
 // An open sheet has no inside; the condyle tells which way is out.
 TEST_F(FitWarnings, SayThatAnOpenSheetWasTurned) {
   const TriangleMesh sheet = fit(phantom_femur(), medial()).region;
