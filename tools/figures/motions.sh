@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The shipped motions at three tolerances of the integrator, as a table.
+# The shipped motions at three tolerances of the integrator, as a table; times are the fastest of RUNS (1).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source tools/figures/program.sh
@@ -8,9 +8,12 @@ scratch
 # row LABEL SCENE TOLERANCE NOTE
 row() {
   sed "s|= \"../../meshes|= \"$PWD/meshes|; s|^\[simulate\].*|&\ntolerance = $3|" "data/phantom/$2.toml" >"$out/scene.toml"
-  "$CONDYLE" simulate "$out/scene.toml" -o "$out/motion.h5" --json 2>/dev/null | tr -d '",' | awk -v label="$1" -v tolerance="$3$4" '
+  for ((run = 0; run < ${RUNS:-1}; run++)); do
+    "$CONDYLE" simulate "$out/scene.toml" -o "$out/motion.h5" --json 2>/dev/null
+  done | tr -d '",' | awk -v label="$1" -v tolerance="$3$4" '
     $1 == "simulation:" { inside = 1 }
-    inside { of[$1] = $2 }
+    inside && ($1 != "seconds:" || !of[$1] || $2 < of[$1]) { of[$1] = $2 }
+    $1 == "warnings:" { inside = 0 }
     END {
       balance = sprintf("%.0e", of["imbalance:"]); sub(/e-0/, "e-", balance)
       printf "| %s | %s | %d | %.0f ms | %s |\n", label, tolerance, of["steps:"], 1000 * of["seconds:"], balance
