@@ -35,6 +35,10 @@ function sortMeshes(root, data) {
       node.material.polygonOffset = true;
       node.material.polygonOffsetUnits = -400;
     }
+    if (kind === 'beyond the edge') {  // a sign: seen through everything
+      Object.assign(node.material, { depthTest: false, transparent: true });
+      node.renderOrder = 2;
+    }
     if (kind === 'ligament') {
       const holder = name.startsWith('ligament ') ? name : nameOf(node.parent);
       meshes.ligaments.set(holder.slice('ligament '.length), node);
@@ -153,6 +157,20 @@ export async function createScene(canvas, model, data) {
     orbit.target.copy(center);
     orbit.update();
     draw();
+  };
+  /// Where the joint lies in the window: from -1 to 1 in both directions.
+  api.jointInWindow = () => {
+    const box = jointBox(meshes, gltf.scene), seen = { left: 1, right: -1, bottom: 1, top: -1 };
+    camera.updateMatrixWorld();
+    for (let corner = 0; corner < 8; ++corner) {
+      const p = new Vector3(...['x', 'y', 'z'].map((axis, i) => ((corner >> i) & 1 ? box.max : box.min)[axis]));
+      p.project(camera);
+      seen.left = Math.min(seen.left, p.x);
+      seen.right = Math.max(seen.right, p.x);
+      seen.bottom = Math.min(seen.bottom, p.y);
+      seen.top = Math.max(seen.top, p.y);
+    }
+    return seen;
   };
   api.resize = () => {
     const width = canvas.clientWidth, height = canvas.clientHeight;

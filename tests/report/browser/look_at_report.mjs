@@ -68,6 +68,14 @@ const angleBetween = (a, b) => {  // of two rotations, as 4 x 4 matrices by colu
   return (Math.acos(Math.min(1, Math.max(-1, (trace - 1) / 2))) * 180) / Math.PI;
 };
 
+/// The view opens on the joint: all of it in the window, and filling most of it one way.
+async function opensOnTheJoint(page) {
+  const seen = await page.evaluate(() => window.condyleViewer.jointInWindow());
+  const wide = (seen.right - seen.left) / 2, high = (seen.top - seen.bottom) / 2;
+  expect(Math.min(seen.left, seen.bottom) > -1.05 && Math.max(seen.right, seen.top) < 1.05, 'the joint is in the window');
+  expect(Math.max(wide, high) > 0.65, `it fills ${(100 * wide).toFixed(0)} % of the width, ${(100 * high).toFixed(0)} % of the height`);
+}
+
 async function turnTheKnee(page) {
   const last = await page.evaluate(() => {
     const data = JSON.parse(document.getElementById('viewer-data').textContent);
@@ -130,6 +138,7 @@ try {
   for (const [name, look] of looks) {
     console.log(name);
     const { page, said, asked } = await open(browser, look);
+    await opensOnTheJoint(page);
     if (name === 'desktop-light') {
       await turnTheKnee(page);
       await useButtons(page);
