@@ -37,6 +37,7 @@ class Canvas {
   void rectangle(const Frame& frame, Rgb color);
   /// `at` is the left end, middle or right end of the base line.
   void text(const Eigen::Vector2d& at, const std::string& text, const TextStyle& style);
+  [[nodiscard]] int width() const { return image_.width; }  ///< of the page [pixel]
   [[nodiscard]] int text_width(const std::string& text, const TextStyle& style);
 
  private:

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <vector>
 
 namespace condyle {
 namespace {
+
+using Eigen::Vector2d;
 
 constexpr double kTriangle = 15;  // high, in units of the page
 
@@ -17,6 +20,25 @@ double tick_step(double range) {
     step *= factor;
   }
   return step;
+}
+
+/// Two lines that end above `at`; where what the bar shows and its unit are too long for one line,
+/// the unit has one of its own, and what is still too long is set smaller.
+void draw_heading(const Pen& pen, const ColorBar& bar, const Vector2d& at) {
+  const double room = pen.canvas.width() - at.x() - 3 * pen.s, line = 19 * pen.s;
+  const TextStyle quiet = pen.style(14, kQuiet);
+  const auto fitted = [&](const std::string& text, TextStyle style) {
+    while (style.size > 7 && pen.canvas.text_width(text, style) > room) --style.size;
+    return style;
+  };
+  std::vector<std::string> below = {bar.unit};
+  const std::size_t bracket = bar.unit.rfind(" [");
+  if (bracket != std::string::npos && pen.canvas.text_width(bar.unit, quiet) > room)
+    below = {bar.unit.substr(0, bracket), bar.unit.substr(bracket + 1)};
+  double y = at.y();
+  for (std::size_t i = below.size(); i-- > 0; y -= line)
+    pen.canvas.text({at.x(), y}, below[i], fitted(below[i], quiet));
+  pen.canvas.text({at.x(), y}, bar.title, fitted(bar.title, pen.style(14)));
 }
 
 /// Above the bar, as wide as it.
@@ -45,8 +67,7 @@ void draw_color_bar(const Pen& pen, const ColorBar& bar, const Frame& wanted) {
   const double lift = bar.above.empty() ? 0 : (kTriangle + 2) * pen.s;
   if (lift > 0) draw_triangle(pen, place, map_color(bar.map, 1), bar.above);
   const double words = place.top - lift;
-  pen.canvas.text({place.left - 2 * pen.s, words - 34 * pen.s}, bar.title, pen.style(14));
-  pen.canvas.text({place.left - 2 * pen.s, words - 15 * pen.s}, bar.unit, pen.style(14, kQuiet));
+  draw_heading(pen, bar, {place.left - 2 * pen.s, words - 15 * pen.s});
   const double range = std::max(1e-9, bar.high - bar.low), step = tick_step(range);
   for (double value = std::ceil(bar.low / step - 1e-6) * step; value <= bar.high + 1e-6 * range;
        value += step) {

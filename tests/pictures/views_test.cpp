@@ -294,6 +294,19 @@ TEST(Views, TheLegendNamesTheOverlapWhereThereIsSome) {
   EXPECT_GT(count(overlap, is_alarm), 5000) << "and the plateau has its colour";
 }
 
+TEST(Views, WordsAboveABarEndOnThePage) {
+  auto run = block_run();
+  run.scene.conditions[0].kind = ConditionKind::kTranslation;
+  for (const char* name : {"translation along the shaft", "WWWWWWWWWWWW"}) {
+    run.scene.conditions[0].name = name;
+    const Image image = draw_knee(run, View::kAnterior, 0);
+    // Above the bar of the path, which begins at 485 after that of the ligaments.
+    EXPECT_EQ(count_in(image, {1197, 400, 1200, 480}, [](Rgb c) { return !is_white(c); }), 0)
+        << name;
+    EXPECT_GT(count_in(image, {1098, 400, 1197, 480}, [](Rgb c) { return c[0] < 160; }), 150);
+  }
+}
+
 TEST(Views, WordsSayHowDeepAnOverlapIs) {
   EXPECT_EQ(overlap_words(0.3), "up to 0.3 mm");
   EXPECT_EQ(overlap_words(2.37), "up to 2.4 mm");
