@@ -65,7 +65,7 @@ std::string bodies_text(const Scene& scene,
     }
     const RigidTransform start = start_pose(scene);
     out += fmt::format("start.translation = {}\nstart.rotation = {}\n", text(start.p),
-                       text(log_rotation(start.R)));
+                       text(log_rotation(start.R) * 180 / M_PI));
   }
   if (scene.joint)
     out += fmt::format("\n[joint]\nside = \"{}\"\n",
