@@ -73,11 +73,11 @@ Study begin_study(const Talk& talk,
 Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces) {
   Run run{scene, {}, patches_of(scene, surfaces), {}, {}};
   std::vector<TriangleMesh> bones;
-  for (const BodyDescription& body : scene.bodies) {
-    bones.push_back(load_body_mesh(body));
-    if (body.mesh) run.bodies.push_back({body.name, bones.back()});
-  }
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    bones.push_back(body_mesh(scene, static_cast<int>(b), surfaces));
   run.start = start_warnings(scene, surfaces, bones);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    if (scene.bodies[b].mesh) run.bodies.push_back({scene.bodies[b].name, std::move(bones[b])});
   run.inputs = mesh_files(scene);
   return run;
 }

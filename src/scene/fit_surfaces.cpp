@@ -32,6 +32,7 @@ struct Source {
   std::vector<int> surfaces;  ///< indices into Scene::surfaces
   CleanMesh mesh;
   std::optional<CondylarAxis> axis;
+  bool turned = false;  ///< some of the mesh was turned to face out of the bone
   std::vector<std::string> notes;
 };
 
@@ -79,6 +80,7 @@ std::vector<Source> collect_sources(const Scene& scene) {
                          .surfaces = {},
                          .mesh = {},
                          .axis = {},
+                         .turned = false,
                          .notes = {}});
       source = sources.end() - 1;
     }
@@ -134,7 +136,8 @@ void load_source(const Scene& scene, Source& source) {
   if (is_femur(scene, source)) turned = face_out_of_femur(source.mesh);
   if (is_tibia(scene, source))
     turned = face_out_of_tibia(source.mesh, bone_frame(scene.joint->tibia));
-  if (turned > 0)
+  source.turned = turned > 0;
+  if (source.turned)
     source.notes.push_back(fmt::format("{} of {} sheets faced into the bone and were turned",
                                        turned, source.mesh.closed.size()));
   const TriangleMesh& mesh = source.mesh.mesh;
@@ -143,7 +146,7 @@ void load_source(const Scene& scene, Source& source) {
     if (is_femur(scene, source)) check_one_knee(mesh, bone_frame(scene.joint->femur));
     if (is_tibia(scene, source) && needs_compartments(scene, source)) {
       check_one_knee(mesh, bone_frame(scene.joint->tibia));
-      check_is_no_femur(mesh, bone_frame(scene.joint->tibia));
+      check_is_no_femur(source.mesh, bone_frame(scene.joint->tibia));
     }
     if (!needs_axis(scene, source)) return;
     source.axis = fit_condylar_axis(mesh, vertex_normals(mesh), bone_frame(scene.joint->femur));
@@ -206,7 +209,7 @@ FitReport report_of(const std::string& name, const ArticularRegion& region, cons
 FittedSurface fit_one(const Scene& scene, const Source& source, const SurfaceDescription& surface) {
   const auto start = std::chrono::steady_clock::now();
   try {
-    const ArticularRegion region = find_region(scene, source, surface.patch);
+    ArticularRegion region = find_region(scene, source, surface.patch);
     FitOptions options;
     options.control_points = surface.patch.control_points;
     options.smoothing_length = surface.patch.smoothing;
@@ -217,7 +220,10 @@ FittedSurface fit_one(const Scene& scene, const Source& source, const SurfaceDes
       report.notes.insert(report.notes.end(), notes.begin(), notes.end());
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return {std::make_shared<const Patch>(std::move(fit.patch)), std::move(report), region.mesh};
+    return {std::make_shared<const Patch>(std::move(fit.patch)),
+            std::move(report),
+            std::move(region.mesh),
+            {}};
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {} ({})", place_of(scene, surface), error.what(),
                                  source.file.path.string()));
@@ -233,6 +239,10 @@ void fit_source(const Scene& scene,
     surfaces[i] = fit_one(scene, source, scene.surfaces[i]);
     on_patch();
   }
+  if (source.turned) return;
+  const auto bone = std::make_shared<const TriangleMesh>(std::move(source.mesh.mesh));
+  for (const int i : source.surfaces)
+    if (!scene.surfaces[i].patch.mesh) surfaces[i].bone = bone;
 }
 
 /// Work for all sources on two threads, the first error rethrown: sources share nothing but their
@@ -302,6 +312,12 @@ std::vector<FittedSurface> fit_surfaces(const Scene& scene, const OnProgress& on
 TriangleMesh load_body_mesh(const BodyDescription& body) {
   if (!body.mesh) return {};
   return clean_mesh(load_mesh(body.mesh->path, body.mesh->to_mm)).mesh;
+}
+
+TriangleMesh body_mesh(const Scene& scene, int body, const std::vector<FittedSurface>& surfaces) {
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    if (surfaces[i].bone && scene.surfaces[i].body == body) return *surfaces[i].bone;
+  return load_body_mesh(scene.bodies[body]);
 }
 
 }  // namespace condyle

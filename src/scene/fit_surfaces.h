@@ -38,6 +38,8 @@ struct FittedSurface {
   std::shared_ptr<const Surface> surface;
   std::optional<FitReport> report;  ///< patches only
   TriangleMesh region = {};         ///< patches only: the part of the mesh that was fitted
+  std::shared_ptr<const TriangleMesh> bone =
+      {};  ///< patches fitted to the mesh of their body only: all of it, as body_mesh returns it
 };
 
 /// A described surface of any kind but a patch.
@@ -50,5 +52,10 @@ struct FittedSurface {
 
 /// The mesh of a body, loaded and cleaned, in mm; empty where the scene names none.
 [[nodiscard]] TriangleMesh load_body_mesh(const BodyDescription& body);
+
+/// The same, taken from the fitted surfaces where one was fitted to it: a file is read once.
+[[nodiscard]] TriangleMesh body_mesh(const Scene& scene,
+                                     int body,
+                                     const std::vector<FittedSurface>& surfaces);
 
 }  // namespace condyle

@@ -129,7 +129,8 @@ std::vector<std::string> start_warnings(const Scene& scene,
                                         const std::vector<FittedSurface>& surfaces,
                                         const StartLimits& limits) {
   std::vector<TriangleMesh> bones;
-  for (const BodyDescription& body : scene.bodies) bones.push_back(load_body_mesh(body));
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    bones.push_back(body_mesh(scene, static_cast<int>(b), surfaces));
   return start_warnings(scene, surfaces, bones, limits);
 }
 

@@ -22,11 +22,10 @@ using Eigen::Vector3d;
 constexpr double kWidest = 125;    // of a knee; epicondylar widths of men are 83 +- 4 [mm]
 constexpr double kGoodAxis = 1.5;  // rms of posterior condyles from their cylinders [mm]
 
-std::optional<CondylarAxis> find_axis(const TriangleMesh& mesh, const BoneFrame& frame) {
-  CleanMesh turned = clean_mesh(mesh);
-  face_out_of_femur(turned);
+std::optional<CondylarAxis> find_axis(CleanMesh mesh, const BoneFrame& frame) {
+  face_out_of_femur(mesh);
   try {
-    return fit_condylar_axis(turned.mesh, vertex_normals(turned.mesh), frame);
+    return fit_condylar_axis(mesh.mesh, vertex_normals(mesh.mesh), frame);
   } catch (const InputError&) {
     return std::nullopt;
   }
@@ -60,7 +59,7 @@ void check_one_knee(const TriangleMesh& mesh, const BoneFrame& frame) {
                     high - low, kWidest));
 }
 
-void check_is_no_femur(const TriangleMesh& mesh, const BoneFrame& frame) {
+void check_is_no_femur(const CleanMesh& mesh, const BoneFrame& frame) {
   const std::optional<CondylarAxis> axis = find_axis(mesh, frame);
   if (!axis || axis->rms > kGoodAxis || axis->coverage < 0.8) return;
   throw InputError(fmt::format(

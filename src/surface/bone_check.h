@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/clean_mesh.h"
 #include "mesh/triangle_mesh.h"
 #include "surface/condylar_axis.h"
 
@@ -15,7 +16,7 @@ namespace condyle {
 void check_one_knee(const TriangleMesh& mesh, const BoneFrame& frame);
 
 /// Throws InputError where a mesh said to be a tibia has posterior condyles.
-void check_is_no_femur(const TriangleMesh& mesh, const BoneFrame& frame);
+void check_is_no_femur(const CleanMesh& mesh, const BoneFrame& frame);
 /// Throws InputError where the axis found in a mesh said to be a femur is none.
 void check_is_femur(const CondylarAxis& axis);
 

@@ -36,12 +36,19 @@ Vector3d on_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, co
 struct MeshDistance::Index {
   PointCloud cloud;
   PointTree tree;
-  std::vector<std::vector<int>> around;  ///< triangles of each vertex
+  std::vector<int> first, around;  ///< triangles of vertex v: around[first[v]] to [first[v + 1]]
 
   explicit Index(const TriangleMesh& mesh)
-      : cloud{mesh.vertices}, tree(3, cloud), around(mesh.vertices.size()) {
+      : cloud{mesh.vertices},
+        tree(3, cloud),
+        first(mesh.vertices.size() + 2, 0),
+        around(3 * mesh.triangles.size()) {
+    // Counted two places on, so that filling moves each beginning to where it belongs.
+    for (const auto& triangle : mesh.triangles)
+      for (const int v : triangle) ++first[v + 2];
+    for (std::size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      for (const int v : mesh.triangles[t]) around[v].push_back(static_cast<int>(t));
+      for (const int v : mesh.triangles[t]) around[first[v + 1]++] = static_cast<int>(t);
   }
 };
 
@@ -58,8 +65,8 @@ Vector3d MeshDistance::closest(const Vector3d& p) const {
   index_->tree.findNeighbors(result, p.data(), nanoflann::SearchParams());
   Vector3d nearest = mesh_.vertices[vertices[0]];
   for (std::size_t k = 0; k < result.size(); ++k)
-    for (const int t : index_->around[vertices[k]]) {
-      const auto& [a, b, c] = mesh_.triangles[t];
+    for (int i = index_->first[vertices[k]]; i < index_->first[vertices[k] + 1]; ++i) {
+      const auto& [a, b, c] = mesh_.triangles[index_->around[i]];
       const Vector3d point =
           on_triangle(p, mesh_.vertices[a], mesh_.vertices[b], mesh_.vertices[c]);
       if ((point - p).squaredNorm() < (nearest - p).squaredNorm()) nearest = point;

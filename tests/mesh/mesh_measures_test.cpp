@@ -42,6 +42,37 @@ TEST(MeshMeasures, FindsEveryEdgeOnceWithBothTriangles) {
   }
 }
 
+// Each side of a cube's triangles has one neighbour, which has a side back to it.
+TEST(TriangleLinks, RunBothWays) {
+  TriangleMesh mesh = cube(1);
+  std::swap(mesh.triangles[5][1], mesh.triangles[5][2]);
+  const TriangleLinks links(mesh);
+  for (int t = 0; t < 12; ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int other = links.across(t, k);
+      ASSERT_GE(other, 0);
+      EXPECT_TRUE(links.across(other, 0) == t || links.across(other, 1) == t ||
+                  links.across(other, 2) == t);
+      EXPECT_EQ(links.agrees(t, k), (t == 5) == (other == 5));
+    }
+}
+
+// A sheet of two triangles has four sides of its own; a fin on the fifth takes that from both.
+TEST(TriangleLinks, TellRimsFromFins) {
+  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}},
+                    {{0, 1, 2}, {0, 2, 3}}};
+  const TriangleLinks sheet(mesh);
+  EXPECT_EQ(sheet.across(0, 2), 1);
+  EXPECT_TRUE(sheet.is_boundary(0, 0));
+  EXPECT_EQ(sheet.boundary_edges(), 4);
+  mesh.triangles.push_back({0, 2, 4});
+  const TriangleLinks fin(mesh);
+  EXPECT_EQ(fin.across(0, 2), -1);
+  EXPECT_FALSE(fin.is_boundary(0, 2));
+  EXPECT_EQ(fin.non_manifold_edges(), 1);
+  EXPECT_EQ(fin.boundary_edges(), 6);
+}
+
 TEST(MeshMeasures, SubMeshKeepsOnlyWhatItNeeds) {
   const TriangleMesh mesh = cube(1);
   std::vector<bool> keep(12, false);

@@ -17,9 +17,10 @@ namespace {
 
 const BoneFrame kRight{.lateral = {0, 0, 1}, .anterior = {1, 0, 0}, .proximal = {0, 1, 0}};
 
-TriangleMesh bone(const char* file) {
-  return clean_mesh(load_mesh(std::filesystem::path(CONDYLE_SOURCE_DIR) / "meshes" / file, 1)).mesh;
+CleanMesh clean_bone(const char* file) {
+  return clean_mesh(load_mesh(std::filesystem::path(CONDYLE_SOURCE_DIR) / "meshes" / file, 1));
 }
+TriangleMesh bone(const char* file) { return clean_bone(file).mesh; }
 
 template <class Check>
 std::string complaint(Check check) {
@@ -32,7 +33,7 @@ std::string complaint(Check check) {
 }
 
 TEST(BoneCheck, AcceptsTheBonesOfThePhantom) {
-  EXPECT_NO_THROW(check_is_no_femur(bone("tibia.stl"), kRight));
+  EXPECT_NO_THROW(check_is_no_femur(clean_bone("tibia.stl"), kRight));
   EXPECT_NO_THROW(check_one_knee(bone("tibia.stl"), kRight));
   const TriangleMesh femur = bone("femur.stl");
   EXPECT_NO_THROW(check_is_femur(fit_condylar_axis(femur, vertex_normals(femur), kRight)));
@@ -40,7 +41,7 @@ TEST(BoneCheck, AcceptsTheBonesOfThePhantom) {
 
 // The radii of the phantom's posterior condyles are 21.5 and 20 mm.
 TEST(BoneCheck, KnowsAFemurByItsCondyles) {
-  const std::string text = complaint([] { check_is_no_femur(bone("femur.stl"), kRight); });
+  const std::string text = complaint([] { check_is_no_femur(clean_bone("femur.stl"), kRight); });
   EXPECT_NE(text.find("looks like a femur, expected a tibia: it has posterior condyles of radius"),
             std::string::npos)
       << text;

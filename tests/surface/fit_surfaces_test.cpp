@@ -131,6 +131,19 @@ TriangleMesh mirrored(TriangleMesh mesh) {
   return mesh;
 }
 
+// What is written into a run and measured from insertions: the mesh of the file, read once.
+TEST(FitSurfaces, KeepTheMeshOfTheirBody) {
+  const Scene scene = knee(phantom_files());
+  const std::vector<FittedSurface> fitted = fit_surfaces(scene);
+  for (const int body : {0, 1}) {
+    ASSERT_TRUE(fitted[body].bone);
+    const TriangleMesh kept = body_mesh(scene, body, fitted),
+                       loaded = load_body_mesh(scene.bodies[body]);
+    EXPECT_EQ(kept.vertices, loaded.vertices);
+    EXPECT_EQ(kept.triangles, loaded.triangles);
+  }
+}
+
 // A left knee is charted through its own lateral direction: same regions, mirrored.
 TEST(FitSurfaces, TreatsALeftKneeAsTheMirrorOfARightOne) {
   const TriangleMesh right = clean_mesh(load_mesh(kMeshes / "femur.stl", 1)).mesh,
