@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <iterator>
+#include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include "input_error.h"
 
@@ -15,11 +16,20 @@ namespace condyle {
 
 std::string sha256_of_file(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   if (!stream) throw InputError(file.string() + ": cannot be read");
+  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
+                                                                        &EVP_MD_CTX_free);
+  bool good = context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1;
+  std::vector<char> piece(std::size_t{1} << 16);
+  while (good && stream) {
+    stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    good = EVP_DigestUpdate(context.get(), piece.data(),
+                            static_cast<std::size_t>(stream.gcount())) == 1;
+  }
+  if (stream.bad()) throw InputError(file.string() + ": cannot be read");
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned size = 0;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1)
+  if (!good || EVP_DigestFinal_ex(context.get(), digest.data(), &size) != 1)
     throw std::runtime_error("libcrypto knows no SHA-256");
   std::string digits;
   for (unsigned i = 0; i < size; ++i) digits += fmt::format("{:02x}", digest[i]);
