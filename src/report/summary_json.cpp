@@ -48,8 +48,9 @@ Json poses_of(const Scene& scene, const SweepResult& sweep) {
                 {"remark", pose.remark},
                 {"iterations", pose.iterations},
                 {"residual", pose.residual},
-                {"seconds", pose.seconds}};
-    if (scene.joint && pose.converged()) row["joint"] = joint_of(pose);
+                {"seconds", pose.seconds},
+                {"event_seconds", pose.event_seconds}};
+    if (scene.joint && pose.solved()) row["joint"] = joint_of(pose);
     poses.push_back(std::move(row));
   }
   return poses;

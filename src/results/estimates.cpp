@@ -48,7 +48,7 @@ void write_hertz(const Hdf5Group& group, const Poses& poses, Shape shape, const 
   for (const HertzColumn& column : kHertzColumns) {
     std::vector<double> values(poses.size() * slots * column.width, kNone);
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      if (!poses[i].converged()) continue;
+      if (!poses[i].solved()) continue;
       std::size_t k = i * slots;
       for (const ContactPointResult& point : of(poses[i])) {
         if (point.hertz) {
@@ -77,7 +77,7 @@ void write_matrix(const Hdf5Group& joint,
                   Matrix matrix) {
   std::vector<double> values(36 * poses.size(), kNone);
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (!poses[i].converged() || !poses[i].joint_stiffness) continue;
+    if (!poses[i].solved() || !poses[i].joint_stiffness) continue;
     for (std::size_t k = 0; k < 36; ++k)
       values[36 * i + k] = ((*poses[i].joint_stiffness).*matrix)(static_cast<Eigen::Index>(k / 6),
                                                                  static_cast<Eigen::Index>(k % 6));
@@ -124,7 +124,7 @@ void write_contact_estimates(const Hdf5Group& contact,
   std::vector<double> resultants(3 * n, kNone);
   std::size_t slots = 1;
   for (std::size_t i = 0; i < n; ++i) {
-    const bool known = poses[i].converged();
+    const bool known = poses[i].solved();
     shapes.push_back(known ? static_cast<int>(poses[i].contacts.at(index).shape) : -1);
     if (!known) continue;
     const ContactResult& result = poses[i].contacts[index];

@@ -157,6 +157,9 @@ void read_solver(const Hdf5Group& sweep, Poses& poses) {
                 [](PoseResult& p, int iterations) { p.iterations = iterations; });
   take(newton, "residual", n, poses, [](PoseResult& p, const double* row) { p.residual = *row; });
   take(newton, "seconds", n, poses, [](PoseResult& p, const double* row) { p.seconds = *row; });
+  if (!newton.has("event_seconds")) return;
+  take(newton, "event_seconds", n, poses,
+       [](PoseResult& p, const double* row) { p.event_seconds = *row; });
 }
 
 void read_poses(const Hdf5Group& sweep, Run& run) {

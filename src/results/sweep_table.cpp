@@ -118,25 +118,27 @@ std::string SweepTable::row(const PoseResult& pose) const {
   for (const Cell& cell : cells_) {
     line +=
         fmt::format("{:>{}.{}f}", cell.value(*this, pose, cell.index), width(cell), cell.decimals);
-    if (!pose.converged())
-      return line + "  " + name(pose.status) + (pose.reason.empty() ? "" : ": " + pose.reason) +
-             "\n";
+    if (!pose.solved()) break;
   }
+  if (!pose.converged())
+    return line + "  " + name(pose.status) + (pose.reason.empty() ? "" : ": " + pose.reason) + "\n";
   return line + (pose.remark.empty() ? "" : "  " + pose.remark) + "\n";
 }
 
 std::string summary(const SweepResult& sweep) {
-  double residual = 0, seconds = 0;
+  double residual = 0, seconds = 0, on_events = 0;
   for (const PoseResult& pose : sweep.poses) {
     seconds += pose.seconds;
+    on_events += pose.event_seconds;
     if (pose.converged()) residual = std::max(residual, pose.residual);
   }
   const auto n = sweep.poses.size();
   return fmt::format(
       "{} of {} poses converged, largest residual {:.2g} N, largest gap {:.2g} mm, {:.3g} ms "
-      "({:.3g} us a pose)",
+      "({:.3g} us a pose){}",
       sweep.count_converged(), n, residual, largest_gap(sweep), 1e3 * seconds,
-      1e6 * seconds / static_cast<double>(std::max<std::size_t>(n, 1)));
+      1e6 * seconds / static_cast<double>(std::max<std::size_t>(n, 1)),
+      on_events > 0 ? fmt::format(" and {:.3g} ms for events", 1e3 * on_events) : "");
 }
 
 std::vector<std::string> event_lines(const Scene& scene, const SweepResult& sweep) {

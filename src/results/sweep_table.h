@@ -35,7 +35,7 @@ class SweepTable {
 };
 
 /// "25 of 25 poses converged, largest residual 1.2e-11 N, largest gap 3e-14 mm, 1.3 ms (52 µs a
-/// pose)"
+/// pose) and 0.4 ms for events"
 [[nodiscard]] std::string summary(const SweepResult& sweep);
 
 /// One line for each event: "lateral: opening at 93.271845 deg", "limit point at 12.5 deg".

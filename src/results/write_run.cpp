@@ -21,12 +21,12 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 using Poses = std::vector<PoseResult>;
 
-// One row of `width` numbers for each pose; a pose that did not converge has NaN.
+// One row of `width` numbers for each pose; one without equilibrium has NaN.
 using FillRow = std::function<void(const PoseResult& pose, double* row)>;
 std::vector<double> rows(const Poses& poses, std::size_t width, const FillRow& fill) {
   std::vector<double> out(poses.size() * width, kNone);
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (poses[i].converged()) fill(poses[i], &out[i * width]);
+    if (poses[i].solved()) fill(poses[i], &out[i * width]);
   }
   return out;
 }
@@ -136,7 +136,7 @@ void write_points(const Hdf5Group& group, const Poses& poses, std::size_t index)
   const std::size_t n = poses.size();
   std::size_t slots = 1;
   for (const PoseResult& pose : poses) {
-    if (pose.converged()) slots = std::max(slots, pose.contacts.at(index).points.size());
+    if (pose.solved()) slots = std::max(slots, pose.contacts.at(index).points.size());
   }
   const auto points_of = [&](const PoseResult& pose) -> const std::vector<ContactPointResult>& {
     return pose.contacts[index].points;
@@ -144,7 +144,7 @@ void write_points(const Hdf5Group& group, const Poses& poses, std::size_t index)
   group.write("count",
               integers(poses,
                        [&](const PoseResult& p) {
-                         return p.converged() ? static_cast<int>(points_of(p).size()) : 0;
+                         return p.solved() ? static_cast<int>(points_of(p).size()) : 0;
                        }),
               {n}, "1");
   for (const PointColumn& column : kPointColumns) {
@@ -169,7 +169,7 @@ void write_contact(const Hdf5Group& group,
   group.write("state",
               integers(poses,
                        [&](const PoseResult& p) {
-                         return p.converged() ? (p.contacts.at(index).closed ? 1 : 0) : -1;
+                         return p.solved() ? (p.contacts.at(index).closed ? 1 : 0) : -1;
                        }),
               {n}, "1");
   for (const PointColumn& column : kPointColumns) {
@@ -226,9 +226,8 @@ void write_solver(const Hdf5Group& sweep, const Poses& poses) {
   const Shape n = {poses.size()};
   const Hdf5Group stability = sweep.create("stability");
   stability.write(
-      "stable",
-      integers(poses, [](const PoseResult& p) { return p.converged() ? p.stability : -1; }), n,
-      "1");
+      "stable", integers(poses, [](const PoseResult& p) { return p.solved() ? p.stability : -1; }),
+      n, "1");
   stability.write(
       "lowest_stiffness",
       rows(poses, 1, [](const PoseResult& p, double* row) { *row = p.lowest_stiffness; }), n,
@@ -238,6 +237,8 @@ void write_solver(const Hdf5Group& sweep, const Poses& poses) {
                "1");
   newton.write("residual", numbers(poses, [](const PoseResult& p) { return p.residual; }), n, "N");
   newton.write("seconds", numbers(poses, [](const PoseResult& p) { return p.seconds; }), n, "s");
+  newton.write("event_seconds", numbers(poses, [](const PoseResult& p) { return p.event_seconds; }),
+               n, "s");
 }
 
 void write_events(const Hdf5Group& group, const Scene& scene, const std::vector<Event>& events) {

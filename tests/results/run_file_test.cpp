@@ -124,6 +124,28 @@ TEST_F(RunFile, GivesBackPatchesMeshesAndScene) {
   EXPECT_TRUE(back.bodies[1].mesh.vertices.empty());
 }
 
+// A pose beyond the edge of a patch is an equilibrium on the extrapolated surface: all of it is
+// there.
+TEST_F(RunFile, KeepsAPoseBeyondAnEdge) {
+  condyle::Run run = made_up_run();
+  PoseResult& pose = run.sweep.poses[0];
+  pose.status = PoseStatus::kLeftPatch;
+  pose.reason = "beyond";
+  pose.event_seconds = 3e-4;
+  write_run(path_, run);
+  const PoseResult back = read_run(path_).sweep.poses[0];
+  EXPECT_EQ(back.status, PoseStatus::kLeftPatch);
+  EXPECT_EQ(back.reason, "beyond");
+  EXPECT_TRUE(back.solved());
+  EXPECT_EQ(back.X_BA.p, pose.X_BA.p);
+  EXPECT_TRUE(back.contacts[0].closed);
+  ASSERT_EQ(back.contacts[0].points.size(), pose.contacts[0].points.size());
+  EXPECT_EQ(back.contacts[0].points[0].force, pose.contacts[0].points[0].force);
+  EXPECT_EQ(back.ligaments[0].force, pose.ligaments[0].force);
+  EXPECT_EQ(back.stability, pose.stability);
+  EXPECT_EQ(back.event_seconds, 3e-4);
+}
+
 TEST_F(RunFile, MarksAFailedPoseWithNanAndItsReason) {
   write_run(path_, made_up_run());
   const Hdf5Reader reader(path_);
