@@ -1,6 +1,7 @@
 #include "elements/joint_coordinates.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +30,23 @@ JointCoordinates joint_coordinates(const JointFrames& frames, const RigidTransfo
   q.anterior_drawer = H.dot(n) / cosine;
   q.distraction = -H.dot(e3);
   return q;
+}
+
+RigidTransform pose_from_joint_coordinates(const JointFrames& frames, const JointCoordinates& q) {
+  RigidTransform X;
+  X.R = rotation_from_joint_angles(frames, q.flexion, q.adduction, q.internal_rotation);
+  const Eigen::Vector3d e1 = (frames.tibia_moves ? frames.X_F.R : X.R * frames.X_F.R).col(0);
+  const Eigen::Vector3d e3 = (frames.tibia_moves ? X.R * frames.X_T.R : frames.X_T.R).col(2);
+  const Eigen::Vector3d n = e3.cross(e1);
+  // H.e1, H.n and H.e3 are given; e1 and e3 need not be at right angles.
+  Eigen::Matrix3d axes;
+  axes << e1.transpose(), n.transpose(), e3.transpose();
+  const Eigen::Vector3d along(frames.side * q.lateral_shift, q.anterior_drawer * n.norm(),
+                              -q.distraction);
+  const Eigen::Vector3d H = axes.fullPivLu().solve(along);
+  X.p = frames.tibia_moves ? Eigen::Vector3d(frames.X_F.p + H - X.R * frames.X_T.p)
+                           : Eigen::Vector3d(frames.X_T.p - H - X.R * frames.X_F.p);
+  return X;
 }
 
 Eigen::Matrix3d rotation_from_joint_angles(const JointFrames& frames,

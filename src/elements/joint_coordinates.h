@@ -33,6 +33,10 @@ struct JointFrames {
 [[nodiscard]] JointCoordinates joint_coordinates(const JointFrames& frames,
                                                  const RigidTransform& X_BA);
 
+/// The pose X_BA that has given joint coordinates.
+[[nodiscard]] RigidTransform pose_from_joint_coordinates(const JointFrames& frames,
+                                                         const JointCoordinates& q);
+
 /// The rotation R_BA that has the given angles [rad].
 [[nodiscard]] Eigen::Matrix3d rotation_from_joint_angles(const JointFrames& frames,
                                                          double flexion,

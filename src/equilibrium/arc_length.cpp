@@ -75,9 +75,9 @@ class PathFollower {
   bool describe(const PathPoint& point) {
     swept_.in(model_) = point.value;
     solver_.set_state(point.state);
-    PoseResult pose = solver_.solve(/*patient=*/false);
+    PoseResult pose = solver_.solve(Patience::kNone);
     pose.value = point.value;
-    const bool usable = is_solved(pose);
+    const bool usable = pose.solved();
     append(std::move(pose));
     return usable;
   }

@@ -65,6 +65,8 @@ Model build_model(const Scene& scene, const std::vector<FittedSurface>& surfaces
     const bool first_fixed = scene.surfaces[first].body == fixed;
     pair.on_B = surfaces[first_fixed ? first : second].surface;
     pair.on_A = surfaces[first_fixed ? second : first].surface;
+    pair.surface_B = scene.surfaces[first_fixed ? first : second].name;
+    pair.surface_A = scene.surfaces[first_fixed ? second : first].name;
     pair.mode = mode_of(description.state);
     pair.start = description.start;
     pair.elastic_B = scene.surfaces[first_fixed ? first : second].elastic;

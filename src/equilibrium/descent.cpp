@@ -55,7 +55,8 @@ DescentReport Descent::solve(EquilibriumState& state, const Accept& accept, int 
   DescentReport report;
   const Eigen::Vector3d origin = state.X.p;
   start(state.X);
-  while (report.steps < max_steps && iterate(accept, report)) {
+  // Attempts of Newton's method within count as well.
+  while (report.steps < max_steps && report.iterations < 2 * max_steps && iterate(accept, report)) {
     report.ran_away = (X_.p - origin).norm() > 50 * model_.length;
     if (report.ran_away) break;
   }

@@ -1,10 +1,12 @@
 #include "equilibrium/describe_pose.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "elements/hertz.h"
 #include "equilibrium/contact_scales.h"
 #include "equilibrium/contact_shape.h"
+#include "equilibrium/edge_in_words.h"
 #include "equilibrium/joint_stiffness.h"
 #include "equilibrium/stability.h"
 
@@ -98,8 +100,7 @@ void describe_closed_point(const Model& model,
   if (const std::optional<Objection> reason = objection(touch, pair.name)) {
     set_status(result, *reason);
   } else if (edge < 0 && touch != Touch::kLine) {
-    set_status(result, {PoseStatus::kLeftPatch,
-                        "contact \"" + pair.name + "\" lies beyond the known part of its surface"});
+    set_status(result, {PoseStatus::kLeftPatch, edge_in_words(model, closed)});
   }
 }
 
@@ -176,6 +177,8 @@ void clear(PoseResult& result) {
   result.status = PoseStatus::kNotComputed;
   result.reason.clear();
   result.remark.clear();
+  result.X_BA.p.setConstant(std::numeric_limits<double>::quiet_NaN());
+  result.event_seconds = 0;
   result.joint = JointCoordinates();
   result.stability = -1;
   result.lowest_stiffness = PoseResult().lowest_stiffness;

@@ -9,21 +9,13 @@
 #include "equilibrium/contact_search.h"
 #include "equilibrium/contact_shape.h"
 #include "equilibrium/dependence.h"
+#include "equilibrium/edge_in_words.h"
 #include "equilibrium/motion_name.h"
 #include "equilibrium/stability.h"
 #include "math/rotation.h"
 
 namespace condyle {
 namespace {
-
-/// Where Newton stopped for a singular matrix: what depends on what, or which motion is free.
-std::string why_singular(const Model& model, const NewtonSystem& system, const RigidTransform& X) {
-  const std::string dependent = dependent_constraints(model, system);
-  if (!dependent.empty()) return dependent;
-  const Stability now = stability(model, system);
-  if (now.neutral) return "nothing resists " + name_motions(model, X, now.free);
-  return "the matrix is singular on the way; softest is " + name_motions(model, X, now.motion);
-}
 
 /// The state with every contact that touches or overlaps there, and those that are held closed.
 EquilibriumState with_all_contacts(const Model& model,
@@ -125,92 +117,174 @@ std::string names_of_pairs(const Model& model) {
   return (names.size() == 1 ? "contact " : "contacts ") + joined(names);
 }
 
-void set(PoseResult& result, PoseStatus status, std::string reason) {
-  result.status = status;
-  result.reason = std::move(reason);
-}
+/// What is known of a pose that was not solved.
+struct Failure {
+  const Model& model;
+  NewtonSystem& system;
+  std::vector<ContactSearch>& searches;
+  const EquilibriumState& state;  ///< the last that was tried
+  const Attempt& attempt;
+  std::string singular;          ///< why Newton's matrix was, where it was
+  std::optional<Objection> why;  ///< what rigid contact cannot say about a contact there
+};
 
-bool too_many_conditions(const Model& model, PoseResult& result) {
-  if (model.conditions.size() <= kMaxConstraints) return false;
+std::string too_many_conditions(const Failure& f) {
+  if (f.model.conditions.size() <= kMaxConstraints) return {};
   std::vector<std::string> names;
-  for (const std::string& name : model.condition_names) names.push_back(quoted(name));
-  set(result, PoseStatus::kSingular,
-      "more than six conditions for the six freedoms of a body: " + joined(names));
-  return true;
+  for (const std::string& name : f.model.condition_names) names.push_back(quoted(name));
+  return "more than six conditions for the six freedoms of a body: " + joined(names);
 }
 
-/// Contacts and conditions that cannot all hold where the descent ended: a body that does not fit.
-bool explain_contradiction(const Model& model,
-                           NewtonSystem& system,
-                           std::vector<ContactSearch>& searches,
-                           const EquilibriumState& state,
-                           PoseResult& result) {
-  const EquilibriumState all = with_all_contacts(model, searches, state);
-  system.assemble(all);
-  const Dependence dependence = find_dependence(model, system);
-  if (!dependence.contradiction) return false;
-  bool overlap = false;
-  for (const std::size_t k : dependence.culprits)
-    overlap |=
-        k < all.contacts.size() &&
-        model.pairs[static_cast<std::size_t>(all.contacts[k].pair)].mode == ContactMode::kAuto;
-  set(result, overlap ? PoseStatus::kOverlap : PoseStatus::kSingular,
-      in_words(model, system, dependence));
-  return true;
+std::string overflowed_force(const Failure& f) {
+  const std::string what = overflowed(f.model, f.state);
+  return what.empty() ? what : what + " has no finite force at the last pose";
 }
+
+std::string passed_through(const Failure& f) {
+  if (f.attempt.passed_pair < 0) return {};
+  const ContactPair& pair = f.model.pairs[static_cast<std::size_t>(f.attempt.passed_pair)];
+  return fmt::format("contact {}: the surfaces have passed through each other by {:.0f} mm",
+                     quoted(pair.name), f.attempt.depth);
+}
+
+template <PoseStatus status>
+std::string touch_without_answer(const Failure& f) {
+  return f.why && f.why->status == status ? f.why->reason : "";
+}
+
+std::string conforming(const Failure& f) {
+  const std::optional<std::size_t> pair = conforming_pair(f.model, f.searches, f.state.X);
+  return pair ? objection(Touch::kConforming, f.model.pairs[*pair].name)->reason : "";
+}
+
+std::string asked_out_of_range(const Failure& f) { return angle_out_of_range(f.model); }
+
+std::string without_length(const Failure& f) {
+  const int element = f.system.assemble(f.state) ? f.attempt.zero_element : f.system.zero_element();
+  if (element < 0) return {};
+  return "line element " + quoted(f.model.element_names[static_cast<std::size_t>(element)]) +
+         " has no length";
+}
+
+/// A contact that carries and has come to an edge: on the way there, or where the descent ended.
+std::string at_an_edge(const Failure& f) {
+  const std::optional<OffSurfaces>& off = f.attempt.off ? f.attempt.off : f.attempt.off_on_the_way;
+  constexpr const char* kNone = ", and no equilibrium was found with the values asked for";
+  if (off && off->contact >= 0)
+    return edge_in_words(f.model, off->state.contacts[static_cast<std::size_t>(off->contact)]) +
+           (f.attempt.off ? "" : " on the way from the pose before") + kNone;
+  constexpr double kTouching = 1e-4, kNear = 0.02;  // of L
+  std::vector<GapMinimum> minima;
+  for (std::size_t p = 0; p < f.model.pairs.size(); ++p) {
+    if (f.model.pairs[p].mode == ContactMode::kOpen) continue;
+    f.searches[p].find(f.state.X, kTouching * f.model.length, minima, kMerge * f.model.length);
+    for (const GapMinimum& minimum : minima) {
+      const ContactPair& pair = f.model.pairs[p];
+      if (minimum.edge > kNear * f.model.length ||
+          is_line(linearize_contact(*pair.on_B, minimum.on_B, *pair.on_A, minimum.on_A, f.state.X),
+                  f.state.X.R))
+        continue;
+      return edge_in_words(f.model, {static_cast<int>(p), minimum.on_B, minimum.on_A, 0}) + kNone;
+    }
+  }
+  return {};
+}
+
+std::string runs_away(const Failure& f) {
+  if (!f.attempt.descent.ran_away) return {};
+  return "the body runs away: nothing carries " + driving_load(f.model, f.state);
+}
+
+/// Contacts and conditions that cannot all hold where the descent ended: with a contact among them
+/// the body does not fit.
+template <bool with_contact>
+std::string contradiction(const Failure& f) {
+  const EquilibriumState all = with_all_contacts(f.model, f.searches, f.state);
+  f.system.assemble(all);
+  const Dependence dependence = find_dependence(f.model, f.system);
+  if (!dependence.contradiction) return {};
+  bool contact = false;
+  for (const std::size_t k : dependence.culprits)
+    contact |=
+        k < all.contacts.size() &&
+        f.model.pairs[static_cast<std::size_t>(all.contacts[k].pair)].mode == ContactMode::kAuto;
+  return contact == with_contact ? in_words(f.model, f.system, dependence) : "";
+}
+
+std::string singular_matrix(const Failure& f) { return f.singular; }
+
+std::string no_set_of_contacts(const Failure& f) {
+  if (f.attempt.newton.outcome != NewtonOutcome::kConverged) return {};
+  return "no points of " + names_of_pairs(f.model) +
+         " were found that carry without overlap or pull";
+}
+
+std::string left_all_bounds(const Failure& f) {
+  if (f.attempt.newton.outcome != NewtonOutcome::kDiverged) return {};
+  f.system.assemble(f.state);
+  return "Newton's method left all bounds: " +
+         worst_condition(f.model, f.system, f.attempt.descent.step);
+}
+
+std::string unsettled(const Failure& f) {
+  f.system.assemble(f.state);
+  return "nothing settled within the iteration limit: " +
+         worst_condition(f.model, f.system, f.attempt.descent.step);
+}
+
+/// What may be to blame, causes before what follows from them. The first that has words is it.
+struct Cause {
+  PoseStatus status;
+  std::string (*words)(const Failure&);
+};
+constexpr Cause kCauses[] = {
+    {PoseStatus::kSingular, too_many_conditions},
+    {PoseStatus::kDiverged, overflowed_force},
+    {PoseStatus::kOverlap, passed_through},
+    {PoseStatus::kSingular, touch_without_answer<PoseStatus::kSingular>},
+    {PoseStatus::kLeftPatch, touch_without_answer<PoseStatus::kLeftPatch>},
+    {PoseStatus::kSingular, conforming},
+    {PoseStatus::kNoEquilibrium, asked_out_of_range},
+    {PoseStatus::kZeroLength, without_length},
+    {PoseStatus::kNoEquilibrium, at_an_edge},
+    {PoseStatus::kNoEquilibrium, runs_away},
+    {PoseStatus::kOverlap, contradiction<true>},
+    {PoseStatus::kSingular, contradiction<false>},
+    {PoseStatus::kSingular, singular_matrix},
+    {PoseStatus::kOverlap, no_set_of_contacts},
+    {PoseStatus::kDiverged, left_all_bounds},
+    {PoseStatus::kIterationLimit, unsettled},
+};
 
 }  // namespace
+
+std::string why_singular(const Model& model, const NewtonSystem& system, const RigidTransform& X) {
+  const std::string dependent = dependent_constraints(model, system);
+  if (!dependent.empty()) return dependent;
+  const Stability now = stability(model, system);
+  if (now.neutral) return "nothing resists " + name_motions(model, X, now.free);
+  return "the matrix is singular on the way; softest is " + name_motions(model, X, now.motion);
+}
 
 void explain_failure(const Model& model,
                      NewtonSystem& system,
                      std::vector<ContactSearch>& searches,
                      const EquilibriumState& state,
                      const Attempt& attempt,
+                     std::string singular,
                      PoseResult& result) {
-  if (too_many_conditions(model, result)) return;
-  const NewtonReport& newton = attempt.newton;
-  const std::string overflow = overflowed(model, state);
-  if (!overflow.empty()) {
-    set(result, PoseStatus::kDiverged, overflow + " has no finite force at the last pose");
+  const Failure failure{model,
+                        system,
+                        searches,
+                        state,
+                        attempt,
+                        std::move(singular),
+                        objection_at(model, searches, state.X)};
+  for (const Cause& cause : kCauses) {
+    result.reason = cause.words(failure);
+    if (result.reason.empty()) continue;
+    result.status = cause.status;
     return;
-  }
-  if (const std::optional<Objection> why = objection_at(model, searches, state.X)) {
-    set(result, why->status, why->reason);
-    return;
-  }
-  if (const std::optional<std::size_t> pair = conforming_pair(model, searches, state.X)) {
-    const Objection why = *objection(Touch::kConforming, model.pairs[*pair].name);
-    set(result, why.status, why.reason);
-    return;
-  }
-  // Newton left the system where it failed.
-  const std::string singular =
-      newton.outcome == NewtonOutcome::kSingular ? why_singular(model, system, state.X) : "";
-  const int without_length = system.assemble(state) ? attempt.zero_element : system.zero_element();
-  const std::string out_of_range = angle_out_of_range(model);
-  if (!out_of_range.empty()) {
-    set(result, PoseStatus::kNoEquilibrium, out_of_range);
-  } else if (without_length >= 0) {
-    set(result, PoseStatus::kZeroLength,
-        "line element " + quoted(model.element_names[static_cast<std::size_t>(without_length)]) +
-            " has no length");
-  } else if (attempt.descent.ran_away) {
-    set(result, PoseStatus::kNoEquilibrium,
-        "the body runs away: nothing carries " + driving_load(model, state));
-  } else if (explain_contradiction(model, system, searches, state, result)) {
-    return;
-  } else if (!singular.empty()) {
-    set(result, PoseStatus::kSingular, singular);
-  } else if (newton.outcome == NewtonOutcome::kConverged) {
-    set(result, PoseStatus::kOverlap,
-        "no points of " + names_of_pairs(model) + " were found that carry without overlap or pull");
-  } else if (newton.outcome == NewtonOutcome::kDiverged) {
-    set(result, PoseStatus::kDiverged,
-        "Newton's method left all bounds: " + worst_condition(model, system, attempt.descent.step));
-  } else {
-    set(result, PoseStatus::kIterationLimit,
-        "nothing settled within the iteration limit: " +
-            worst_condition(model, system, attempt.descent.step));
   }
 }
 

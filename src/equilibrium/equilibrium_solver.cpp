@@ -3,14 +3,28 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <tuple>
 
 #include "equilibrium/contact_rules.h"
 #include "equilibrium/contact_scales.h"
 #include "equilibrium/contact_shape.h"
 #include "equilibrium/diagnosis.h"
+#include "equilibrium/second_equilibrium.h"
 #include "math/rotation.h"
 
 namespace condyle {
+namespace {
+
+/// Where the way from the last pose ended: what a failure is explained by.
+struct Failed {
+  EquilibriumState state;
+  NewtonReport newton;
+  DescentReport descent;
+  std::string singular;  ///< why the matrix was, where it was
+};
+
+}  // namespace
+
 EquilibriumSolver::EquilibriumSolver(Model model, EquilibriumOptions options)
     : model_(std::make_unique<Model>(std::move(model))),
       options_(options),
@@ -18,6 +32,7 @@ EquilibriumSolver::EquilibriumSolver(Model model, EquilibriumOptions options)
       newton_(*model_, options_.newton),
       descent_(*model_, searches_, newton_, options_.descent),
       predictor_(*model_) {
+  for (const ContactPair& pair : model_->pairs) passed_.emplace_back(pair, model_->length);
   state_.contacts.reserve(kMaxConstraints);
   state_.sigma.assign(model_->conditions.size(), 0);
   state_.X = model_->start;
@@ -32,6 +47,13 @@ void EquilibriumSolver::set_state(const EquilibriumState& state) {
   state_ = state;
   solved_ = target_;
   has_state_ = true;
+}
+
+void EquilibriumSolver::go_back(const Standing& standing) {
+  predictor_.clear();
+  state_ = standing.state;
+  solved_ = standing.solved;
+  has_state_ = standing.has_state;
 }
 
 void EquilibriumSolver::read_drive(Drive& drive) const {
@@ -98,31 +120,66 @@ bool EquilibriumSolver::on_minima(const EquilibriumState& state) const {
   return true;
 }
 
-/// False where a contact lies far beyond the known part of a surface, or an open pair has passed
-/// through itself: no part of one surface faces the other, or one is buried.
-bool EquilibriumSolver::on_surfaces(const EquilibriumState& state) {
-  for (const ClosedContact& contact : state.contacts)
-    if (edge_distance(model_->pairs[contact.pair], contact.on_B, contact.on_A) <
-        -0.1 * model_->length)
-      return false;
-  return faces(state);
+/// The contact that lies farthest beyond the known part of a surface, and how far [mm]; -1 where
+/// none does. A line lies at edges by its nature.
+std::pair<int, double> EquilibriumSolver::farthest_beyond(const EquilibriumState& state) const {
+  std::pair<int, double> farthest{-1, 0};
+  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+    const ClosedContact& contact = state.contacts[k];
+    const ContactPair& pair = model_->pairs[static_cast<std::size_t>(contact.pair)];
+    const double beyond = -edge_distance(pair, contact.on_B, contact.on_A);
+    if (beyond <= farthest.second) continue;
+    const Touch touch = examine_touch(pair, newton_.system().contacts()[k], contact.on_B,
+                                      contact.on_A, state.X, model_->length)
+                            .kind;
+    if (touch != Touch::kLine) farthest = {static_cast<int>(k), beyond};
+  }
+  return farthest;
 }
 
-bool EquilibriumSolver::carries_and_clear(EquilibriumState& state) {
+/// False where a contact lies beyond the known part of a surface, or the surfaces of an open pair
+/// are not over each other, buried, or have passed through each other. Such an equilibrium is kept
+/// in the attempt.
+bool EquilibriumSolver::on_surfaces(const EquilibriumState& state, Attempt& attempt) {
+  OffSurfaces off;
+  std::tie(off.contact, off.beyond) = farthest_beyond(state);
+  if (off.contact < 0) {
+    if (faces(state, attempt)) return true;
+    if (attempt.passed_pair >= 0) return false;  // no equilibrium to be told of
+    off.beyond = OffSurfaces().beyond;
+  }
+  std::optional<OffSurfaces>& kept = on_the_way_ ? attempt.off_on_the_way : attempt.off;
+  if (!kept || (!on_the_way_ && off.beyond < kept->beyond)) {
+    off.state = state;
+    kept = off;
+  }
+  return false;
+}
+
+bool EquilibriumSolver::carries_and_clear(EquilibriumState& state, Attempt& attempt) {
   bool too_many = false;
   EquilibriumState copy = state;
   return on_minima(state) && !release_pulling(copy) && !add_overlaps(copy, too_many) && !too_many &&
-         on_surfaces(state);
+         on_surfaces(state, attempt);
 }
 
-bool EquilibriumSolver::faces(const EquilibriumState& state) {
+/// Are the surfaces of open pairs on their right sides?
+bool EquilibriumSolver::faces(const EquilibriumState& state, Attempt& attempt) {
   const double L = model_->length;
   for (std::size_t p = 0; p < searches_.size(); ++p) {
     if (model_->pairs[p].mode != ContactMode::kAuto || !searches_[p].has_samples()) continue;
     const bool closed =
         std::any_of(state.contacts.begin(), state.contacts.end(),
                     [p](const ClosedContact& c) { return c.pair == static_cast<int>(p); });
-    if (closed) continue;
+    if (closed) {
+      passed_[p].trust(state.X);
+      continue;
+    }
+    if (const std::optional<double> depth = passed_[p].depth_of_clear_pose(state.X)) {
+      attempt.passed_pair = static_cast<int>(p);
+      attempt.depth = *depth;
+      return false;
+    }
     searches_[p].find_nearest(state.X, kAnywhere * L, minima_, kMerge * L);
     if (minima_.empty() || minima_.front().gap < -options_.description.overlap * L / 30)
       return false;
@@ -142,140 +199,65 @@ bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
     bool too_many = false;
     if (add_overlaps(state, too_many)) continue;
     if (too_many || !on_minima(state)) return false;
-    attempt.off_surfaces = !on_surfaces(state);
-    return !attempt.off_surfaces;
+    return on_surfaces(state, attempt);
   }
   return false;
 }
 
-bool EquilibriumSolver::descend(EquilibriumState& state, Attempt& attempt) {
-  constexpr int kFewSteps = 10;  // where conforming surfaces leave the answer open
-  const bool open_ended = conforming_pair(*model_, searches_, state.X).has_value();
-  attempt.descent = descent_.solve(
-      state, [this](EquilibriumState& s) { return carries_and_clear(s); },
-      open_ended ? kFewSteps : options_.descent.max_steps);
-  attempt.newton = attempt.descent.newton;
-  attempt.iterations += attempt.descent.iterations;
-  return attempt.descent.converged;
-}
-
-/// From a solved state to another drive in parts: halved where a part fails, doubled where it
-/// succeeds.
-bool EquilibriumSolver::advance(EquilibriumState& state,
-                                const Drive& from,
-                                const Drive& to,
-                                Attempt& attempt) {
-  constexpr double kLongest = 0.5, kShortest = 1.0 / 256, kDescend = 1.0 / 32;
-  double part = kLongest;
-  for (double t = 0; t < 1;) {
-    const double next = std::min(1.0, t + part);
-    set_drive(from, to, next);
-    EquilibriumState trial = state;
-    bool solved = settle(trial, attempt);
-    if (!solved && part <= kDescend) {
-      trial = state;
-      solved = descend(trial, attempt);
-    }
-    if (solved) {
-      state = trial;
-      t = next;
-      part = std::min(2 * part, kLongest);
-    } else if ((part /= 2) < kShortest) {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// Newton from the first estimates of contact points that the scene gives, if it gives any.
-bool EquilibriumSolver::settle_at_estimates(EquilibriumState& state, Attempt& attempt) {
-  EquilibriumState trial = state;
-  for (std::size_t p = 0; p < model_->pairs.size(); ++p) {
-    const ContactPair& pair = model_->pairs[p];
-    if (pair.mode == ContactMode::kOpen) continue;
-    for (const Eigen::Vector3d& on_B : pair.start) {
-      if (trial.contacts.size() + trial.sigma.size() >= kMaxConstraints) break;
-      const Eigen::Vector3d on_A = state.X.inverse() * on_B;
-      trial.contacts.push_back({static_cast<int>(p),
-                                pair.on_B->closest(on_B, pair.on_B->seed(on_B)),
-                                pair.on_A->closest(on_A, pair.on_A->seed(on_A)), 0});
-    }
-  }
-  if (trial.contacts.empty() || !settle(trial, attempt)) return false;
-  state = trial;
-  return true;
-}
-
-bool EquilibriumSolver::find_first(EquilibriumState& state, Attempt& attempt) {
-  return settle_at_estimates(state, attempt) || descend(state, attempt);
-}
-
-/// The first pose: where the start is far from what the conditions prescribe, the equilibrium at
-/// the start's own values comes first.
-bool EquilibriumSolver::solve_first(EquilibriumState& state,
-                                    const Drive& target,
-                                    Attempt& attempt) {
-  constexpr double kFar = 0.1;  // of L
-  Drive own = target;
-  bool far = false;
-  for (std::size_t i = 0; i < model_->conditions.size(); ++i) {
-    const KinematicCondition& condition = model_->conditions[i];
-    const double k = evaluate(condition, state.X).k;
-    own.values[i] = target.values[i] + k;
-    far |= std::abs(k) * condition_weight(*model_, i) > kFar * model_->length;
-  }
-  if (!far) return find_first(state, attempt);
-  set_drive(own, own, 1);
-  return find_first(state, attempt) && advance(state, own, target, attempt);
-}
-
-/// Newton from where the poses before point to, or from the last one; else the descent; else the
-/// way from the last pose in parts.
-bool EquilibriumSolver::solve_from_last(EquilibriumState& state, Attempt& attempt, bool patient) {
-  if (predictor_.predict(target_, state) && settle(state, attempt)) return true;
-  state = state_;
-  if (settle(state, attempt)) return true;
-  const bool off_surfaces = attempt.off_surfaces;
-  if (off_surfaces) trial_ = state;
-  if (descend(state = state_, attempt)) return true;
-  if (off_surfaces) {
-    // Both ways end off the known surfaces: the pose says so itself.
-    state = trial_;
-    return newton_.solve(state).outcome == NewtonOutcome::kConverged;
-  }
-  return patient && advance(state = state_, solved_, target_, attempt);
-}
-
-void EquilibriumSolver::solve(PoseResult& result, bool patient) {
+void EquilibriumSolver::solve(PoseResult& result, Patience patience) {
   const auto begin = std::chrono::steady_clock::now();
   read_drive(target_);
   Attempt attempt;
-  bool solved = false;
+  attempt.most_iterations = options_.most_iterations / (patience == Patience::kWay ? 3 : 1);
+  from_elsewhere_ = false;
+  bool solved = false, at_once = false;
   if (has_state_) {
-    solved = solve_from_last(next_, attempt, patient);
-    set_drive(target_, target_, 1);
+    solved = solve_from_last(next_, attempt, patience);
   } else {
     state_.X.R = orthonormalized(state_.X.R);
     next_ = state_;
-    solved = solve_first(next_, target_, attempt);
-    set_drive(target_, target_, 1);
-    if (!solved) solved = descend(next_ = state_, attempt);
+    at_once = starts_passed_through(attempt);
+    solved = !at_once && solve_first(next_, target_, attempt);
   }
+  std::optional<Failed> failed;
+  if (!solved && patience == Patience::kAll) {
+    set_drive(target_, target_, 1);
+    failed = {next_, attempt.newton, attempt.descent, {}};
+    if (attempt.newton.outcome == NewtonOutcome::kSingular)
+      failed->singular = why_singular(*model_, newton_.system(), next_.X);
+    if (!at_once) solved = solve_from_elsewhere(next_, attempt) || solve_from_edge(next_, attempt);
+  }
+  set_drive(target_, target_, 1);
+  if (!solved) solved = take_off_surfaces(next_, attempt);
   clear(result);
   result.iterations = attempt.iterations;
   result.residual = attempt.newton.residual;
   if (solved) {
-    result.status = PoseStatus::kConverged;
-    describe_pose(*model_, newton_.system(), next_, searches_, options_.description, minima_,
-                  result);
-    // Beyond the edge of a patch as well: the next pose may come back.
-    if (result.status != PoseStatus::kOverlap) keep(next_);
-  } else if (patient) {
-    explain_failure(*model_, newton_.system(), searches_, next_, attempt, result);
+    describe(attempt, result);
+  } else if (failed) {
+    attempt.newton = failed->newton;
+    attempt.descent = failed->descent;
+    explain_failure(*model_, newton_.system(), searches_, failed->state, attempt, failed->singular,
+                    result);
   } else {
     result.status = PoseStatus::kIterationLimit;
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void EquilibriumSolver::describe(const Attempt& attempt, PoseResult& result) {
+  result.status = PoseStatus::kConverged;
+  describe_pose(*model_, newton_.system(), next_, searches_, options_.description, minima_, result);
+  if (result.status == PoseStatus::kLeftPatch && attempt.off) {
+    edge_ = *attempt.off;
+    has_edge_ = true;
+  }
+  if (result.converged()) {
+    keep(next_);
+    if (attempt.other)
+      add_remark(result,
+                 second_equilibrium(*model_, next_.X, *attempt.other, "from another start"));
+  }
 }
 
 void EquilibriumSolver::keep(const EquilibriumState& state) {
@@ -283,12 +265,13 @@ void EquilibriumSolver::keep(const EquilibriumState& state) {
   state_.X.R = orthonormalized(state.X.R);
   solved_ = target_;
   has_state_ = true;
+  has_edge_ = false;
   predictor_.add(target_, state_);
 }
 
-PoseResult EquilibriumSolver::solve(bool patient) {
+PoseResult EquilibriumSolver::solve(Patience patience) {
   PoseResult result;
-  solve(result, patient);
+  solve(result, patience);
   return result;
 }
 

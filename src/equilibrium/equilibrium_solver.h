@@ -5,11 +5,15 @@
 /// Newton on the contacts of the pose before comes first; then contacts that pull are released,
 /// overlaps that the search finds become contacts, and Newton goes on, until forces and gaps agree
 /// (Dortmans repeats the increment likewise [1986, 4.6], but cannot find a new contact). Where this
-/// does not settle, the step from the last pose is taken in parts, halved as needed; where no part
-/// settles, and for the first pose, the descent finds the way. A pose is converged only when no
-/// part of the known surfaces overlaps by more than `overlap`.
+/// does not settle, the descent looks for a way from the last pose, then the step from there is
+/// taken in parts, halved as needed; then the descent starts anew from the scene's start pose and
+/// from the last pose, both carried to the values asked for (carried_pose.h). A pose is converged
+/// only when no part of the known surfaces overlaps by more than `overlap` and every contact lies
+/// on them. An equilibrium on a surface extrapolated beyond its known part is told where no other
+/// is found, and no pose goes on from it. All ways together are bounded by counted iterations.
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "equilibrium/attempt.h"
@@ -17,6 +21,7 @@
 #include "equilibrium/descent.h"
 #include "equilibrium/describe_pose.h"
 #include "equilibrium/newton.h"
+#include "equilibrium/passed_through.h"
 #include "equilibrium/pose_result.h"
 #include "equilibrium/predictor.h"
 
@@ -26,6 +31,15 @@ struct EquilibriumOptions {
   NewtonOptions newton;
   DescentOptions descent;
   PoseDescriptionOptions description;
+  int most_iterations = 450;  ///< of Newton and of the descent, spent on one pose; a third of them
+                              ///< on one that is only followed from the pose before it
+};
+
+/// How much is tried where the step from the last pose does not settle.
+enum class Patience {
+  kNone,  ///< the descent from there
+  kWay,   ///< and the way from there in parts
+  kAll    ///< and other starts; a failure is explained
 };
 
 class EquilibriumSolver {
@@ -38,15 +52,29 @@ class EquilibriumSolver {
   [[nodiscard]] Model& model() { return *model_; }
 
   /// Solves from the last converged state, or from the model's start when there is none. The state
-  /// is kept when the pose converges. Without patience a step that does not settle is not taken in
-  /// parts, and a failure is not explained.
+  /// is kept when the pose converges.
   /// Allocates nothing once `result` and the solver have held a pose of this model.
-  void solve(PoseResult& result, bool patient = true);
-  PoseResult solve(bool patient = true);
+  void solve(PoseResult& result, Patience patience = Patience::kAll);
+  PoseResult solve(Patience patience = Patience::kAll);
 
   /// The last converged state; set_state restores one, solved with the model's present values.
   [[nodiscard]] const EquilibriumState& state() const { return state_; }
   void set_state(const EquilibriumState& state);
+
+  /// From where the next pose starts: the last converged state and its values, or none.
+  struct Standing {
+    EquilibriumState state;
+    Drive solved;
+    bool has_state = false;
+  };
+  [[nodiscard]] Standing standing() const { return {state_, solved_, has_state_}; }
+  void go_back(const Standing& standing);
+
+  /// The state of the last pose solved, converged or beyond the edge of a patch.
+  [[nodiscard]] const EquilibriumState& solution() const { return next_; }
+
+  /// Was the last pose found from another start than the pose before it?
+  [[nodiscard]] bool from_elsewhere() const { return from_elsewhere_; }
 
  private:
   void read_drive(Drive& drive) const;
@@ -58,18 +86,26 @@ class EquilibriumSolver {
   bool advance(EquilibriumState& state, const Drive& from, const Drive& to, Attempt& attempt);
   bool descend(EquilibriumState& state, Attempt& attempt);
   bool settle(EquilibriumState& state, Attempt& attempt);
-  bool solve_from_last(EquilibriumState& state, Attempt& attempt, bool patient);
+  bool solve_from_last(EquilibriumState& state, Attempt& attempt, Patience patience);
+  bool solve_from_elsewhere(EquilibriumState& state, Attempt& attempt);
+  bool descend_from(const RigidTransform& X, EquilibriumState& state, Attempt& attempt);
+  bool solve_from_edge(EquilibriumState& state, Attempt& attempt);
+  bool take_off_surfaces(EquilibriumState& state, const Attempt& attempt);
+  bool starts_passed_through(Attempt& attempt);
+  void describe(const Attempt& attempt, PoseResult& result);
   bool release_pulling(EquilibriumState& state) const;
   void set_known(int pair, const EquilibriumState& state);
   bool add_overlaps(EquilibriumState& state, bool& too_many);
-  [[nodiscard]] bool carries_and_clear(EquilibriumState& state);
+  [[nodiscard]] bool carries_and_clear(EquilibriumState& state, Attempt& attempt);
   [[nodiscard]] bool on_minima(const EquilibriumState& state) const;
-  [[nodiscard]] bool on_surfaces(const EquilibriumState& state);
-  [[nodiscard]] bool faces(const EquilibriumState& state);
+  [[nodiscard]] bool on_surfaces(const EquilibriumState& state, Attempt& attempt);
+  [[nodiscard]] std::pair<int, double> farthest_beyond(const EquilibriumState& state) const;
+  [[nodiscard]] bool faces(const EquilibriumState& state, Attempt& attempt);
 
   std::unique_ptr<Model> model_;
   EquilibriumOptions options_;
   std::vector<ContactSearch> searches_;
+  std::vector<PassedThrough> passed_;
   Newton newton_;
   Descent descent_;
   Predictor predictor_;
@@ -77,6 +113,10 @@ class EquilibriumSolver {
   Drive solved_;  ///< at which state_ was solved
   Drive target_;  ///< of the pose under way
   bool has_state_ = false;
+  OffSurfaces edge_;         ///< the last equilibrium told of beyond an edge
+  bool has_edge_ = false;    ///< since a pose converged
+  bool on_the_way_ = false;  ///< the values under way are not those asked for
+  bool from_elsewhere_ = false;
   std::vector<GapMinimum> minima_;
   std::vector<KnownContact> known_;
 };

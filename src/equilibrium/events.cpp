@@ -87,12 +87,16 @@ class EventSearch {
 
   /// The pose at a value, from another one; nothing where it has no equilibrium.
   std::optional<SolvedPose> pose_at(double value, const SolvedPose& from) {
+    if (wasted_ > options_.most_wasted) return std::nullopt;
     swept_ = from.value;
     solver_.set_state(from.state);
     swept_ = value;
-    SolvedPose pose{value, solver_.solve(/*patient=*/false), {}};
-    if (!is_solved(pose.result)) return std::nullopt;
-    pose.state = solver_.state();
+    SolvedPose pose{value, solver_.solve(Patience::kNone), {}};
+    if (!pose.result.solved()) {
+      wasted_ += pose.result.iterations;
+      return std::nullopt;
+    }
+    pose.state = solver_.solution();
     return pose;
   }
 
@@ -182,13 +186,10 @@ class EventSearch {
   EquilibriumSolver& solver_;
   double& swept_;
   const EventOptions& options_;
+  int wasted_ = 0;  ///< iterations on trials without equilibrium
 };
 
 }  // namespace
-
-bool is_solved(const PoseResult& pose) {
-  return pose.converged() || pose.status == PoseStatus::kLeftPatch;
-}
 
 void locate_events(EquilibriumSolver& solver,
                    double& swept,

@@ -29,13 +29,12 @@ struct EventOptions {
                      ///< in units of L
   double jump =
       0.01;  ///< and has, when it still moves farther than this within the tolerance, in units of L
-  double snap = 0.05;    ///< a body that moved farther than this, in units of L, may have snapped
-                         ///< through
-  int most_events = 16;  ///< between two poses
+  double snap = 0.05;     ///< a body that moved farther than this, in units of L, may have snapped
+                          ///< through
+  int most_events = 16;   ///< between two poses
+  int most_wasted = 1500;  ///< iterations on trials without equilibrium, after which no event more
+                          ///< is looked for between the two poses
 };
-
-/// Does the pose hold contacts that can be compared? Those beyond the edge of a patch do.
-[[nodiscard]] bool is_solved(const PoseResult& pose);
 
 /// Appends the events between two poses of one sweep. `swept` is the value in the solver's model;
 /// it and the solver's state are changed.

@@ -28,7 +28,7 @@ void hand_out_events(const std::vector<Event>& events, int rising, std::vector<K
   std::optional<double> before;
   std::size_t next = 0;
   for (KnownPose& known : poses) {
-    if (!is_solved(known.pose)) continue;
+    if (!known.pose.solved()) continue;
     known.from = before;
     before = known.pose.value;
     for (; next < events.size() && rising * (events[next].value - *before) <= 0; ++next)

@@ -23,6 +23,7 @@ enum class ContactMode { kAuto, kClosed, kOpen };
 struct ContactPair {
   std::string name;
   std::shared_ptr<const Surface> on_B, on_A;
+  std::string surface_B, surface_A;  ///< their names
   ContactMode mode = ContactMode::kAuto;
   std::vector<Eigen::Vector3d> start;  ///< first estimates of contact points, ground frame [mm]
   std::optional<ElasticSurface> elastic_B, elastic_A;  ///< absent: rigid

@@ -24,7 +24,8 @@ enum class PoseStatus {
   kDiverged = 2,        ///< the pose ran away or a number overflowed
   kSingular = 3,   ///< dependent conditions or contacts, or a motion that nothing resists (named in
                    ///< `reason`)
-  kLeftPatch = 4,  ///< a closed contact lies beyond the known part of its surface
+  kLeftPatch = 4,  ///< a closed contact lies beyond the known part of its surface: an equilibrium
+                   ///< on the surface as it is extrapolated there
   kNoEquilibrium = 5,  ///< a load that nothing carries
   kZeroLength = 6,     ///< a line element of zero length
   kOverlap = 7,  ///< the surfaces overlap elsewhere and no admissible set of contacts was found
@@ -117,8 +118,13 @@ struct PoseResult {
   std::optional<JointStiffness> joint_stiffness;  ///< on request; needs joint frames
   int iterations = 0;                             ///< Newton iterations
   double residual = 0;  ///< largest out-of-balance force [N], moments divided by the model's length
-  double seconds = 0;
+  double seconds = 0;   ///< spent on the pose
+  double event_seconds = 0;  ///< spent on the events between the solved pose before it and this one
   [[nodiscard]] bool converged() const { return status == PoseStatus::kConverged; }
+  /// In equilibrium, with all its numbers: converged, or with a contact beyond its patch.
+  [[nodiscard]] bool solved() const {
+    return (converged() || status == PoseStatus::kLeftPatch) && X_BA.p.allFinite();
+  }
 };
 
 /// What happens to a contact at one value of a sweep; the values are those of /events/kind.

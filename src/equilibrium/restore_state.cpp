@@ -21,7 +21,7 @@ Place place_on(const Surface& surface, const Eigen::Vector3d& point) {
 }  // namespace
 
 bool can_restore(const Model& model, const PoseResult& pose) {
-  if (!is_solved(pose) || !pose.X_BA.p.allFinite() || !pose.X_BA.R.allFinite()) return false;
+  if (!pose.solved() || !pose.X_BA.p.allFinite() || !pose.X_BA.R.allFinite()) return false;
   if (pose.contacts.size() != model.pairs.size()) return false;
   if (pose.conditions.size() != model.conditions.size()) return false;
   return std::all_of(pose.contacts.begin(), pose.contacts.end(), [](const ContactResult& contact) {

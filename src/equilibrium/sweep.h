@@ -1,7 +1,12 @@
 #pragma once
 
 /// The sweep: positions of equilibrium over a range of a prescribed motion or a load, each from the
-/// one before it. It takes over what an earlier sweep left.
+/// last one that converged. It takes over what an earlier sweep left.
+///
+/// Values at which none was found are tried again from the next pose that converges, back towards
+/// them; only then are they told. Where the poses on either side of such a gap, of a jump or of a
+/// pose found from another start are followed into each other and do not meet, two positions of
+/// equilibrium exist, and the remark of the pose says so.
 
 #include <functional>
 #include <vector>
@@ -21,7 +26,8 @@ struct SweepOptions {
   /// anew, not searched for. The first value that is not known starts from the pose before it in
   /// the sweep, or, where there is none, from the known one with the nearest value.
   std::vector<KnownPose> known;
-  std::function<void(const PoseResult&)> on_pose;  ///< called after each pose, in order
+  /// Called for each pose in order, when it is final: after a gap for all that lie in it.
+  std::function<void(const PoseResult&)> on_pose;
   /// Called for each pose that was not taken over, when the events before it are located: all that
   /// another sweep has to know.
   std::function<void(const KnownPose&)> on_computed;

@@ -16,7 +16,7 @@ namespace {
 SweepResult run(EquilibriumSolver& solver, double& swept, const std::vector<double>& values) {
   const SweepResult result = sweep(solver, swept, values);
   for (const PoseResult& pose : result.poses)
-    EXPECT_TRUE(is_solved(pose)) << pose.value << ": " << pose.reason;
+    EXPECT_TRUE(pose.solved()) << pose.value << ": " << pose.reason;
   return result;
 }
 

@@ -1,0 +1,37 @@
+#include "equilibrium/second_equilibrium.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "math/rotation.h"
+
+namespace condyle {
+
+bool same_pose(const Model& model, const RigidTransform& a, const RigidTransform& b) {
+  constexpr double kSame = 1e-6;
+  return std::hypot((a.p - b.p).norm() / model.length, (a.R - b.R).norm()) < kSame;
+}
+
+std::string second_equilibrium(const Model& model,
+                               const RigidTransform& here,
+                               const RigidTransform& there,
+                               const std::string& by) {
+  // Of the moving joint frame's origin, where there is one: a body's own may lie anywhere.
+  const Eigen::Vector3d point =
+      !model.joint ? Eigen::Vector3d::Zero()
+                   : (model.joint->tibia_moves ? model.joint->X_T.p : model.joint->X_F.p);
+  const double turn = log_rotation(there.R * here.R.transpose()).norm() * 180 / M_PI;
+  return fmt::format(
+      "a second position of equilibrium exists at this value: {} the body rests {:.2g} mm and "
+      "{:.2g} degrees away",
+      by, (there * point - here * point).norm(), turn);
+}
+
+void add_remark(PoseResult& pose, const std::string& remark) {
+  if (pose.remark.find(remark) != std::string::npos) return;
+  if (!pose.remark.empty()) pose.remark += "; ";
+  pose.remark += remark;
+}
+
+}  // namespace condyle

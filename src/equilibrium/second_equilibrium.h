@@ -1,0 +1,25 @@
+#pragma once
+
+/// Two positions of equilibrium at the same values: told apart, and told of.
+
+#include <string>
+
+#include "equilibrium/model.h"
+#include "equilibrium/pose_result.h"
+
+namespace condyle {
+
+/// Do two poses agree to within 1e-6 L, rotations counted as L dπ?
+[[nodiscard]] bool same_pose(const Model& model, const RigidTransform& a, const RigidTransform& b);
+
+/// "a second position of equilibrium exists at this value: from another start the body rests 3.2 mm
+/// and 4.1 degrees away"
+[[nodiscard]] std::string second_equilibrium(const Model& model,
+                                             const RigidTransform& here,
+                                             const RigidTransform& there,
+                                             const std::string& by);
+
+/// Adds a sentence to the remark of a pose, once.
+void add_remark(PoseResult& pose, const std::string& remark);
+
+}  // namespace condyle

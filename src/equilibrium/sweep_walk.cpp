@@ -1,0 +1,207 @@
+#include "equilibrium/sweep_walk.h"
+
+#include <chrono>
+#include <utility>
+
+#include "equilibrium/restore_state.h"
+#include "equilibrium/second_equilibrium.h"
+
+namespace condyle {
+
+SweepWalk::SweepWalk(EquilibriumSolver& solver, double& swept, const SweepOptions& options)
+    : solver_(solver),
+      swept_(swept),
+      options_(options),
+      known_(options.known),
+      start_(solver.standing()) {}
+
+SweepResult SweepWalk::along(const std::vector<double>& values) {
+  stops_.reserve(values.size());
+  for (const double value : values) step(value);
+  tell();
+  note_second_equilibria();
+  SweepResult result;
+  result.poses.reserve(stops_.size());
+  for (Stop& stop : stops_) {
+    result.poses.push_back(std::move(stop.at.result));
+    result.events.insert(result.events.end(), stop.events.begin(), stop.events.end());
+  }
+  return result;
+}
+
+void SweepWalk::step(double value) {
+  Stop& stop = stops_.emplace_back();
+  stop.at.value = value;
+  stop.visit = visits_[value]++;
+  const KnownPose* known = known_.find(value, stop.visit);
+  if (known != nullptr && take_over(*known, stop)) {
+    stop.taken = known;
+  } else {
+    compute(stop);
+  }
+  stop.at.result.value = value;
+  if (!stop.converged()) return;
+  last_converged_ = stops_.size() - 1;
+  mend_gap();
+  tell();
+}
+
+/// False where the known pose does not tell enough, or is none of this model's.
+bool SweepWalk::take_over(const KnownPose& known, Stop& stop) {
+  PoseResult& pose = stop.at.result;
+  if (!known.pose.converged() && known.pose.status != PoseStatus::kLeftPatch) {
+    pose = known.pose;
+    return known.pose.status != PoseStatus::kNotComputed;
+  }
+  if (!can_restore(solver_.model(), known.pose)) return false;
+  swept_ = stop.at.value;
+  solver_.set_state(restore_state(solver_.model(), known.pose));
+  solver_.solve(pose, Patience::kNone);
+  const bool same = agrees(pose, known.pose);
+  if (same) {
+    stop.at.state = solver_.solution();
+    pose.iterations = known.pose.iterations;
+    pose.seconds = known.pose.seconds;
+  }
+  if (!same || !pose.converged()) stand_at_last_converged();
+  return same;
+}
+
+bool SweepWalk::agrees(const PoseResult& pose, const PoseResult& known) const {
+  constexpr double kClose = 1e-6;  // [rad], and of L
+  return pose.status == known.status && (pose.X_BA.R - known.X_BA.R).norm() < kClose &&
+         (pose.X_BA.p - known.X_BA.p).norm() < kClose * solver_.model().length;
+}
+
+void SweepWalk::compute(Stop& stop) {
+  if (!last_converged_) {
+    const KnownPose* nearest = known_.nearest_converged(stop.at.value);
+    if (nearest != nullptr && can_restore(solver_.model(), nearest->pose)) {
+      swept_ = nearest->pose.value;
+      solver_.set_state(restore_state(solver_.model(), nearest->pose));
+    }
+  }
+  swept_ = stop.at.value;
+  solver_.solve(stop.at.result);
+  stop.from_elsewhere = solver_.from_elsewhere();
+  if (stop.at.result.solved()) stop.at.state = solver_.solution();
+}
+
+/// From the pose that has just converged back over those before it that did not, and on again from
+/// those that were found this way.
+void SweepWalk::mend_gap() {
+  const std::size_t end = stops_.size() - 1;
+  const std::size_t begin = told_;
+  if (begin == end) return;
+  std::size_t from = end;
+  for (std::size_t k = end; k-- > begin;)
+    if (mend(stops_[k], stops_[from])) from = k;
+  for (std::size_t k = begin + 1; k < end; ++k)
+    if (stops_[k - 1].converged() && !stops_[k].converged()) mend(stops_[k], stops_[k - 1]);
+  stand_at(stops_[end].at);
+}
+
+bool SweepWalk::mend(Stop& stop, const Stop& from) {
+  if (stop.taken != nullptr) return false;
+  stand_at(from.at);
+  swept_ = stop.at.value;
+  solver_.solve(trial_, Patience::kWay);
+  const double seconds = stop.at.result.seconds + trial_.seconds;
+  const int iterations = stop.at.result.iterations + trial_.iterations;
+  if (trial_.converged() || (trial_.solved() && !stop.at.result.solved())) {
+    stop.at.result = trial_;
+    stop.at.result.value = stop.at.value;
+    stop.at.state = solver_.solution();
+    stop.from_elsewhere = true;
+  }
+  stop.at.result.seconds = seconds;
+  stop.at.result.iterations = iterations;
+  return stop.converged();
+}
+
+/// What has become final is told, in order.
+void SweepWalk::tell() {
+  for (; told_ < stops_.size(); ++told_) {
+    Stop& stop = stops_[told_];
+    if (stop.at.result.solved()) {
+      find_events(stop);
+      last_solved_ = told_;
+    }
+    if (options_.on_pose) options_.on_pose(stop.at.result);
+    if (stop.taken == nullptr && options_.on_computed)
+      options_.on_computed({stop.at.result, stop.visit, stop.from, stop.events});
+  }
+}
+
+/// Events since the last solved pose. The solver then stands at the last converged one.
+void SweepWalk::find_events(Stop& stop) {
+  if (!options_.events || !last_solved_) return;
+  const Stop& last = stops_[*last_solved_];
+  stop.from = last.at.value;
+  if (stop.taken != nullptr && last.taken != nullptr && stop.taken->from &&
+      same_value(*stop.taken->from, last.at.value)) {
+    stop.events = stop.taken->events;
+    return;
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  locate_events(solver_, swept_, last.at, stop.at, stop.events);
+  stand_at_last_converged();
+  stop.at.result.event_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void SweepWalk::stand_at(const SolvedPose& pose) {
+  swept_ = pose.value;
+  solver_.set_state(pose.state);
+}
+
+void SweepWalk::stand_at_last_converged() {
+  if (last_converged_) return stand_at(stops_[*last_converged_].at);
+  solver_.go_back(start_);
+}
+
+/// Did the sweep go from one converged pose to the next on one branch, so far as is known?
+bool SweepWalk::continuous(std::size_t a, std::size_t b) const {
+  if (b > a + 1 || stops_[a].from_elsewhere || stops_[b].from_elsewhere) return false;
+  for (const Event& event : stops_[b].events)
+    if (event.kind == EventKind::kJump || event.kind == EventKind::kLimitPoint) return false;
+  return true;
+}
+
+/// Where the sweep may have changed from one branch of equilibria to another, both are followed
+/// into each other.
+void SweepWalk::note_second_equilibria() {
+  std::optional<std::size_t> last;
+  for (std::size_t k = 0; k < stops_.size(); ++k) {
+    if (!stops_[k].converged()) continue;
+    if (last && !continuous(*last, k)) {
+      follow(*last, 1);
+      follow(k, -1);
+    }
+    last = k;
+  }
+  stand_at_last_converged();
+}
+
+void SweepWalk::follow(std::size_t from, int way) {
+  SolvedPose at = stops_[from].at;
+  for (auto k = static_cast<std::ptrdiff_t>(from) + way;
+       k >= 0 && k < static_cast<std::ptrdiff_t>(stops_.size()); k += way) {
+    Stop& stop = stops_[static_cast<std::size_t>(k)];
+    if (!stop.converged()) continue;
+    stand_at(at);
+    swept_ = stop.at.value;
+    solver_.solve(trial_, Patience::kNone);
+    stop.at.result.seconds += trial_.seconds;
+    const RigidTransform& X = stop.at.result.X_BA;
+    if (!trial_.converged() || same_pose(solver_.model(), X, trial_.X_BA)) return;
+    add_remark(stop.at.result,
+               second_equilibrium(solver_.model(), X, trial_.X_BA,
+                                  way > 0 ? "followed from the poses before it in the sweep"
+                                          : "followed back from the poses after it in the sweep"));
+    at.value = stop.at.value;
+    at.state = solver_.solution();
+  }
+}
+
+}  // namespace condyle
