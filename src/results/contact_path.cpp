@@ -78,6 +78,21 @@ bool is_jump(const Steps& steps, std::size_t step) {
          steps.speed[step] > kFaster * speed_around(steps.speed, step);
 }
 
+/// The point of a contact that lies nearest to a place [mm, ground frame].
+const ContactPointResult* nearest_point(const ContactResult& contact, const Eigen::Vector3d& p) {
+  return &*std::min_element(contact.points.begin(), contact.points.end(),
+                            [&](const ContactPointResult& a, const ContactPointResult& b) {
+                              return (a.point_ground - p).norm() < (b.point_ground - p).norm();
+                            });
+}
+
+/// Does another point carry most from one pose to the next, while both are there?
+bool changes_point(const SweepResult& sweep, std::size_t from, std::size_t to, std::size_t c) {
+  const ContactPointResult *a = place_of(sweep, from, c), *b = place_of(sweep, to, c);
+  return nearest_point(sweep.poses[to].contacts[c], a->point_ground) != b ||
+         nearest_point(sweep.poses[from].contacts[c], b->point_ground) != a;
+}
+
 /// Pieces that no event and no missing pose divides.
 std::vector<Piece> unbroken(const SweepResult& sweep, std::size_t contact) {
   std::vector<Piece> pieces;
@@ -101,7 +116,8 @@ std::vector<Piece> contact_path(const SweepResult& sweep, std::size_t contact) {
     const Steps steps = steps_of(sweep, whole, contact);
     path.push_back({whole.front()});
     for (std::size_t i = 1; i < whole.size(); ++i) {
-      if (is_jump(steps, i - 1)) path.emplace_back();
+      if (is_jump(steps, i - 1) || changes_point(sweep, whole[i - 1], whole[i], contact))
+        path.emplace_back();
       path.back().push_back(whole[i]);
     }
   }

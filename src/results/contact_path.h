@@ -15,6 +15,7 @@ namespace condyle {
 ///   where the contact is open or a pose did not converge;
 ///   where /events holds a jump of the contact, an opening and a closing of it, or a limit point of
 ///   the joint between two poses;
+///   where another point of the contact comes to carry most;
 ///   where a step is more than 3 mm and more than four times as long per unit of the swept value as
 ///   the steps around it, or more than 25 mm.
 [[nodiscard]] std::vector<std::vector<std::size_t>> contact_path(const SweepResult& sweep,

@@ -79,6 +79,17 @@ TEST(ContactPath, BreaksWhereAnEventSaysSo) {
   EXPECT_EQ(contact_path(sweep, 0).size(), 1U) << "a second point begins to carry";
 }
 
+TEST(ContactPath, BreaksWhereAnotherPointComesToCarryMost) {
+  SweepResult sweep = along({0, 1, 2, 3, 4, 5});
+  for (std::size_t i = 1; i < 5; ++i) {  // a second point 4 mm away, stronger at two poses
+    std::vector<ContactPointResult>& points = sweep.poses[i].contacts[0].points;
+    points.push_back(points[0]);
+    points[1].point_ground.y() = points[1].point_moving.y() = 4;
+    points[1].force = i == 2 || i == 3 ? 2 : 0.5;
+  }
+  EXPECT_EQ(contact_path(sweep, 0), (Path{{0, 1}, {2, 3}, {4, 5}}));
+}
+
 TEST(ContactPath, KnowsWhatIsJoined) {
   const Path path = {{0, 1, 2}, {4, 5}};
   EXPECT_TRUE(joined(path, 0, 2));
