@@ -12,6 +12,7 @@ namespace {
 constexpr double kDegree = M_PI / 180;
 
 void print_head() {
+  fmt::print("from the mesh to the patch:\n");
   fmt::print("{:<20}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>18}{:>7}\n", "patch", "points", "smooth",
              "rms", "95 %", "max", "core", "normals", "core curvature", "time");
   fmt::print("{:<20}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>18}{:>7}\n", "", "", "mm", "mm", "mm",
@@ -38,8 +39,9 @@ void print_known_part(const FitReport& report) {
 }
 
 void print_known_head() {
-  fmt::print("\n{:<20}{:>18}{:>9}{:>9}{:>9}{:>18}{:>18}{:>7}{:>10}\n", "known part",
-             "to mesh:", "rms", "95 %", "max", "size", "turn", "area", "condition");
+  fmt::print("\nfrom the patch, where it is known and can touch, to the mesh:\n");
+  fmt::print("{:<20}{:>18}{:>9}{:>9}{:>9}{:>18}{:>18}{:>7}{:>10}\n", "known part", "", "rms",
+             "95 %", "max", "size", "turn", "area", "condition");
   fmt::print("{:<20}{:>18}{:>9}{:>9}{:>9}{:>18}{:>18}{:>7}{:>10}\n", "", "", "mm", "mm", "mm", "mm",
              "deg", "mm^2", "");
 }

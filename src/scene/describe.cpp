@@ -83,7 +83,8 @@ std::string source_of(const Scene& scene, const SurfaceDescription& surface) {
                            : *patch.compartment == Compartment::kMedial ? "medial compartment"
                                                                         : "lateral compartment";
   const MeshFile& mesh = patch.mesh ? *patch.mesh : *body.mesh;
-  return fmt::format(", {} of {}", part, mesh.path.filename().string());
+  return fmt::format(", {} of {}{}", part, mesh.path.filename().string(),
+                     patch.offset > 0 ? fmt::format(", moved {:g} mm out", patch.offset) : "");
 }
 
 void describe_bodies(const Scene& scene, Out out) {

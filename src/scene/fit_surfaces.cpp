@@ -20,6 +20,7 @@
 #include "surface/exact_surfaces.h"
 #include "surface/fit_figures.h"
 #include "surface/fit_patch.h"
+#include "surface/offset_patch.h"
 #include "surface/patch.h"
 
 namespace condyle {
@@ -51,7 +52,7 @@ MeshFile mesh_of(const Scene& scene, const SurfaceDescription& surface) {
 
 void check_patch(const Scene& scene, const SurfaceDescription& surface) {
   const std::string place = place_of(scene, surface);
-  if (surface.patch.region_box) return;
+  if (!surface.patch.compartment && surface.patch.region_box) return;
   if (!surface.patch.compartment)
     throw InputError(fmt::format(
         "{}: a patch needs compartment = \"medial\" or \"lateral\", or region = {{ box = ... }}",
@@ -105,7 +106,7 @@ bool is_tibia(const Scene& scene, const Source& source) {
 
 bool needs_compartments(const Scene& scene, const Source& source) {
   return std::any_of(source.surfaces.begin(), source.surfaces.end(),
-                     [&](int i) { return !scene.surfaces[i].patch.region_box; });
+                     [&](int i) { return scene.surfaces[i].patch.compartment.has_value(); });
 }
 bool needs_axis(const Scene& scene, const Source& source) {
   return is_femur(scene, source) && needs_compartments(scene, source);
@@ -160,10 +161,18 @@ ArticularRegion find_region(const Scene& scene,
                             const Source& source,
                             const PatchDescription& patch) {
   const TriangleMesh& mesh = source.mesh.mesh;
-  if (patch.region_box) return box_region(mesh, *patch.region_box);
+  if (!patch.compartment) return box_region(mesh, *patch.region_box);
+  RegionOptions options;
+  options.box = patch.region_box;
+  if (patch.region_angles) {
+    options.femur_first_angle = (*patch.region_angles)[0];
+    options.femur_last_angle = (*patch.region_angles)[1];
+  }
+  if (patch.region_least_cosine)
+    options.femur_least_cosine = options.tibia_least_cosine = *patch.region_least_cosine;
   const Half half = *patch.compartment == Compartment::kMedial ? Half::kMedial : Half::kLateral;
-  if (source.axis) return femoral_region(mesh, *source.axis, half);
-  return tibial_region(mesh, bone_frame(scene.joint->tibia), half);
+  if (source.axis) return femoral_region(mesh, *source.axis, half, options);
+  return tibial_region(mesh, bone_frame(scene.joint->tibia), half, options);
 }
 
 FitReport report_of(const std::string& name, const ArticularRegion& region, const PatchFit& fit) {
@@ -206,6 +215,17 @@ FitReport report_of(const std::string& name, const ArticularRegion& region, cons
   return report;
 }
 
+/// Moves patch and region; says how well.
+std::string move_out(double offset, ArticularRegion& region, PatchFit& fit) {
+  OffsetPatch moved = offset_patch(region, fit, offset);
+  fit.patch = std::move(moved.patch);
+  region.mesh = std::move(moved.region);
+  return fmt::format(
+      "moved {:g} mm out of the bone; the spline lies {:.4f} mm rms, {:.4f} mm at most, from the "
+      "surface at that distance",
+      offset, moved.rms, moved.max);
+}
+
 FittedSurface fit_one(const Scene& scene, const Source& source, const SurfaceDescription& surface) {
   const auto start = std::chrono::steady_clock::now();
   try {
@@ -218,6 +238,8 @@ FittedSurface fit_one(const Scene& scene, const Source& source, const SurfaceDes
     FitReport report = report_of(surface.name, region, fit);
     for (const std::vector<std::string>& notes : {source.notes, region.notes, fit.notes})
       report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+    if (surface.patch.offset > 0)
+      report.notes.push_back(move_out(surface.patch.offset, region, fit));
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return {std::make_shared<const Patch>(std::move(fit.patch)),

@@ -37,7 +37,7 @@ struct FitReport {
 struct FittedSurface {
   std::shared_ptr<const Surface> surface;
   std::optional<FitReport> report;  ///< patches only
-  TriangleMesh region = {};         ///< patches only: the part of the mesh that was fitted
+  TriangleMesh region = {};  ///< patches only: the part of the mesh that was fitted, moved with it
   std::shared_ptr<const TriangleMesh> bone =
       {};  ///< patches fitted to the mesh of their body only: all of it, as body_mesh returns it
 };

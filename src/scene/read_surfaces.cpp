@@ -51,13 +51,47 @@ void read_fit(const Section& fit, const Scene& scene, PatchDescription& patch) {
   fit.finish();
 }
 
-void read_region(const Section& region, const Scene& scene, PatchDescription& patch) {
+void read_box(const Section& region, const Scene& scene, PatchDescription& patch) {
   const std::string expected = "two opposite corners [[x, y, z], [x, y, z]] of a box";
   const std::vector<Eigen::Vector3d> corners = region.vectors("box", expected);
   if (corners.size() != 2) region.fail("box", expected);
   if ((corners[1] - corners[0]).cwiseAbs().minCoeff() <= 0)
     region.fail("box", expected + " that encloses some volume");
   patch.region_box = {scene.length_to_mm * corners[0], scene.length_to_mm * corners[1]};
+}
+
+void read_angles(const Section& region, const Scene& scene, PatchDescription& patch) {
+  const double turn = M_PI / scene.angle_to_rad;
+  const std::string expected = fmt::format(
+      "two angles [first, last] about the condylar axis, rising, from {:.4g} to {:.4g} (0 distal, "
+      "+ "
+      "posterior)",
+      -turn, turn);
+  const std::vector<double> angles = region.numbers("angles", expected);
+  if (angles.size() != 2 || !(angles[0] < angles[1]) || angles[0] < -turn || angles[1] > turn)
+    region.fail("angles", expected);
+  patch.region_angles = {angles[0] * scene.angle_to_rad, angles[1] * scene.angle_to_rad};
+}
+
+/// A box alone, or the limits of a compartment.
+void read_region(const Section& region,
+                 const Scene& scene,
+                 const SurfaceDescription& surface,
+                 PatchDescription& patch) {
+  if (!patch.compartment || region.has("box")) read_box(region, scene, patch);
+  for (const char* key : {"angles", "least_cosine"})
+    if (!patch.compartment && region.has(key)) region.fail(key, "a compartment beside it");
+  if (region.has("angles")) {
+    if (surface.body != scene.joint->femur.body)
+      region.fail("angles", "angles of a condyle of the femur only");
+    read_angles(region, scene, patch);
+  }
+  if (region.has("least_cosine")) {
+    const std::string expected = "a cosine from 0 to 0.9";
+    const double cosine = region.number("least_cosine", expected);
+    if (cosine < 0 || cosine > 0.9) region.fail("least_cosine", expected);
+    patch.region_least_cosine = cosine;
+  }
   region.finish();
 }
 
@@ -71,17 +105,19 @@ void read_patch(const Section& section, const Scene& scene, SurfaceDescription& 
     section.fail_with(
         fmt::format("no mesh to fit, expected a mesh here or on body \"{}\"", body.name));
   }
-  if (section.has("region")) {
-    if (section.has("compartment"))
-      section.fail("region", "either compartment or region, not both");
-    read_region(section.table("region", "region = { box = [[x, y, z], [x, y, z]] }"), scene, patch);
-  } else {
+  if (section.has("compartment") || !section.has("region")) {
     patch.compartment = section.choice("compartment", compartments);
     const bool known = scene.joint && (surface.body == scene.joint->femur.body ||
                                        surface.body == scene.joint->tibia.body);
     if (!known)
       section.fail("compartment", "a body that [joint] describes, or a region in its place");
   }
+  if (section.has("region"))
+    read_region(section.table("region", "region = { box, angles, least_cosine }"), scene, surface,
+                patch);
+  if (section.has("offset"))
+    patch.offset =
+        scene.length_to_mm * section.number("offset", "a thickness", Range::kNotNegative);
   if (section.has("fit"))
     read_fit(section.table("fit", "fit = { control_points, smoothing }"), scene, patch);
 }

@@ -67,9 +67,14 @@ enum class Compartment { kMedial, kLateral };
 
 /// Which part of a mesh a patch covers, and how it is fitted.
 struct PatchDescription {
-  std::optional<Compartment> compartment;  ///< or a region:
+  std::optional<Compartment> compartment;  ///< absent: all that a box holds
   std::optional<std::array<Eigen::Vector3d, 2>>
-      region_box;                                    ///< two opposite corners, body frame [mm]
+      region_box;  ///< two opposite corners, body frame [mm]; nothing outside belongs to the patch
+  std::optional<std::array<double, 2>>
+      region_angles;  ///< first and last of a condyle about its axis, 0 distal, + posterior [rad]
+  std::optional<double> region_least_cosine;  ///< of the normal and the direction that is faced
+  double offset =
+      0;  ///< the fitted surface is moved this far along its normal, out of the bone [mm]
   std::optional<MeshFile> mesh;                      ///< of its own, in place of the body's
   std::optional<std::array<int, 2>> control_points;  ///< absent: chosen from the data
   std::optional<double> smoothing;                   ///< smoothing length [mm]; absent: "auto"

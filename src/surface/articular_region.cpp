@@ -116,6 +116,14 @@ ArticularRegion make_region(const TriangleMesh& mesh,
   return region;
 }
 
+/// Is a vertex within the box of the options?
+bool in_box(const RegionOptions& options, const Vector3d& p) {
+  if (!options.box) return true;
+  Eigen::AlignedBox3d box((*options.box)[0]);
+  box.extend((*options.box)[1]);
+  return box.contains(p);
+}
+
 /// Area vector of the triangles that are kept [mm²].
 Vector3d total_area(const TriangleMesh& mesh, const std::vector<bool>& keep) {
   const std::vector<Vector3d> areas = triangle_areas(mesh);
@@ -245,7 +253,8 @@ ArticularRegion femoral_region(const TriangleMesh& mesh,
     for (std::size_t i = 0; i < passes.size(); ++i) {
       const AboutAxis q = about_axis(axis, mesh.vertices[i]);
       passes[i] = q.angle > options.femur_first_angle && q.angle < options.femur_last_angle &&
-                  q.radius > 0.55 * radius && q.radius < 2.2 * radius && test(i, q);
+                  q.radius > 0.55 * radius && q.radius < 2.2 * radius &&
+                  in_box(options, mesh.vertices[i]) && test(i, q);
     }
     return select(mesh, passes);
   };
@@ -304,7 +313,7 @@ ArticularRegion tibial_region(const TriangleMesh& mesh,
       const bool medial = half == Half::kMedial;
       const double least = (q.z() > middle) == medial ? least_cosine : kPlateauCosine;
       passes[i] = (medial ? q.z() < inner.medial : q.z() > inner.lateral) && q.y() > top - depth &&
-                  normals[i].dot(height) > least;
+                  normals[i].dot(height) > least && in_box(options, mesh.vertices[i]);
     }
     return select(mesh, passes);
   };

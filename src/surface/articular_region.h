@@ -8,6 +8,7 @@
 /// by its height over the mean plane of the plateau; see docs/surface.md.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,8 @@ struct RegionOptions {
       0.25;  ///< of normal and radial direction: beyond it lie notch and side walls
   double tibia_least_cosine =
       0.3;  ///< of normal and plateau direction on the side of the eminence: beyond lie its walls
+  std::optional<std::array<Eigen::Vector3d, 2>> box =
+      {};  ///< two opposite corners of what may belong to the region [mm]; absent: all
   double normal_smoothing =
       1.5;  ///< normals are averaged over this distance before they decide [mm]
 };

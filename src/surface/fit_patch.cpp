@@ -223,7 +223,7 @@ void finish(const ArticularRegion& region,
 
 PatchFit fit_patch(const ArticularRegion& region, const FitOptions& options) {
   const SplineGrid grid = make_grid(region, options);
-  const double small_hole = std::max(12.0, 8 * mean_edge_length(region.mesh));
+  const double small_hole = bridged_perimeter(region.mesh);
   const RegionOutline outline = trace_outline(region.mesh, small_hole);
   std::vector<DataPoint> points = data_points(region);
   const FlatCharts flat = flat_charts(grid, region, small_hole);

@@ -78,6 +78,10 @@ struct CornerGrid {
 
 }  // namespace
 
+double bridged_perimeter(const TriangleMesh& region) {
+  return std::max(12.0, 8 * mean_edge_length(region));
+}
+
 RegionOutline trace_outline(const TriangleMesh& region, double small_hole) {
   std::vector<std::vector<int>> loops = boundary_loops(region);
   std::vector<double> lengths;

@@ -18,6 +18,9 @@ struct RegionOutline {
   int wide_holes = 0;                         ///< left open
 };
 
+/// The perimeter below which a hole of a region is bridged [mm].
+[[nodiscard]] double bridged_perimeter(const TriangleMesh& region);
+
 /// Holes of a perimeter below `small_hole` [mm] count as data.
 [[nodiscard]] RegionOutline trace_outline(const TriangleMesh& region, double small_hole);
 

@@ -221,9 +221,15 @@ INSTANTIATE_TEST_SUITE_P(
     Patches,
     BadScene,
     testing::Values(
-        Mistake{kSphere, kPatch + "\nregion = { box = [[0, 0, 0], [1, 1, 1]] }",
-                "27: [[surface]] \"ball\": region = { box = [[0, 0, 0], [1, 1, 1]] }, "
-                "expected either compartment or region, not both"},
+        Mistake{kSphere,
+                "kind = \"patch\"\nmesh = \"a.stl\"\nregion = { box = [[0, 0, 0], [1, 1, 1]], "
+                "angles = [0, 90] }",
+                "26: [[surface]] \"ball\": region.angles = [0, 90], expected a compartment beside "
+                "it"},
+        Mistake{kSphere,
+                "kind = \"patch\"\nmesh = \"a.stl\"\noffset = -1\nregion = { box = [[0, 0, 0], "
+                "[1, 1, 1]] }",
+                "26: [[surface]] \"ball\": offset = -1, expected a thickness >= 0"},
         Mistake{kSphere,
                 "kind = \"patch\"\nmesh = \"a.stl\"\nregion = { box = [[0, 0, 0], [1, 0, 1]] }",
                 "26: [[surface]] \"ball\": region.box = [[0, 0, 0], [1, 0, 1]], expected two "

@@ -192,6 +192,30 @@ TEST(FitSurfaces, FitsABoxInPlaceOfACompartment) {
             std::string::npos);
 }
 
+// The posterior condyle of the phantom alone, moved by a thickness of cartilage.
+TEST(FitSurfaces, LimitsACompartmentAndMovesItOutOfTheBone) {
+  Scene scene = knee(phantom_files());
+  scene.surfaces.resize(1);
+  PatchDescription& patch = scene.surfaces[0].patch;
+  patch.region_angles = {{20 * M_PI / 180, 120 * M_PI / 180}};
+  patch.region_least_cosine = 0.6;
+  const FittedSurface bone = fit_surfaces(scene)[0];
+  patch.offset = 2.5;
+  const FittedSurface cartilage = fit_surfaces(scene)[0];
+  for (const Place& place : bone.surface->samples(3)) {
+    const SurfacePoint at = bone.surface->evaluate(place);
+    EXPECT_NEAR((cartilage.surface->evaluate(place).c - at.c - 2.5 * at.n).norm(), 0, 0.02);
+  }
+  const Vector3d distal(0, -60, -23), posterior(-60, -20, -23);
+  const auto edge = [&](const Vector3d& p) {
+    return bone.surface->edge_distance(bone.surface->closest(p, bone.surface->seed(p)));
+  };
+  EXPECT_LT(edge(distal), 1);
+  EXPECT_GT(edge(posterior), 4);
+  EXPECT_LT(cartilage.report->area / bone.report->area, 1.01);
+  EXPECT_NE(cartilage.report->notes.back().find("moved 2.5 mm out of the bone"), std::string::npos);
+}
+
 TEST(FitSurfaces, MakesExactKindsWithoutAMesh) {
   Scene scene;
   scene.bodies.resize(1);
