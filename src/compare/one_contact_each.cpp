@@ -40,6 +40,7 @@ void describe(const Model& model, const EquilibriumState& state, PoseResult& pos
   }
   for (std::size_t k = 0; k < model.conditions.size(); ++k)
     pose.conditions.push_back({model.conditions[k].value, state.sigma[k]});
+  to_file_frames(model.origins, pose);
 }
 
 /// So that Newton has something to solve.

@@ -224,12 +224,18 @@ void joint_translation(const KinematicCondition& condition,
   out.k = out.coordinate - condition.value;
 }
 
+/// e.(a + q - x_C), q = R s_D: η = q x e.
 void translation(const KinematicCondition& condition,
                  const RigidTransform& X_BA,
                  ConditionDerivatives& out) {
-  out.coordinate = condition.axis.dot(X_BA.p);
+  const Vector3d& e = condition.axis;
+  const Vector3d q = X_BA.R * condition.s_D;
+  out.coordinate = e.dot(X_BA.p + q - condition.x_C);
   out.k = out.coordinate - condition.value;
-  out.alpha = condition.axis;
+  out.alpha = e;
+  out.eta = q.cross(e);
+  out.D4.noalias() = q * e.transpose();
+  out.D4.diagonal().array() -= q.dot(e);
 }
 
 /// |d|, d = a + q - x_C: α = e = d/L, η = q x e, ∂e/∂a = P = (I - eeᵀ)/L.

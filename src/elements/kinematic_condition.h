@@ -19,7 +19,7 @@ enum class ConditionKind {
   kLateralShift,
   kAnteriorDrawer,
   kDistraction,  ///< Grood-Suntay translations [mm]; need [joint]
-  kTranslation,  ///< of O_A along `axis` (ground frame) [mm]
+  kTranslation,  ///< of a point of A along `axis` (ground frame) [mm]
   kRotation,     ///< Cardan angle of R = Rz Rx' Ry'' about x, y or z [rad]
   kDistance      ///< between two ends: an isometric fibre [mm]
 };
@@ -35,8 +35,9 @@ struct KinematicCondition {
   JointFrames frames;                               ///< Grood-Suntay kinds
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< kTranslation: unit vector, ground frame
   int cardan_axis = 0;                              ///< kRotation: 0 x, 1 y, 2 z of R = Rz Rx' Ry''
-  Eigen::Vector3d x_C = Eigen::Vector3d::Zero();    ///< kDistance: end on B, ground frame [mm]
-  Eigen::Vector3d s_D = Eigen::Vector3d::Zero();    ///< kDistance: end on A, A's frame [mm]
+  /// kDistance: its ends; kTranslation: from which point to which, by themselves O_B and O_A.
+  Eigen::Vector3d x_C = Eigen::Vector3d::Zero();  ///< of B, ground frame [mm]
+  Eigen::Vector3d s_D = Eigen::Vector3d::Zero();  ///< of A, A's frame [mm]
 };
 
 struct ConditionDerivatives {

@@ -1,5 +1,6 @@
 #include "equilibrium/build_model.h"
 
+#include "equilibrium/model_origins.h"
 #include "scene/start_pose.h"
 
 namespace condyle {
@@ -73,6 +74,7 @@ Model build_model(const Scene& scene, const std::vector<FittedSurface>& surfaces
     pair.elastic_A = scene.surfaces[first_fixed ? second : first].elastic;
     model.pairs.push_back(std::move(pair));
   }
+  move_origins(middle_of_forces(model), model);
   model.length = characteristic_length(model);
   return model;
 }

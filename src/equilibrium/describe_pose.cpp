@@ -223,6 +223,7 @@ void describe_pose(const Model& model,
     result.stability = s.stable() ? 1 : 0;
     result.remark = stability_remark(model, system, state.X, s);
   }
+  to_file_frames(model.origins, result);
 }
 
 }  // namespace condyle

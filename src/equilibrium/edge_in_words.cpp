@@ -19,6 +19,7 @@ struct Seen {
   const std::string& name;
   std::optional<RigidTransform> X;  ///< of the anatomical frame in the body's; absent: no joint
   double side = 1;                  ///< -1: the first axis points medially
+  Eigen::Vector3d origin;           ///< of the model's frame of the body, in the file's [mm]
 
   [[nodiscard]] Eigen::Vector3d direction(const Eigen::Vector3d& v) const {
     Eigen::Vector3d d = X->R.transpose() * v;
@@ -31,7 +32,11 @@ struct Seen {
 };
 
 Seen see(const Model& model, const ContactPair& pair, bool on_A) {
-  Seen seen{on_A ? *pair.on_A : *pair.on_B, on_A ? pair.surface_A : pair.surface_B, {}, 1};
+  Seen seen{on_A ? *pair.on_A : *pair.on_B,
+            on_A ? pair.surface_A : pair.surface_B,
+            {},
+            1,
+            on_A ? model.origins.A : model.origins.B};
   if (!model.joint) return seen;
   const bool tibia = model.joint->tibia_moves == on_A;
   seen.X = tibia ? model.joint->X_T : model.joint->X_F;
@@ -86,8 +91,10 @@ std::string side_in_words(const Model& model, const Seen& seen, bool on_A, const
 
 std::string place_in_words(const Seen& seen, const Place& place) {
   const Eigen::Vector3d c = seen.surface.evaluate_frame(place).c;
-  if (!seen.X)
-    return fmt::format("at ({:.1f}, {:.1f}, {:.1f}) mm of its body", c.x(), c.y(), c.z());
+  if (!seen.X) {
+    const Eigen::Vector3d p = c + seen.origin;
+    return fmt::format("at ({:.1f}, {:.1f}, {:.1f}) mm of its body", p.x(), p.y(), p.z());
+  }
   const Eigen::Vector3d p = seen.point(c);
   return fmt::format("{:.1f} mm {}, {:.1f} mm {} and {:.1f} mm {} of the joint's origin",
                      std::abs(p.x()), p.x() < 0 ? "medial" : "lateral", std::abs(p.y()),

@@ -47,10 +47,10 @@ double motion(const PoseResult& a, const PoseResult& b, std::size_t contact) {
   return largest;
 }
 
-/// How far the body moved, rotations counted as L dπ [mm].
-double body_motion(const PoseResult& a, const PoseResult& b, double L) {
-  const double turn = L * log_rotation(b.X_BA.R * a.X_BA.R.transpose()).norm();
-  return std::hypot((b.X_BA.p - a.X_BA.p).norm(), turn);
+/// How far the body moved, as its point O_A of the model went and rotations counted as L dπ [mm].
+double body_motion(const SolvedPose& from, const SolvedPose& to, double L) {
+  const RigidTransform &a = from.state.X, &b = to.state.X;
+  return std::hypot((b.p - a.p).norm(), L * log_rotation(b.R * a.R.transpose()).norm());
 }
 
 /// Which number of the model is swept.
@@ -126,7 +126,7 @@ class EventSearch {
   bool moved_unexpectedly(const SolvedPose& left, const SolvedPose& right) {
     constexpr double kMuch = 2;
     const double L = solver_.model().length;
-    const double moved = body_motion(left.result, right.result, L);
+    const double moved = body_motion(left, right, L);
     if (moved < options_.snap * L) return false;
     const double foretold = std::min(foretold_motion(left, right), foretold_motion(right, left));
     return moved > kMuch * foretold;
@@ -136,14 +136,13 @@ class EventSearch {
   bool bisect_snap(SolvedPose& left, SolvedPose& right) {
     const double L = solver_.model().length, jump = options_.jump * L;
     while (std::abs(right.value - left.value) > options_.tolerance) {
-      if (body_motion(left.result, right.result, L) < jump) return false;
+      if (body_motion(left, right, L) < jump) return false;
       std::optional<SolvedPose> middle = between(left, right);
       if (!middle) return false;
-      const bool in_left = body_motion(left.result, middle->result, L) >
-                           body_motion(middle->result, right.result, L);
+      const bool in_left = body_motion(left, *middle, L) > body_motion(*middle, right, L);
       (in_left ? right : left) = *middle;
     }
-    return body_motion(left.result, right.result, L) >= jump;
+    return body_motion(left, right, L) >= jump;
   }
 
   /// Follows the greater part of the motion of one contact; true when it stays a jump.
@@ -203,8 +202,7 @@ void locate_events(EquilibriumSolver& solver,
   for (int k = 0; k < options.most_events && !same_contacts(from.result, right.result); ++k) {
     SolvedPose before = from, after = right;
     if (!search.bisect_change(before, after)) return;
-    if (body_motion(before.result, after.result, L) >= options.jump * L)
-      append_limit(before, after, events);
+    if (body_motion(before, after, L) >= options.jump * L) append_limit(before, after, events);
     append_changes(before, after, search.exact_value(before, after, straight), events);
     from = after;
   }

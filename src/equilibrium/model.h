@@ -2,12 +2,14 @@
 
 /// The scene as the solver wants it: every point on the body that carries it, bodies reduced to B
 /// (fixed, ground frame) and A (moving). Constant while poses are solved, but for the swept value.
+/// Its frames have their origins in the joint; poses that are told are in the files' frames.
 
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "elements/body_origins.h"
 #include "elements/hertz.h"
 #include "elements/joint_coordinates.h"
 #include "elements/kinematic_condition.h"
@@ -39,6 +41,7 @@ struct Model {
   std::vector<ContactPair> pairs;
   std::optional<JointFrames> joint;
   RigidTransform start;  ///< first estimate of X_BA
+  BodyOrigins origins;   ///< of the frames of all the above, in the frames of results and files
   double length =
       30;  ///< L [mm]: lever arms of the model; makes rotations L dπ and moments m/L comparable
 };
@@ -53,7 +56,10 @@ inline constexpr int kMaxConstraints = 6;
 /// The smaller of a contact's distances from the edges of its two surfaces [mm].
 [[nodiscard]] double edge_distance(const ContactPair& pair, const Place& on_B, const Place& on_A);
 
-/// Root mean square lever arm about O_A of everything fixed to A, at least 1e-6 mm.
+/// Root mean square lever arm of A's insertions and contact surfaces about the middle of these
+/// surfaces (model_origins.h): the same wherever the frames have their origins. A surface counts
+/// with its extent, or that of the smaller one it meets. Where there is but one point: that of
+/// points of loads, else the mean length of the line elements at the start, else 1 mm.
 [[nodiscard]] double characteristic_length(const Model& model);
 
 }  // namespace condyle

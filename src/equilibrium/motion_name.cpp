@@ -91,14 +91,15 @@ std::string in_words(const Eigen::Vector3d& v) {
   return fmt::format("({:.2f}, {:.2f}, {:.2f})", tidy(v.x()), tidy(v.y()), tidy(v.z()));
 }
 
-/// The motion as a screw about an axis: a rotation, a translation, or both.
+/// The motion of a point of A at `at` (ground frame of the files) as a screw about an axis: a
+/// rotation, a translation, or both.
 std::string name_screw(const Eigen::Matrix<double, 6, 1>& motion,
-                       const RigidTransform& X,
+                       const Eigen::Vector3d& at,
                        double L) {
   const Eigen::Vector3d v = motion.head<3>(), omega = motion.tail<3>() / L;
   if (omega.norm() * L < kNothing) return "a translation along " + in_words(v.normalized());
   const double square = omega.squaredNorm(), pitch = omega.dot(v) / square;
-  const Eigen::Vector3d through = X.p + omega.cross(v) / square;
+  const Eigen::Vector3d through = at + omega.cross(v) / square;
   std::string words =
       "a rotation about " + in_words(omega.normalized()) + " through " + in_words(through) + " mm";
   if (std::abs(pitch) > kNothing * L)
@@ -125,7 +126,7 @@ std::string name_motions(const Model& model, const RigidTransform& X_BA, const M
   const Motions simple = motions.cols() > 1 ? reduced(motions) : motions;
   std::vector<std::string> words;
   for (Eigen::Index k = 0; k < simple.cols(); ++k)
-    words.push_back(name_screw(simple.col(k), X_BA, model.length));
+    words.push_back(name_screw(simple.col(k), X_BA.p + model.origins.B, model.length));
   return joined(words);
 }
 

@@ -44,4 +44,15 @@ const char* name(EventKind kind) {
   return "unknown";
 }
 
+void to_file_frames(const BodyOrigins& origins, PoseResult& pose) {
+  pose.X_BA = origins.out_of_model(pose.X_BA);
+  for (ContactResult& contact : pose.contacts) {
+    contact.resultant_ground += origins.B;
+    for (ContactPointResult& point : contact.points) {
+      point.point_ground += origins.B;
+      point.point_moving += origins.A;
+    }
+  }
+}
+
 }  // namespace condyle

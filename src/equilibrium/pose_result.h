@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "elements/body_origins.h"
 #include "elements/joint_coordinates.h"
 #include "math/rigid_transform.h"
 
@@ -114,7 +115,8 @@ struct PoseResult {
   double lowest_stiffness =
       std::numeric_limits<double>::quiet_NaN();  ///< of the reduced stiffness [N/mm]
   Eigen::Matrix<double, 6, 1> softest_motion =
-      Eigen::Matrix<double, 6, 1>::Zero();        ///< (da, L dπ) that belongs to it, unit
+      Eigen::Matrix<double, 6, 1>::Zero();  ///< (da, L dπ) that belongs to it, unit; da of the
+                                            ///< point of A that the model is computed about
   std::optional<JointStiffness> joint_stiffness;  ///< on request; needs joint frames
   int iterations = 0;                             ///< Newton iterations
   double residual = 0;  ///< largest out-of-balance force [N], moments divided by the model's length
@@ -126,6 +128,9 @@ struct PoseResult {
     return (converged() || status == PoseStatus::kLeftPatch) && X_BA.p.allFinite();
   }
 };
+
+/// A pose as a model tells it, from its frames to those of the files: X_BA and all points.
+void to_file_frames(const BodyOrigins& origins, PoseResult& pose);
 
 /// What happens to a contact at one value of a sweep; the values are those of /events/kind.
 enum class EventKind {

@@ -31,15 +31,16 @@ bool can_restore(const Model& model, const PoseResult& pose) {
 
 EquilibriumState restore_state(const Model& model, const PoseResult& pose) {
   EquilibriumState state;
-  state.X = pose.X_BA;
+  state.X = model.origins.into_model(pose.X_BA);
   for (const ConditionResult& condition : pose.conditions)
     state.sigma.push_back(condition.multiplier);
   for (std::size_t i = 0; i < pose.contacts.size(); ++i) {
     if (!pose.contacts[i].closed) continue;
     const ContactPair& pair = model.pairs[i];
     for (const ContactPointResult& point : pose.contacts[i].points) {
-      state.contacts.push_back({static_cast<int>(i), place_on(*pair.on_B, point.point_ground),
-                                place_on(*pair.on_A, point.point_moving), point.force});
+      state.contacts.push_back(
+          {static_cast<int>(i), place_on(*pair.on_B, point.point_ground - model.origins.B),
+           place_on(*pair.on_A, point.point_moving - model.origins.A), point.force});
     }
   }
   return state;

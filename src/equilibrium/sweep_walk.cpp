@@ -69,8 +69,11 @@ bool SweepWalk::take_over(const KnownPose& known, Stop& stop) {
 
 bool SweepWalk::agrees(const PoseResult& pose, const PoseResult& known) const {
   constexpr double kClose = 1e-6;  // [rad], and of L
-  return pose.status == known.status && (pose.X_BA.R - known.X_BA.R).norm() < kClose &&
-         (pose.X_BA.p - known.X_BA.p).norm() < kClose * solver_.model().length;
+  const Model& model = solver_.model();
+  const RigidTransform here = model.origins.into_model(pose.X_BA),
+                       there = model.origins.into_model(known.X_BA);
+  return pose.status == known.status && (here.R - there.R).norm() < kClose &&
+         (here.p - there.p).norm() < kClose * model.length;
 }
 
 void SweepWalk::compute(Stop& stop) {
@@ -193,10 +196,12 @@ void SweepWalk::follow(std::size_t from, int way) {
     swept_ = stop.at.value;
     solver_.solve(trial_, Patience::kNone);
     stop.at.result.seconds += trial_.seconds;
-    const RigidTransform& X = stop.at.result.X_BA;
-    if (!trial_.converged() || same_pose(solver_.model(), X, trial_.X_BA)) return;
+    const Model& model = solver_.model();
+    const RigidTransform here = model.origins.into_model(stop.at.result.X_BA),
+                         there = model.origins.into_model(trial_.X_BA);
+    if (!trial_.converged() || same_pose(model, here, there)) return;
     add_remark(stop.at.result,
-               second_equilibrium(solver_.model(), X, trial_.X_BA,
+               second_equilibrium(model, here, there,
                                   way > 0 ? "followed from the poses before it in the sweep"
                                           : "followed back from the poses after it in the sweep"));
     at.value = stop.at.value;

@@ -8,7 +8,7 @@
 namespace condyle {
 namespace {
 
-constexpr double kTouching = 1e-6;  // gap [mm] below which a contact may carry
+constexpr double kTouching = 1e-6 / 30;  // gap, of L, below which a contact may carry
 
 bool holds(const std::vector<int>& list, int item) {
   return std::find(list.begin(), list.end(), item) != list.end();
@@ -23,8 +23,8 @@ std::vector<int> touching(const Network& network,
   for (std::size_t i = 0; i < network.contacts.size(); ++i) {
     if (!network.contacts[i].opens || !state.contacts[i].followed) continue;
     const int index = static_cast<int>(i);
-    if (state.contacts[i].closed || holds(struck, index) || equations.contact(i).gap() < kTouching)
-      list.push_back(index);
+    const bool touches = equations.contact(i).gap() < kTouching * network.length;
+    if (state.contacts[i].closed || holds(struck, index) || touches) list.push_back(index);
   }
   return list;
 }
@@ -57,7 +57,7 @@ bool strike(NetworkEquations& equations,
             const std::vector<int>& list,
             const std::vector<double>& before,
             const IntegrationOptions& options) {
-  constexpr double kNoSpeed = 1e-9;  // [mm/s]
+  const double no_speed = 1e-9 / 30 * equations.network().length;  // [mm/s]
   NetworkState trial = state;
   if (!equations.assemble(trial)) return false;
   const std::vector<ConstraintRow>& rows = equations.rows();
@@ -74,7 +74,7 @@ bool strike(NetworkEquations& equations,
   add_twists(trial, change);
   if (!equations.assemble(trial)) return false;
   for (const int i : list)
-    if (!trial.contacts[i].closed && equations.gap_rate(static_cast<std::size_t>(i)) < -kNoSpeed)
+    if (!trial.contacts[i].closed && equations.gap_rate(static_cast<std::size_t>(i)) < -no_speed)
       return false;
   state = trial;
   return true;
@@ -121,7 +121,7 @@ double change_contacts(NetworkEquations& equations,
                        const std::vector<int>& released,
                        const IntegrationOptions& options,
                        std::vector<ContactEvent>& events) {
-  constexpr double kAtRest = 1e-6;  // [mm/s]
+  const double at_rest = 1e-6 / 30 * equations.network().length;  // [mm/s]
   std::vector<bool> was_closed;
   for (const ContactPlaces& places : state.contacts) was_closed.push_back(places.closed);
   equations.assemble(state);
@@ -131,7 +131,7 @@ double change_contacts(NetworkEquations& equations,
   std::vector<double> before(state.contacts.size());
   for (std::size_t i = 0; i < before.size(); ++i) before[i] = equations.gap_rate(i);
   const bool impact =
-      std::any_of(list.begin(), list.end(), [&](int i) { return before[i] < -kAtRest; });
+      std::any_of(list.begin(), list.end(), [&](int i) { return before[i] < -at_rest; });
   if (impact) {
     for (const unsigned subset : subsets(list.size())) {
       close_only(state, list, subset);
@@ -143,7 +143,7 @@ double change_contacts(NetworkEquations& equations,
   std::vector<int> resting;
   for (const int i : list) {
     state.contacts[i].closed = false;
-    const bool leaves = equations.gap_rate(static_cast<std::size_t>(i)) > kAtRest;
+    const bool leaves = equations.gap_rate(static_cast<std::size_t>(i)) > at_rest;
     if (!leaves && !holds(released, i)) resting.push_back(i);
   }
   if (!choose_closed(equations, state, resting, 0)) close_only(state, resting, ~0U);
@@ -151,7 +151,7 @@ double change_contacts(NetworkEquations& equations,
   equations.solve();
   for (std::size_t i = 0; i < before.size(); ++i) {
     const int contact = static_cast<int>(i);
-    const bool hit = holds(list, contact) && before[i] < -kAtRest;
+    const bool hit = holds(list, contact) && before[i] < -at_rest;
     if (hit || was_closed[i] != state.contacts[i].closed)
       events.push_back({state.t, contact, hit || state.contacts[i].closed, hit ? -before[i] : 0});
   }

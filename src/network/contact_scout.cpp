@@ -9,17 +9,17 @@
 namespace condyle {
 namespace {
 
-constexpr double kNear = 0.1;       // gap [mm] below which a place is followed
-constexpr double kSamePlace = 0.5;  // [mm]
-constexpr double kDouble = 1e-3;    // [mm]
-constexpr double kOverlap = 1e-6;   // [mm] of an open contact
-constexpr double kBuried = 0.05;    // [mm] where there is no single lowest point
+// Of L, 30 mm for a knee.
+constexpr double kNear = 0.1 / 30;       // gap below which a place is followed
+constexpr double kSamePlace = 0.5 / 30;  // between points of contact
+constexpr double kDouble = 1e-3 / 30;    // between those that have become one
+constexpr double kOverlap = 1e-6 / 30;   // of an open contact
+constexpr double kBuried = 0.05 / 30;    // where there is no single lowest point
 
 }  // namespace
 
-PairScout::PairScout(const Model& model, const KneeNetwork& knee) : model_(model), knee_(knee) {
-  for (const ContactPair& pair : model.pairs) searches_.emplace_back(pair);
-}
+PairScout::PairScout(const Model& model, const KneeNetwork& knee)
+    : model_(model), knee_(knee), searches_(make_searches(model)) {}
 
 ContactSighting PairScout::operator()(NetworkState& state) {
   ContactSighting sighting;
@@ -49,19 +49,20 @@ std::string PairScout::lost_contact(const NetworkState& state) const {
 }
 
 void PairScout::scout_pair(int pair, NetworkState& state, ContactSighting& sighting) {
+  const double L = model_.length;
   drop_doubles(pair, state);
   set_known(pair, state);
-  searches_[pair].find(state.bodies[0].X, kNear, minima_, kSamePlace, known_);
+  searches_[pair].find(state.bodies[0].X, kNear * L, minima_, kSamePlace * L, known_);
   for (const GapMinimum& minimum : minima_) {
     if (minimum.edge < 0) continue;
     const int follower = follower_of(pair, minimum, state);
     if (follower >= 0) {
-      if (state.contacts[follower].closed || minimum.gap > -kOverlap) continue;
+      if (state.contacts[follower].closed || minimum.gap > -kOverlap * L) continue;
       sighting.followed = std::min(sighting.followed, minimum.gap);
       sighting.overlapping.push_back(follower);
       continue;
     }
-    if (!minimum.refined && minimum.gap > -kBuried) continue;
+    if (!minimum.refined && minimum.gap > -kBuried * L) continue;
     sighting.unseen = std::min(sighting.unseen, minimum.gap);
     const int waiting = waiting_contact(pair, state);
     if (minimum.refined && waiting >= 0) state.contacts[waiting] = {minimum.on_B, minimum.on_A};
@@ -89,7 +90,7 @@ Eigen::Vector3d PairScout::point_of(int contact, const NetworkState& state) cons
 int PairScout::follower_of(int pair, const GapMinimum& minimum, const NetworkState& state) const {
   for (int i = 0; i < static_cast<int>(knee_.places.size()); ++i)
     if (knee_.places[i] == pair && state.contacts[i].followed &&
-        (point_of(i, state) - minimum.point_B).norm() < kSamePlace)
+        (point_of(i, state) - minimum.point_B).norm() < kSamePlace * model_.length)
       return i;
   return -1;
 }
@@ -108,7 +109,7 @@ void PairScout::drop_doubles(int pair, NetworkState& state) const {
       ContactPlaces &first = state.contacts[i], &second = state.contacts[k];
       if (knee_.places[i] != pair || knee_.places[k] != pair) continue;
       if (!first.followed || !second.followed) continue;
-      if ((point_of(i, state) - point_of(k, state)).norm() > kDouble) continue;
+      if ((point_of(i, state) - point_of(k, state)).norm() > kDouble * model_.length) continue;
       ContactPlaces& dropped = second.closed && !first.closed ? first : second;
       dropped.closed = dropped.followed = false;
     }

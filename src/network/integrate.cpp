@@ -25,7 +25,10 @@ class Integration {
               NetworkState start,
               const IntegrationOptions& options,
               ContactScout scout)
-      : options_(options), scout_(std::move(scout)), moving_(network, std::move(start), options) {}
+      : options_(options),
+        scout_(std::move(scout)),
+        touch_(1e-5 / 30 * network.length),
+        moving_(network, std::move(start), options) {}
 
   Motion run() {
     moving_.check_start();
@@ -72,14 +75,13 @@ class Integration {
   /// was lost.
   bool advance_scouted(double& t, double to, int halvings) {
     constexpr int kMostHalvings = 12, kMostAttempts = 200;
-    constexpr double kTouch = 1e-5;  // [mm]: a contact that opened for nothing
     const Moment before = moment(t);
     ++attempts_;
     if (advance(t, to) && land(t)) {
       const ContactSighting sighting = scout_(moving_.state());
       if (!sighting.lost.empty()) return end_here(t, sighting.lost);
       if (sighting.unseen >= 0 && sighting.overlapping.empty()) return true;
-      if (sighting.unseen >= 0 && sighting.followed > -kTouch)
+      if (sighting.unseen >= 0 && sighting.followed > -touch_)
         return handle_event(t, sighting.overlapping, {});
       give_up(
           t,
@@ -164,6 +166,7 @@ class Integration {
 
   IntegrationOptions options_;
   ContactScout scout_;
+  double touch_;  ///< overlap of a contact that opened for nothing [mm]
   MovingNetwork moving_;
   Motion motion_;
   double end_ = 0;

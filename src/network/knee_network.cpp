@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "equilibrium/contact_scales.h"
 #include "equilibrium/contact_search.h"
 #include "input_error.h"
 
@@ -20,6 +21,8 @@ void add_ligaments(const Model& model, Network& network) {
     network.lines.push_back(line);
   }
 }
+
+constexpr double kReach = 5.0 / 3;  // of L: how far an open pair is looked for
 
 /// The first contact of the pair that is not taken yet.
 void close_next(const Model& model,
@@ -43,6 +46,7 @@ void close_next(const Model& model,
 KneeNetwork make_knee_network(const Model& model, const std::optional<MassProperties>& mass) {
   KneeNetwork knee;
   Network& network = knee.network;
+  network.length = model.length;
   network.bodies = {{"moving bone", mass, mass ? mass->center : Eigen::Vector3d(0, 0, 0), false}};
   add_ligaments(model, network);
   for (std::size_t i = 0; i < model.loads.size(); ++i)
@@ -76,9 +80,9 @@ NetworkState state_at_rest(const Model& model,
       continue;
     }
     const ContactPair& pair = model.pairs[knee.places[i]];
-    constexpr double kReach = 50;  // [mm]
+    const double L = model.length;
     std::vector<GapMinimum> minima;
-    ContactSearch(pair).find_nearest(equilibrium.X, kReach, minima);
+    ContactSearch(pair, kSampleSpacing * L).find_nearest(equilibrium.X, kReach * L, minima);
     if (!minima.empty())
       places = {minima.front().on_B, minima.front().on_A};
     else

@@ -47,6 +47,7 @@ class FrameTeller {
               : frame.condition_multiplier[static_cast<std::size_t>(held - hold.begin())];
       pose.conditions.push_back({evaluate(model_.conditions[i], pose.X_BA).coordinate, multiplier});
     }
+    to_file_frames(model_.origins, pose);
     return pose;
   }
 

@@ -44,7 +44,7 @@ MovingNetwork::MovingNetwork(const Network& network,
       state_(std::move(start)),
       numbers_(network),
       watched_(contacts_that_open(network)),
-      remainder_(0.01 * options.tolerance),  // a thousandth of the tolerance of a length
+      remainder_(network.length / 3000 * options.tolerance),  // a thousandth of that of a length
       ode_(system(),
            state_.t,
            std::vector<double>(numbers_.size()),

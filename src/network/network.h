@@ -92,6 +92,7 @@ struct ConditionComponent {
 };
 
 struct Network {
+  double length = 30;  ///< L [mm] of what moves: tolerances of lengths are measured by it
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [mm/s²]
   std::vector<NetworkBody> bodies;
   std::vector<NetworkPort> ports;

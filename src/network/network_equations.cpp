@@ -129,8 +129,8 @@ bool NetworkEquations::assemble(NetworkState& state, bool open_contacts_too) {
 
 bool NetworkEquations::settle(std::size_t contact, NetworkState& state) {
   const ContactComponent& component = network_.contacts[contact];
-  return settle_contact(component, state.bodies[component.body].X, state.contacts[contact],
-                        contacts_[contact]);
+  return settle_contact(component, state.bodies[component.body].X, network_.length,
+                        state.contacts[contact], contacts_[contact]);
 }
 
 CONDYLE_FMA_CLONE

@@ -24,13 +24,13 @@ double largest_value(const NetworkEquations& equations) {
   return largest;
 }
 
-/// Surfaces and joints of a knee depart from their tangents by d²/2r, r no less than a few mm.
-bool is_small(const Eigen::VectorXd& moved, double remainder) {
-  constexpr double kLeastRadius = 10, kLever = 100;  // [mm]
+/// Surfaces and joints of a knee depart from their tangents by d²/2r, r no less than a third of L.
+bool is_small(const Eigen::VectorXd& moved, double remainder, double L) {
+  const double least_radius = L / 3, lever = 10 * L / 3;
   for (Eigen::Index row = 0; row < moved.size(); row += 6) {
     const double square = moved.segment<3>(row).squaredNorm() +
-                          kLever * kLever * moved.segment<3>(row + 3).squaredNorm();
-    if (!(square < 2 * kLeastRadius * remainder)) return false;
+                          lever * lever * moved.segment<3>(row + 3).squaredNorm();
+    if (!(square < 2 * least_radius * remainder)) return false;
   }
   return true;
 }
@@ -55,16 +55,16 @@ void add_twists(NetworkState& state, const Eigen::VectorXd& change) {
 bool is_nearby(const NetworkEquations& equations, double remainder, const NetworkState& state) {
   Eigen::VectorXd moved;
   equations.kinematics().displacement(state, moved);
-  return is_small(moved, remainder);
+  return is_small(moved, remainder, equations.network().length);
 }
 
 bool project_nearby(const NetworkEquations& equations, double remainder, NetworkState& state) {
   Eigen::VectorXd moved;
   equations.kinematics().displacement(state, moved);
-  if (!is_small(moved, remainder)) return false;
+  if (!is_small(moved, remainder, equations.network().length)) return false;
   const Eigen::VectorXd step = equations.position_correction_after(moved);
   moved += step;
-  if (!is_small(moved, remainder)) return false;
+  if (!is_small(moved, remainder, equations.network().length)) return false;
   const Eigen::VectorXd change = equations.velocity_correction_after(moved, twists_of(state));
   if (!change.allFinite()) return false;
   move(equations.network(), step, state);
@@ -73,11 +73,12 @@ bool project_nearby(const NetworkEquations& equations, double remainder, Network
 }
 
 bool project(NetworkEquations& equations, NetworkState& state) {
-  constexpr double kNearby = 1e-12;  // [mm]: a step from there is exact to round-off
+  constexpr double kNearby = 1e-12 / 30;  // of L: a step from there is exact to round-off
+  const double nearby = kNearby * equations.network().length;
   constexpr int kMostSteps = 10;
   for (int step = 0; step < kMostSteps; ++step) {
     if (!equations.assemble(state)) return false;
-    if (project_nearby(equations, kNearby, state)) return true;
+    if (project_nearby(equations, nearby, state)) return true;
     if (!(largest_value(equations) > 0)) return false;
     move(equations.network(), equations.position_correction(), state);
   }

@@ -21,9 +21,11 @@ struct SettledContact {
                                    NetworkState& state,
                                    std::vector<SettledContact>& settled);
 
-/// The same for one contact that is followed; a scouted one that is lost waits.
+/// The same for one contact that is followed, of a network of length L [mm]; a scouted one that is
+/// lost waits.
 [[nodiscard]] bool settle_contact(const ContactComponent& contact,
                                   const RigidTransform& X,
+                                  double L,
                                   ContactPlaces& places,
                                   SettledContact& settled);
 

@@ -69,7 +69,7 @@ EquilibriumState find_start(const Scene& scene, const MassProperties& mass, cons
 }
 
 /// What is released is left out; loads get their course in time, ligaments their viscosity.
-void complete(const Scene& scene, KneeNetwork& knee) {
+void complete(const Scene& scene, const BodyOrigins& origins, KneeNetwork& knee) {
   const SimulationDescription& simulation = *scene.simulation;
   Network& network = knee.network;
   network.gravity = simulation.gravity;
@@ -90,9 +90,9 @@ void complete(const Scene& scene, KneeNetwork& knee) {
     LineComponent line;
     line.name = damper.name;
     line.from = add_port(network, damper.name + ": fixed end", kGround,
-                         damper.ends[first_fixed ? 0 : 1].at);
-    line.to =
-        add_port(network, damper.name + ": moving end", 0, damper.ends[first_fixed ? 1 : 0].at);
+                         damper.ends[first_fixed ? 0 : 1].at - origins.B);
+    line.to = add_port(network, damper.name + ": moving end", 0,
+                       damper.ends[first_fixed ? 1 : 0].at - origins.A);
     line.damping = damper.coefficient;
     network.lines.push_back(line);
   }
@@ -133,9 +133,11 @@ Simulation simulate(const Scene& scene,
   Simulation result;
   result.mass = moving_mass(scene);
   const Model model = build_model(scene, surfaces);
-  const EquilibriumState start = find_start(scene, result.mass, model);
-  KneeNetwork knee = make_knee_network(model, result.mass);
-  complete(scene, knee);
+  MassProperties mass = result.mass;
+  mass.center -= model.origins.A;
+  const EquilibriumState start = find_start(scene, mass, model);
+  KneeNetwork knee = make_knee_network(model, mass);
+  complete(scene, model.origins, knee);
   NetworkState state = state_at_rest(model, knee, start);
   set_velocity(scene, model, knee.network, state);
 

@@ -29,12 +29,13 @@ Eigen::Quaterniond half_turned(const Eigen::Vector3d& theta, const Eigen::Quater
 std::size_t StateNumbers::size() const { return kPerBody * network_.bodies.size() + kSums; }
 
 std::vector<double> StateNumbers::scales() const {
-  constexpr double kScale[kPerBody] = {10, 10, 10, 1, 1, 1, 1, 100, 100, 100, 1, 1, 1};
-  constexpr double kEnergy = 100;
+  const double length = network_.length / 3, speed = 10 * length;
+  const double scale[kPerBody] = {length, length, length, 1, 1, 1, 1, speed, speed, speed, 1, 1, 1};
+  const double energy = 10 * length;  // of newtons over a length
   std::vector<double> scales;
   for (std::size_t b = 0; b < network_.bodies.size(); ++b)
-    scales.insert(scales.end(), kScale, kScale + kPerBody);
-  scales.insert(scales.end(), kSums, kEnergy);
+    scales.insert(scales.end(), scale, scale + kPerBody);
+  scales.insert(scales.end(), kSums, energy);
   return scales;
 }
 

@@ -15,7 +15,8 @@ class StateNumbers {
   explicit StateNumbers(const Network& network) : network_(network) {}
 
   [[nodiscard]] std::size_t size() const;
-  /// For a tolerance of one: what counts as one on a knee [mm, rad, mm/s, rad/s, N mm].
+  /// For a tolerance of one: what counts as one [mm, rad, mm/s, rad/s, N mm]; 10 mm on a knee of
+  /// L = 30 mm.
   [[nodiscard]] std::vector<double> scales() const;
 
   void pack(const NetworkState& state, double dissipated, double work, double* y) const;

@@ -11,7 +11,30 @@
 namespace condyle {
 namespace {
 
-/// Root mean square lever arm of what is fixed to A, about its origin.
+/// On each body the mean of the springs' ends and of the origins of the heights.
+BodyOrigins middle_of_forces(const WismansModel& model) {
+  BodyOrigins middle;
+  for (const LineElement& spring : model.springs) middle.B += spring.x_C, middle.A += spring.s_D;
+  for (const WismansContact& contact : model.contacts) {
+    middle.B += contact.on_B.origin;
+    middle.A += contact.on_A.origin;
+  }
+  const auto count = static_cast<double>(model.springs.size() + model.contacts.size());
+  return {middle.B / count, middle.A / count};
+}
+
+void move_origins(const BodyOrigins& to, WismansModel& model) {
+  for (LineElement& spring : model.springs) spring.x_C -= to.B, spring.s_D -= to.A;
+  for (Load& load : model.loads) load.at -= to.A;
+  for (WismansContact& contact : model.contacts) {
+    contact.on_B.origin -= to.B;
+    contact.on_A.origin -= to.A;
+  }
+  model.joint = to.into_model(model.joint);
+  model.origins = to;
+}
+
+/// Root mean square lever arm of what is fixed to A, about the origin of the model's frame.
 double lever_arm(const WismansModel& model) {
   double sum = 0;
   for (const LineElement& spring : model.springs) sum += spring.s_D.squaredNorm();
@@ -96,6 +119,7 @@ WismansModel build_wismans_model(const Scene& scene, const std::vector<HeightFit
     model.contacts[next++] = {contact.name, heights[first_fixed ? first : second].surface,
                               heights[first_fixed ? second : first].surface, c};
   }
+  move_origins(middle_of_forces(model), model);
   model.length = lever_arm(model);
   return model;
 }

@@ -44,6 +44,22 @@ class PolynomialSurface final : public Surface {
       places.push_back(condyle::evaluate(heights_, at).c);
     return places;
   }
+  /// Of the points that the polynomial stands for: they lie within their outline.
+  [[nodiscard]] Extent extent() const override {
+    const auto n = static_cast<double>(heights_.outline.size());
+    if (n == 0) return {surface_->extent().center};
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+    for (const Eigen::Vector2d& corner : heights_.outline) middle += corner / n;
+    double square = 0;
+    for (const Eigen::Vector2d& corner : heights_.outline)
+      square += (corner - middle).squaredNorm() / n;
+    return {condyle::evaluate(heights_, middle).c, std::sqrt(square / 2)};
+  }
+  [[nodiscard]] std::unique_ptr<Surface> translated(const Eigen::Vector3d& d) const override {
+    HeightSurface moved = heights_;
+    moved.origin += d;
+    return std::make_unique<PolynomialSurface>(moved);
+  }
 
  private:
   HeightSurface heights_;

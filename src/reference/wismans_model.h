@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "elements/body_origins.h"
 #include "elements/joint_coordinates.h"
 #include "elements/line_element.h"
 #include "elements/load.h"
@@ -27,9 +28,10 @@ struct WismansModel {
   std::array<WismansContact, 2> contacts;
   std::size_t scene_contacts = 2;  ///< those that are held open too
   JointFrames joint;
-  double flexion = 0;  ///< prescribed [rad]
-  RigidTransform start;
-  double length = 30;  ///< [mm]: makes angles and lengths, moments and forces comparable
+  double flexion = 0;    ///< prescribed [rad]
+  RigidTransform start;  ///< in the frames of files, as poses that are told
+  BodyOrigins origins;   ///< of the frames of all the rest: points in the joint
+  double length = 30;    ///< [mm]: makes angles and lengths, moments and forces comparable
 };
 
 /// The 16 unknowns, in this order: a (3) [mm], adduction, internal rotation [rad]; of each contact

@@ -31,15 +31,16 @@ struct WismansSolution {
                                     const WismansVector& start,
                                     const WismansOptions& options = {});
 
-/// Unknowns to start from at a pose: the coordinates where the surfaces of each pair are nearest
-/// (over a grid), and the contact forces and the moment that balance best.
+/// Unknowns to start from at a pose in the model's frames: the coordinates where the surfaces of
+/// each pair are nearest (over a grid), and the contact forces and the moment that balance best.
 [[nodiscard]] WismansVector first_guess(const WismansModel& model, const RigidTransform& X_BA);
 
 /// What the solution says about the pose, in the engine's words.
 [[nodiscard]] PoseResult describe(const WismansModel& model, const WismansSolution& solution);
 
 /// Solves over values of the flexion or of the factor on a load (`load`, an index). The first pose
-/// starts at the model's own start, and where that leads nowhere at `other_start`.
+/// starts at the model's own start, and where that leads nowhere at `other_starts`, poses in the
+/// frames of files as that.
 [[nodiscard]] SweepResult sweep(WismansModel model,
                                 std::optional<std::size_t> load,
                                 const std::vector<double>& values,

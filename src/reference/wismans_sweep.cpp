@@ -162,6 +162,7 @@ PoseResult describe(const WismansModel& model, const WismansSolution& solution) 
     pose.ligaments.push_back({state.length, slack > 0 ? state.length / slack - 1 : 0, state.force});
   }
   pose.conditions = {{model.flexion, solution.unknowns[wismans::kMoment]}};
+  to_file_frames(model.origins, pose);
   return pose;
 }
 
@@ -172,6 +173,7 @@ SweepResult sweep(WismansModel model,
                   const WismansOptions& options) {
   std::vector<RigidTransform> starts = {model.start};
   starts.insert(starts.end(), other_starts.begin(), other_starts.end());
+  for (RigidTransform& X_BA : starts) X_BA = model.origins.into_model(X_BA);
   double& swept = load ? model.loads.at(*load).scale : model.flexion;
   Sweep walk(model, swept, options);
   SweepResult result;

@@ -26,12 +26,15 @@
 namespace condyle {
 namespace {
 
-/// A mesh that patches of one body are cut from, with what all of them need to know about it.
+/// A mesh that patches of one body are cut from, with what all of them need to know about it. All
+/// is computed about the middle of the mesh, so that it does not matter where the file has its
+/// origin; only what fit_one hands out is in the file's frame again.
 struct Source {
   MeshFile file;
   int body = -1;
-  std::vector<int> surfaces;  ///< indices into Scene::surfaces
-  CleanMesh mesh;
+  std::vector<int> surfaces;                         ///< indices into Scene::surfaces
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of the mesh, in the file's frame [mm]
+  CleanMesh mesh;                                    ///< about the middle, as the axis
   std::optional<CondylarAxis> axis;
   bool turned = false;  ///< some of the mesh was turned to face out of the bone
   std::vector<std::string> notes;
@@ -79,6 +82,7 @@ std::vector<Source> collect_sources(const Scene& scene) {
       sources.push_back({.file = file,
                          .body = surface.body,
                          .surfaces = {},
+                         .middle = Eigen::Vector3d::Zero(),
                          .mesh = {},
                          .axis = {},
                          .turned = false,
@@ -90,8 +94,9 @@ std::vector<Source> collect_sources(const Scene& scene) {
   return sources;
 }
 
-BoneFrame bone_frame(const AnatomicalFrame& frame) {
-  return {.origin = frame.origin,
+/// About the middle of the mesh.
+BoneFrame bone_frame(const AnatomicalFrame& frame, const Source& source) {
+  return {.origin = frame.origin - source.middle,
           .lateral = frame.lateral,
           .anterior = frame.anterior,
           .proximal = frame.proximal};
@@ -116,7 +121,7 @@ bool needs_axis(const Scene& scene, const Source& source) {
 /// [Cheng, in morphology tables]: the other way round, the knee may be one of the other side.
 void suspect_side(const Scene& scene, const TriangleMesh& mesh, Source& source) {
   constexpr double kSuspicious = 0.95;
-  const double ratio = plateau_depth_ratio(mesh, bone_frame(scene.joint->tibia));
+  const double ratio = plateau_depth_ratio(mesh, bone_frame(scene.joint->tibia, source));
   if (ratio > 0 && ratio < kSuspicious)
     source.notes.push_back(
         fmt::format("warning: the medial plateau is {:.2f} times as deep from front to back as the "
@@ -125,8 +130,23 @@ void suspect_side(const Scene& scene, const TriangleMesh& mesh, Source& source) 
                     ratio, scene.joint->side == Side::kRight ? "left" : "right"));
 }
 
-void load_source(const Scene& scene, Source& source) {
-  source.mesh = clean_mesh(load_mesh(source.file.path, source.file.to_mm));
+/// In whole millimetres, so that moving there and back costs none of the digits of a usual file.
+Eigen::Vector3d middle_of(const TriangleMesh& mesh) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : mesh.vertices) sum += p;
+  sum /= std::max<double>(1, static_cast<double>(mesh.vertices.size()));
+  return sum.array().round();
+}
+
+void move(TriangleMesh& mesh, const Eigen::Vector3d& d) {
+  for (Eigen::Vector3d& p : mesh.vertices) p += d;
+}
+
+void load_source(const Scene& scene, const MeshReader& read, Source& source) {
+  TriangleMesh as_read = read(source.file);
+  source.middle = middle_of(as_read);
+  move(as_read, -source.middle);
+  source.mesh = clean_mesh(std::move(as_read));
   source.notes = describe(source.mesh.report);
   const auto all = static_cast<int>(source.mesh.mesh.triangles.size());
   if (source.mesh.report.flipped_triangles > 0.9 * all)
@@ -134,9 +154,10 @@ void load_source(const Scene& scene, Source& source) {
         "warning: {} of {} triangles faced into the bone, as after mirroring: check the side",
         source.mesh.report.flipped_triangles, all));
   int turned = 0;
-  if (is_femur(scene, source)) turned = face_out_of_femur(source.mesh);
+  if (is_femur(scene, source))
+    turned = face_out_of_femur(source.mesh, bone_frame(scene.joint->femur, source));
   if (is_tibia(scene, source))
-    turned = face_out_of_tibia(source.mesh, bone_frame(scene.joint->tibia));
+    turned = face_out_of_tibia(source.mesh, bone_frame(scene.joint->tibia, source));
   source.turned = turned > 0;
   if (source.turned)
     source.notes.push_back(fmt::format("{} of {} sheets faced into the bone and were turned",
@@ -144,13 +165,14 @@ void load_source(const Scene& scene, Source& source) {
   const TriangleMesh& mesh = source.mesh.mesh;
   if (is_tibia(scene, source)) suspect_side(scene, mesh, source);
   try {
-    if (is_femur(scene, source)) check_one_knee(mesh, bone_frame(scene.joint->femur));
+    if (is_femur(scene, source)) check_one_knee(mesh, bone_frame(scene.joint->femur, source));
     if (is_tibia(scene, source) && needs_compartments(scene, source)) {
-      check_one_knee(mesh, bone_frame(scene.joint->tibia));
-      check_is_no_femur(source.mesh, bone_frame(scene.joint->tibia));
+      check_one_knee(mesh, bone_frame(scene.joint->tibia, source));
+      check_is_no_femur(source.mesh, bone_frame(scene.joint->tibia, source));
     }
     if (!needs_axis(scene, source)) return;
-    source.axis = fit_condylar_axis(mesh, vertex_normals(mesh), bone_frame(scene.joint->femur));
+    source.axis =
+        fit_condylar_axis(mesh, vertex_normals(mesh), bone_frame(scene.joint->femur, source));
     check_is_femur(*source.axis);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", source.file.path.string(), error.what()));
@@ -161,9 +183,12 @@ ArticularRegion find_region(const Scene& scene,
                             const Source& source,
                             const PatchDescription& patch) {
   const TriangleMesh& mesh = source.mesh.mesh;
-  if (!patch.compartment) return box_region(mesh, *patch.region_box);
+  std::optional<std::array<Eigen::Vector3d, 2>> box = patch.region_box;
+  if (box)
+    for (Eigen::Vector3d& corner : *box) corner -= source.middle;
+  if (!patch.compartment) return box_region(mesh, *box);
   RegionOptions options;
-  options.box = patch.region_box;
+  options.box = box;
   if (patch.region_angles) {
     options.femur_first_angle = (*patch.region_angles)[0];
     options.femur_last_angle = (*patch.region_angles)[1];
@@ -172,7 +197,7 @@ ArticularRegion find_region(const Scene& scene,
     options.femur_least_cosine = options.tibia_least_cosine = *patch.region_least_cosine;
   const Half half = *patch.compartment == Compartment::kMedial ? Half::kMedial : Half::kLateral;
   if (source.axis) return femoral_region(mesh, *source.axis, half, options);
-  return tibial_region(mesh, bone_frame(scene.joint->tibia), half, options);
+  return tibial_region(mesh, bone_frame(scene.joint->tibia, source), half, options);
 }
 
 FitReport report_of(const std::string& name, const ArticularRegion& region, const PatchFit& fit) {
@@ -242,6 +267,8 @@ FittedSurface fit_one(const Scene& scene, const Source& source, const SurfaceDes
       report.notes.push_back(move_out(surface.patch.offset, region, fit));
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    for (Eigen::Vector3d& p : fit.patch.control_points) p += source.middle;
+    move(region.mesh, source.middle);
     return {std::make_shared<const Patch>(std::move(fit.patch)),
             std::move(report),
             std::move(region.mesh),
@@ -253,15 +280,17 @@ FittedSurface fit_one(const Scene& scene, const Source& source, const SurfaceDes
 }
 
 void fit_source(const Scene& scene,
+                const MeshReader& read,
                 Source& source,
                 std::vector<FittedSurface>& surfaces,
                 const std::function<void()>& on_patch) {
-  load_source(scene, source);
+  load_source(scene, read, source);
   for (const int i : source.surfaces) {
     surfaces[i] = fit_one(scene, source, scene.surfaces[i]);
     on_patch();
   }
   if (source.turned) return;
+  move(source.mesh.mesh, source.middle);
   const auto bone = std::make_shared<const TriangleMesh>(std::move(source.mesh.mesh));
   for (const int i : source.surfaces)
     if (!scene.surfaces[i].patch.mesh) surfaces[i].bone = bone;
@@ -270,6 +299,7 @@ void fit_source(const Scene& scene,
 /// Work for all sources on two threads, the first error rethrown: sources share nothing but their
 /// own places in `surfaces`.
 void fit_sources(const Scene& scene,
+                 const MeshReader& read,
                  std::vector<Source>& sources,
                  std::vector<FittedSurface>& surfaces,
                  const OnProgress& on_patch) {
@@ -285,7 +315,7 @@ void fit_sources(const Scene& scene,
   const auto work = [&](std::size_t first, std::size_t step) {
     for (std::size_t k = first; k < sources.size(); k += step) {
       try {
-        fit_source(scene, sources[k], surfaces, tell);
+        fit_source(scene, read, sources[k], surfaces, tell);
       } catch (...) {
         errors[k] = std::current_exception();
       }
@@ -321,10 +351,15 @@ std::unique_ptr<Surface> make_exact_surface(const SurfaceDescription& s) {
   return nullptr;
 }
 
-std::vector<FittedSurface> fit_surfaces(const Scene& scene, const OnProgress& on_patch) {
+std::vector<FittedSurface> fit_surfaces(const Scene& scene,
+                                        const OnProgress& on_patch,
+                                        const MeshReader& read) {
   std::vector<Source> sources = collect_sources(scene);
   std::vector<FittedSurface> surfaces(scene.surfaces.size());
-  fit_sources(scene, sources, surfaces, on_patch);
+  const MeshReader from_file = [](const MeshFile& file) {
+    return load_mesh(file.path, file.to_mm);
+  };
+  fit_sources(scene, read ? read : from_file, sources, surfaces, on_patch);
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     if (scene.surfaces[i].kind != SurfaceKind::kPatch)
       surfaces[i].surface = make_exact_surface(scene.surfaces[i]);

@@ -3,6 +3,7 @@
 /// From the described surfaces of a scene to surfaces that can be evaluated: exact kinds are made,
 /// patches are fitted to the meshes (mesh room: load, clean, articular region; surface room: fit).
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,10 +46,15 @@ struct FittedSurface {
 /// A described surface of any kind but a patch.
 [[nodiscard]] std::unique_ptr<Surface> make_exact_surface(const SurfaceDescription& surface);
 
-/// One entry per Scene::surfaces. Throws InputError for meshes that cannot be used. `on_patch` is
-/// told of each patch that is fitted, from either of two threads but never from both at once.
+/// What stands in for reading a mesh file, from either of two threads: a mesh in memory, in mm.
+using MeshReader = std::function<TriangleMesh(const MeshFile&)>;
+
+/// One entry per Scene::surfaces, in the frames of the scene; where these have their origins does
+/// not matter. Throws InputError for meshes that cannot be used. `on_patch` is told of each patch
+/// that is fitted, from either of two threads but never from both at once.
 [[nodiscard]] std::vector<FittedSurface> fit_surfaces(const Scene& scene,
-                                                      const OnProgress& on_patch = {});
+                                                      const OnProgress& on_patch = {},
+                                                      const MeshReader& read = {});
 
 /// The mesh of a body, loaded and cleaned, in mm; empty where the scene names none.
 [[nodiscard]] TriangleMesh load_body_mesh(const BodyDescription& body);

@@ -217,17 +217,17 @@ PlateauEnds inner_ends(const TriangleMesh& mesh,
 
 }  // namespace
 
-int face_out_of_femur(CleanMesh& mesh) {
+int face_out_of_femur(CleanMesh& mesh, const BoneFrame& frame) {
   std::vector<Eigen::AlignedBox3d> boxes(mesh.closed.size());
   for (std::size_t t = 0; t < mesh.component.size(); ++t)
     for (const int v : mesh.mesh.triangles[t])
-      boxes[mesh.component[t]].extend(mesh.mesh.vertices[v]);
+      boxes[mesh.component[t]].extend(frame.components(mesh.mesh.vertices[v]));
   const std::vector<Vector3d> areas = triangle_areas(mesh.mesh);
   std::vector<double> outwardness(mesh.closed.size(), 0.0);
   for (std::size_t t = 0; t < areas.size(); ++t) {
     const int c = mesh.component[t];
-    outwardness[c] +=
-        areas[t].dot(mesh.mesh.vertices[mesh.mesh.triangles[t][0]] - boxes[c].center());
+    const Vector3d& p = mesh.mesh.vertices[mesh.mesh.triangles[t][0]];
+    outwardness[c] += frame.components(areas[t]).dot(frame.components(p) - boxes[c].center());
   }
   turn_components(mesh, outwardness);
   return count_inward(mesh, outwardness);
@@ -337,6 +337,8 @@ ArticularRegion tibial_region(const TriangleMesh& mesh,
 ArticularRegion box_region(const TriangleMesh& mesh, const std::array<Vector3d, 2>& corners) {
   Eigen::AlignedBox3d box(corners[0]);
   box.extend(corners[1]);
+  const Vector3d round_off = Vector3d::Constant(1e-9 * box.diagonal().norm());
+  box = {box.min() - round_off, box.max() + round_off};
   std::vector<bool> inside(mesh.vertices.size());
   for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = box.contains(mesh.vertices[i]);
   const std::vector<bool> all = select(mesh, inside);
@@ -357,7 +359,12 @@ ArticularRegion box_region(const TriangleMesh& mesh, const std::array<Vector3d, 
       spread += flat * flat.transpose();
     }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(spread);
-  return plane_region(mesh, keep, keep, center, height, principal.eigenvectors().col(2));
+  Vector3d forward = principal.eigenvectors().col(2);
+  double third = 0;  // moment: an axis has no sense of its own
+  for (std::size_t t = 0; t < keep.size(); ++t)
+    if (keep[t]) third += std::pow(forward.dot(mesh.vertices[mesh.triangles[t][0]] - center), 3);
+  if (third < 0) forward = -forward;
+  return plane_region(mesh, keep, keep, center, height, forward);
 }
 
 }  // namespace condyle

@@ -47,7 +47,7 @@ struct RegionOptions {
 
 /// Turns open components so that they face out of the bone (closed ones do already); returns how
 /// many.
-int face_out_of_femur(CleanMesh& mesh);
+int face_out_of_femur(CleanMesh& mesh, const BoneFrame& frame);
 int face_out_of_tibia(CleanMesh& mesh, const BoneFrame& frame);
 
 /// Region of one compartment. Throws InputError (without the name of the surface) where nothing can

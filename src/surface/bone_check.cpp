@@ -23,7 +23,7 @@ constexpr double kWidest = 125;    // of a knee; epicondylar widths of men are 8
 constexpr double kGoodAxis = 1.5;  // rms of posterior condyles from their cylinders [mm]
 
 std::optional<CondylarAxis> find_axis(CleanMesh mesh, const BoneFrame& frame) {
-  face_out_of_femur(mesh);
+  face_out_of_femur(mesh, frame);
   try {
     return fit_condylar_axis(mesh.mesh, vertex_normals(mesh.mesh), frame);
   } catch (const InputError&) {

@@ -61,6 +61,14 @@ class Ellipsoid final : public Surface {
   [[nodiscard]] std::vector<Place> samples(double spacing) const override {
     return ellipsoid_samples(center_, axes_, semi_axes_, spacing);
   }
+  [[nodiscard]] Extent extent() const override {
+    return {center_, semi_axes_.norm() / std::sqrt(3)};
+  }
+  [[nodiscard]] std::unique_ptr<Surface> translated(const Vector3d& d) const override {
+    auto copy = std::make_unique<Ellipsoid>(*this);
+    copy->center_ += d;
+    return copy;
+  }
 
  private:
   /// p brought to the surface along the ray from the centre. A tangent displacement leaves φ = 1

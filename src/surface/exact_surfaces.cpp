@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <numbers>
 
 #include "input_error.h"
 #include "surface/exact_surface_tools.h"
@@ -54,6 +55,13 @@ class Plane final : public Surface {
       places.push_back(point_ + at.x() * x + at.y() * y);
     return places;
   }
+  [[nodiscard]] Extent extent() const override { return {point_, radius_ / std::numbers::sqrt2}; }
+  [[nodiscard]] std::unique_ptr<Surface> translated(const Vector3d& d) const override {
+    auto copy = std::make_unique<Plane>(*this);
+    copy->point_ += d;
+    copy->height_ = n_.dot(copy->point_);
+    return copy;
+  }
 
  private:
   Vector3d n_, point_;
@@ -88,6 +96,12 @@ class Sphere final : public Surface {
   [[nodiscard]] bool bends_evenly() const override { return true; }
   [[nodiscard]] std::vector<Place> samples(double spacing) const override {
     return ellipsoid_samples(center_, Matrix3d::Identity(), Vector3d::Constant(radius_), spacing);
+  }
+  [[nodiscard]] Extent extent() const override { return {center_, radius_}; }
+  [[nodiscard]] std::unique_ptr<Surface> translated(const Vector3d& d) const override {
+    auto copy = std::make_unique<Sphere>(*this);
+    copy->center_ += d;
+    return copy;
   }
 
  private:
@@ -131,6 +145,14 @@ class Cylinder final : public Surface {
   [[nodiscard]] std::vector<Place> samples(double spacing) const override {
     if (std::isinf(length_)) return {};
     return cylinder_samples(point_, axis_, radius_, length_, spacing);
+  }
+  [[nodiscard]] Extent extent() const override {
+    return {point_, std::hypot(radius_, length_ / std::sqrt(12))};
+  }
+  [[nodiscard]] std::unique_ptr<Surface> translated(const Vector3d& d) const override {
+    auto copy = std::make_unique<Cylinder>(*this);
+    copy->point_ += d;
+    return copy;
   }
 
  private:
@@ -186,6 +208,12 @@ class Torus final : public Surface {
   }
   [[nodiscard]] std::vector<Place> samples(double spacing) const override {
     return torus_samples(center_, axis_, major_, minor_, spacing);
+  }
+  [[nodiscard]] Extent extent() const override { return {center_, std::hypot(major_, minor_)}; }
+  [[nodiscard]] std::unique_ptr<Surface> translated(const Vector3d& d) const override {
+    auto copy = std::make_unique<Torus>(*this);
+    copy->center_ += d;
+    return copy;
   }
 
  private:

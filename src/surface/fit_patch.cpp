@@ -39,9 +39,11 @@ SplineGrid make_grid(const ArticularRegion& region, const FitOptions& options) {
     grid.v_max = box.max().y() + kMargin;
     grid.nu = (*options.control_points)[0], grid.nv = (*options.control_points)[1];
   } else {
-    // Knots at multiples of the spacing, so that meshes of one knee get the same ones.
-    const auto down = [h](double x) { return h * std::floor((x - kMargin) / h); };
-    const auto up = [h](double x) { return h * std::ceil((x + kMargin) / h); };
+    // Knots at multiples of the spacing, so that meshes of one knee get the same ones; round-off
+    // has no say where an edge lies on a multiple.
+    constexpr double kRoundOff = 1e-6;
+    const auto down = [h](double x) { return h * std::floor((x - kMargin) / h + kRoundOff); };
+    const auto up = [h](double x) { return h * std::ceil((x + kMargin) / h - kRoundOff); };
     grid.u_min = down(box.min().x());
     grid.u_max = up(box.max().x());
     grid.v_min = down(box.min().y());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "input_error.h"
@@ -93,6 +94,14 @@ class HeightPolynomial final : public Surface {
     for (const Eigen::Vector2d& at : disc_samples(radius_, spacing / steepness(spacing)))
       places.push_back(origin_ + axes_ * Vector3d(at.x(), at.y(), height(at.x(), at.y()).h));
     return places;
+  }
+  [[nodiscard]] Extent extent() const override {
+    return {seed(origin_), radius_ / std::numbers::sqrt2};
+  }
+  [[nodiscard]] std::unique_ptr<Surface> translated(const Vector3d& d) const override {
+    auto copy = std::make_unique<HeightPolynomial>(*this);
+    copy->origin_ += d;
+    return copy;
   }
 
  private:

@@ -25,6 +25,16 @@ struct Patch::SeedIndex {
   std::unique_ptr<PointTree> tree;
 };
 
+namespace {
+
+Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points) sum += p;
+  return sum / static_cast<double>(points.size());
+}
+
+}  // namespace
+
 Patch::Patch(PatchData data)
     : data_(std::move(data)),
       u_(make_direction(data_.knots_u, data_.degree[0])),
@@ -32,12 +42,10 @@ Patch::Patch(PatchData data)
   assert(static_cast<int>(data_.control_points.size()) == data_.nu * data_.nv);
   assert(u_.spans == data_.nu - data_.degree[0] && v_.spans == data_.nv - data_.degree[1]);
   net_.reserve(data_.control_points.size());
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : data_.control_points) {
-    net_.emplace_back(p.x(), p.y(), p.z(), 0);
-    box.extend(p);
-  }
-  size_ = box.diagonal().norm();
+  for (const Eigen::Vector3d& p : data_.control_points) net_.emplace_back(p.x(), p.y(), p.z(), 0);
+  const Eigen::Vector3d middle = mean_of(data_.control_points);
+  for (const Eigen::Vector3d& p : data_.control_points)
+    size_ = std::max(size_, 2 * (p - middle).norm());
 
   auto seeds = std::make_shared<SeedIndex>();
   const int nu = std::clamp(2 * u_.spans, 4, 60), nv = std::clamp(2 * v_.spans, 4, 60);
@@ -54,7 +62,30 @@ Patch::Patch(PatchData data)
     seeds->points.push_back(derivatives(seeds->places[0].x(), seeds->places[0].y()).c);
   }
   seeds->tree = std::make_unique<PointTree>(3, seeds->cloud);
+  extent_ = extent_of(seeds->places, seeds->points);
   seeds_ = std::move(seeds);
+}
+
+/// Of the seeds that lie within the known part, or of all where none does.
+Extent Patch::extent_of(const std::vector<Place>& places,
+                        const std::vector<Eigen::Vector3d>& points) const {
+  std::vector<Eigen::Vector3d> known;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (edge_distance(places[i]) >= 0) known.push_back(points[i]);
+  if (known.empty()) known = points;
+  const Eigen::Vector3d center = mean_of(known);
+  double square = 0;
+  for (const Eigen::Vector3d& p : known) square += (p - center).squaredNorm();
+  return {center, std::sqrt(square / static_cast<double>(known.size()))};
+}
+
+std::unique_ptr<Surface> Patch::translated(const Eigen::Vector3d& d) const {
+  auto copy = std::make_unique<Patch>(*this);
+  for (Eigen::Vector3d& p : copy->data_.control_points) p += d;
+  for (Eigen::Vector4d& p : copy->net_) p.head<3>() += d;
+  copy->extent_.center += d;
+  copy->seeds_moved_ += d;
+  return copy;
 }
 
 Patch::Direction Patch::make_direction(const std::vector<double>& knots, int degree) {
@@ -301,7 +332,8 @@ Place Patch::seed(const Eigen::Vector3d& p) const {
   double square = 0;
   nanoflann::KNNResultSet<double> result(1);
   result.init(&nearest, &square);
-  seeds_->tree->findNeighbors(result, p.data(), nanoflann::SearchParams());
+  const Eigen::Vector3d where_laid = p - seeds_moved_;
+  seeds_->tree->findNeighbors(result, where_laid.data(), nanoflann::SearchParams());
   return seeds_->places[nearest];
 }
 

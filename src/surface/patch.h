@@ -66,6 +66,8 @@ class Patch final : public Surface {
   [[nodiscard]] Place seed(const Eigen::Vector3d& p) const override;
   [[nodiscard]] double edge_distance(const Place& place) const override;
   [[nodiscard]] std::vector<Place> samples(double spacing) const override;
+  [[nodiscard]] Extent extent() const override { return extent_; }
+  [[nodiscard]] std::unique_ptr<Surface> translated(const Eigen::Vector3d& d) const override;
 
  private:
   struct SeedIndex;
@@ -86,12 +88,16 @@ class Patch final : public Surface {
   [[nodiscard]] PatchDerivatives bicubic_derivatives(double u, double v, bool second) const;
   [[nodiscard]] PatchDerivatives general_derivatives(double u, double v) const;
   [[nodiscard]] SurfacePoint point_from(const PatchDerivatives& d) const;
+  [[nodiscard]] Extent extent_of(const std::vector<Place>& places,
+                                 const std::vector<Eigen::Vector3d>& points) const;
 
   PatchData data_;
   Direction u_, v_;
   std::vector<Eigen::Vector4d> net_;  ///< control points, padded for aligned loads
-  double size_;                       ///< diagonal of the control net's box [mm]
+  double size_ = 0;                   ///< twice the reach of the control net from its mean [mm]
+  Extent extent_;                     ///< of the seeds that are known
   std::shared_ptr<const SeedIndex> seeds_;
+  Eigen::Vector3d seeds_moved_ = Eigen::Vector3d::Zero();  ///< since the seeds were laid [mm]
 };
 
 }  // namespace condyle

@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace condyle {
@@ -27,6 +28,14 @@ struct SurfacePoint {
   Eigen::Matrix3d K;  ///< curvature tensor [1/mm], dn = -K dc
   Eigen::Matrix<double, 3, 2>
       dual;  ///< reciprocal tangents g_u, g_v: du = g_u.dc, dv = g_v.dc; patches only
+};
+
+/// Where the known part of a surface is and how large.
+struct Extent {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< of an unbounded surface a point of it [mm]
+  double radius =
+      std::numeric_limits<double>::infinity();  ///< root mean square distance from the centre [mm];
+                                                ///< infinite for an unbounded surface
 };
 
 class Surface {
@@ -71,6 +80,12 @@ class Surface {
   /// contacts. Empty for a surface without bounds (plane, cylinder): then the other surface of a
   /// pair is sampled.
   [[nodiscard]] virtual std::vector<Place> samples(double spacing) const = 0;
+
+  [[nodiscard]] virtual Extent extent() const = 0;
+
+  /// The same surface moved by d [mm]: places of exact surfaces move with it, (u, v) of a patch
+  /// stay.
+  [[nodiscard]] virtual std::unique_ptr<Surface> translated(const Eigen::Vector3d& d) const = 0;
 };
 
 }  // namespace condyle

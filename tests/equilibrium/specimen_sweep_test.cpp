@@ -157,16 +157,17 @@ TEST(SpecimenStarts, TwelveDisplacedStartsAtSevenAnglesGiveOneEquilibrium) {
   test::Random random(5);
   for (const PoseResult& pose : expected.poses) {
     ASSERT_TRUE(pose.converged());
-    for (int start = 0; start < 12; ++start) {
+    for (int k = 0; k < 12; ++k) {
       Model model = build_model(scene, surfaces);
       model.conditions[0].value = pose.value;
       const auto within = [&](double x, double y, double z) {
         return Eigen::Vector3d(x * random.between(-1, 1), y * random.between(-1, 1),
                                z * random.between(-1, 1));
       };
-      model.start = pose.X_BA;
-      model.start.R = model.start.R * exp_rotation(kDegree * within(4, 12, 4));
-      model.start.p += within(5, 2, 3);
+      RigidTransform start = pose.X_BA;
+      start.R = start.R * exp_rotation(kDegree * within(4, 12, 4));
+      start.p += within(5, 2, 3);
+      model.start = model.origins.into_model(start);
       EquilibriumSolver solver(std::move(model));
       const PoseResult found = solver.solve();
       ASSERT_TRUE(found.converged()) << pose.value / kDegree << " degrees: " << found.reason;

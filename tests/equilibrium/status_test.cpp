@@ -161,6 +161,10 @@ class HalfFloor : public Surface {
   [[nodiscard]] Place seed(const Eigen::Vector3d& p) const override { return plane_->seed(p); }
   [[nodiscard]] double edge_distance(const Place& place) const override { return -place.x(); }
   [[nodiscard]] std::vector<Place> samples(double) const override { return {}; }
+  [[nodiscard]] Extent extent() const override { return plane_->extent(); }
+  [[nodiscard]] std::unique_ptr<Surface> translated(const Eigen::Vector3d&) const override {
+    return nullptr;
+  }
 
  private:
   std::unique_ptr<Surface> plane_;

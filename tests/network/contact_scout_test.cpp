@@ -33,7 +33,7 @@ TEST(ContactScout, NoBlowDrivesTheBodiesIntoEachOther) {
   for (const PoseResult& pose : simulation.poses) {
     for (std::size_t p = 0; p < searches.size(); ++p) {
       opened += pose.contacts[p].closed ? 0 : 1;
-      searches[p].find(pose.X_BA, 0, minima);
+      searches[p].find(model.origins.into_model(pose.X_BA), 0, minima);
       for (const GapMinimum& minimum : minima)
         EXPECT_GT(minimum.refined ? minimum.gap : 0, -1e-5) << pose.value << " s";
     }

@@ -47,6 +47,10 @@ class CountedSurface : public Surface {
   [[nodiscard]] std::vector<Place> samples(double spacing) const override {
     return inner_->samples(spacing);
   }
+  [[nodiscard]] Extent extent() const override { return inner_->extent(); }
+  [[nodiscard]] std::unique_ptr<Surface> translated(const Eigen::Vector3d& d) const override {
+    return std::make_unique<CountedSurface>(inner_->translated(d), asked_);
+  }
 
  private:
   std::shared_ptr<const Surface> inner_;

@@ -26,7 +26,7 @@ Eigen::Vector3d near_surface(Bone bone, int side, const Eigen::Vector3d& p) {
 }  // namespace
 
 SurfacePoint ExactBone::evaluate(const Place& place) const {
-  const ShapeValue s = shape_derivatives(bone_, place);
+  const ShapeValue s = shape_derivatives(bone_, place - origin_);
   const double slope = s.g.norm();
   SurfacePoint point;
   point.c = place;
@@ -40,13 +40,15 @@ SurfacePoint ExactBone::evaluate(const Place& place) const {
 Place ExactBone::moved(const Place& place,
                        const SurfacePoint& at,
                        const Eigen::Vector3d& dc) const {
-  return project(bone_, place + dc - dc.dot(at.n) * at.n);
+  return origin_ + project(bone_, place - origin_ + dc - dc.dot(at.n) * at.n);
 }
 
-Place ExactBone::closest(const Eigen::Vector3d& p, const Place&) const { return project(bone_, p); }
+Place ExactBone::closest(const Eigen::Vector3d& p, const Place&) const {
+  return origin_ + project(bone_, p - origin_);
+}
 
 Place ExactBone::seed(const Eigen::Vector3d& p) const {
-  return project(bone_, near_surface(bone_, side_, p));
+  return origin_ + project(bone_, near_surface(bone_, side_, p - origin_));
 }
 
 std::vector<Place> ExactBone::samples(double spacing) const {
@@ -62,7 +64,25 @@ std::vector<Place> ExactBone::samples(double spacing) const {
                                 {-std::sin(a * kDegree), -std::cos(a * kDegree), side_ * z})));
     }
   }
+  for (Place& place : places) place += origin_;
   return places;
+}
+
+Extent ExactBone::extent() const {
+  const std::vector<Place> places = samples(4);
+  const auto n = static_cast<double>(places.size());
+  Extent extent{Eigen::Vector3d::Zero(), 0};
+  for (const Place& place : places) extent.center += place / n;
+  double square = 0;
+  for (const Place& place : places) square += (place - extent.center).squaredNorm() / n;
+  extent.radius = std::sqrt(square);
+  return extent;
+}
+
+std::unique_ptr<Surface> ExactBone::translated(const Eigen::Vector3d& d) const {
+  auto copy = std::make_unique<ExactBone>(*this);
+  copy->origin_ += d;
+  return copy;
 }
 
 }  // namespace condyle::phantom

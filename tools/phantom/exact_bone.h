@@ -21,10 +21,13 @@ class ExactBone : public Surface {
   [[nodiscard]] Place closest(const Eigen::Vector3d& p, const Place& start) const override;
   [[nodiscard]] Place seed(const Eigen::Vector3d& p) const override;
   [[nodiscard]] std::vector<Place> samples(double spacing) const override;
+  [[nodiscard]] Extent extent() const override;
+  [[nodiscard]] std::unique_ptr<Surface> translated(const Eigen::Vector3d& d) const override;
 
  private:
   Bone bone_;
   int side_;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();  ///< of the phantom [mm]
 };
 
 }  // namespace condyle::phantom
