@@ -105,6 +105,7 @@ class MovedScene {
     for (std::size_t i = 0; i < fitted.size(); ++i) {
       const SurfaceDescription& description = moved_.surfaces[i];
       const RigidTransform& X = of(description.body);
+      fitted[i].bone.reset();
       if (description.kind != SurfaceKind::kPatch) {
         fitted[i].surface = make_exact_surface(description);
         continue;
