@@ -111,10 +111,10 @@ std::string edge_in_words(const Model& model, const ClosedContact& contact) {
   const Seen seen = see(model, pair, on_A);
   const Place& place = on_A ? contact.on_A : contact.on_B;
   const double beyond = -seen.surface.edge_distance(place);
-  const std::string how = beyond > kAt ? fmt::format("{:.2f} mm beyond", beyond) : "at";
+  const std::string how = beyond > kAt ? fmt::format("{:.2f} mm beyond", beyond) : "at the edge of";
   const std::string of = seen.name.empty() ? "its surface" : quoted(seen.name);
-  return fmt::format("contact {} lies {} the {} of the known part of {}, {}", quoted(pair.name),
-                     how, side_in_words(model, seen, on_A, place), of, place_in_words(seen, place));
+  return fmt::format("contact {} lies {} the known part of {} at its {}, {}", quoted(pair.name),
+                     how, of, side_in_words(model, seen, on_A, place), place_in_words(seen, place));
 }
 
 }  // namespace condyle

@@ -8,10 +8,10 @@
 
 namespace condyle {
 
-/// 'contact "medial" lies 2.3 mm beyond the notch side of "medial condyle", 18.2 mm medial, 3.1 mm
-/// posterior and 4 mm distal of the joint's origin': the surface whose edge is nearer, the side of
-/// it and the place in the directions of its body's anatomical frame; without a joint the place in
-/// the body's frame [mm].
+/// 'contact "medial" lies 2.3 mm beyond the known part of "medial condyle" at its notch side, 18.2
+/// mm medial, 3.1 mm posterior and 4 mm distal of the joint's origin': the surface whose edge is
+/// nearer, the side of it and the place in the directions of its body's anatomical frame; without a
+/// joint the place in the body's frame [mm].
 [[nodiscard]] std::string edge_in_words(const Model& model, const ClosedContact& contact);
 
 }  // namespace condyle

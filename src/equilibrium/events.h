@@ -32,7 +32,7 @@ struct EventOptions {
   double snap = 0.05;     ///< a body that moved farther than this, in units of L, may have snapped
                           ///< through
   int most_events = 16;   ///< between two poses
-  int most_wasted = 1500;  ///< iterations on trials without equilibrium, after which no event more
+  int most_wasted = 6000;  ///< iterations on trials without equilibrium, after which no event more
                           ///< is looked for between the two poses
 };
 
