@@ -1,5 +1,7 @@
 #include "equilibrium/bending.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,15 +13,18 @@ namespace condyle {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kSafety = 1.3;      // the quadric meant is that of a point near the sample
 constexpr double kNeighbours = 1.6;  // radius of the first shell, in spacings
+
+/// The greatest principal value off the normal.
+double largest_principal(const Eigen::Matrix3d& K) {
+  const double trace = K.trace();
+  return 0.5 * (trace + std::sqrt(std::max(0.0, 2 * K.squaredNorm() - trace * trace)));
+}
 
 /// Of a plane, sphere or cylinder as far as `radius` from any of its points. A cup of radius R
 /// rises to h = d²/2R at the distance d from its point, so 2 h/t² = 1/R (1 - d²/4R²).
 Rise even_rise(double radius, const Eigen::Matrix3d& K) {
-  const double trace = K.trace();
-  const double greatest =
-      0.5 * (trace + std::sqrt(std::max(0.0, 2 * K.squaredNorm() - trace * trace)));
+  const double trace = K.trace(), greatest = largest_principal(K);
   if (trace <= 0) return {0, greatest};
   const double x = 0.5 * radius * greatest;
   if (x > 0.9) return {kInfinity, kInfinity};
@@ -79,7 +84,8 @@ Bending::Radii Bending::shells(double spacing, double greatest) {
 Bending::Bending(const Surface& surface, double spacing, const Radii& radii)
     : radii_(radii), even_(surface.bends_evenly()) {
   std::vector<Eigen::Vector3d> points;
-  for (const Place& place : surface.samples(spacing)) {
+  const std::vector<Place> places = surface.samples(spacing);
+  for (const Place& place : places) {
     samples_.push_back(surface.evaluate(place));
     points.push_back(samples_.back().c);
     normals_.push_back(samples_.back().n);
@@ -88,34 +94,93 @@ Bending::Bending(const Surface& surface, double spacing, const Radii& radii)
   if (!points.empty()) tree_ = std::make_shared<const Tree>(std::move(points));
   shells_.resize(samples_.size());
   for (Shells& shells : shells_) shells.within[0] = -1;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    cells_.push_back(cell_of(surface, places[i], i));
+    greatest_convexity_ =
+        std::max(greatest_convexity_, largest_principal(-samples_[i].K) + cells_.back().curvature);
+  }
+}
+
+/// Half the way to the farthest of eight neighbours is the cell's radius; its rim tells the rest.
+Bending::Cell Bending::cell_of(const Surface& surface, const Place& place, std::size_t i) const {
+  constexpr int kRim = 8;
+  constexpr double kBetween = 1.3;  // what lies between the points of the rim
+  const SurfacePoint& at = samples_[i];
+  Cell cell;
+  for (const int other : neighbours_[i])
+    if (other >= 0)
+      cell.radius =
+          std::max(cell.radius, 0.5 * (samples_[static_cast<std::size_t>(other)].c - at.c).norm());
+  if (even_) return cell;
+  const Eigen::Vector3d e0 = at.n.unitOrthogonal(), e1 = at.n.cross(e0);
+  for (int k = 0; k < kRim; ++k) {
+    const double angle = 2 * M_PI * k / kRim;
+    const SurfacePoint rim = surface.evaluate(
+        surface.moved(place, at, cell.radius * (std::cos(angle) * e0 + std::sin(angle) * e1)));
+    const Eigen::Vector3d d = rim.c - at.c, t = d - at.n.dot(d) * at.n;
+    cell.rise = std::max(cell.rise, kBetween * (2 * at.n.dot(d) - t.dot(at.K * t)));
+    cell.curvature = std::max(cell.curvature, kBetween * (rim.K - at.K).norm());
+  }
+  return cell;
 }
 
 const std::vector<Eigen::Vector3d>& Bending::points() const { return tree_->points; }
 
+/// Of all of a cell as seen from another's sample.
+Rise Bending::rise_of(std::size_t j, std::size_t i) const {
+  const SurfacePoint& at = samples_[i];
+  const SurfacePoint& to = samples_[j];
+  const Cell& cell = cells_[j];
+  const double change = (to.K - at.K).norm();
+  const Eigen::Vector3d d = to.c - at.c;
+  const double height = at.n.dot(d);
+  const Eigen::Vector3d t = d - height * at.n;
+  const double square = t.squaredNorm(), radius = cell.radius;
+  if (at.n.dot(to.n) < 0.5) return {kInfinity, 2 * height / std::max(square, radius * radius)};
+  if (square < 4 * radius * radius) {
+    const double rise = change + cell.curvature;
+    return {rise, largest_principal(at.K) + rise};
+  }
+  const double quadric = t.dot(at.K * t), over = 2 * height - quadric;
+  const double part = radius * radius / square;
+  const double rise = (over + cell.rise) / square + (change + 3 * std::abs(over) / square) * part;
+  const double turn = 2 * at.K.norm() * part;  // of the direction within the cell
+  return {rise, quadric / square + rise + turn};
+}
+
 void Bending::measure(std::size_t sample) {
-  const SurfacePoint& at = samples_[sample];
-  const double least = radii_[0] / kNeighbours;
-  const BendingMeter meter(at.c, at.n, at.K);
+  const Eigen::Vector3d& c = samples_[sample].c;
+  const double own = cells_[sample].radius;
   Shells& shells = shells_[sample];
   shells.of.fill({-kInfinity, -kInfinity});
   const std::vector<Eigen::Vector3d>& points = this->points();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double square = (points[i] - at.c).squaredNorm();
-    int level = 0;
-    while (level < kLevels && square > radii_[level] * radii_[level]) ++level;
-    if (level == kLevels || i == sample) continue;
-    const Rise rise = meter.at(points[i], normals_[i], least);
-    Rise& greatest = shells.of[level];
-    greatest.over_quadric = std::max(greatest.over_quadric, rise.over_quadric);
-    greatest.over_plane = std::max(greatest.over_plane, rise.over_plane);
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    const double d = (points[j] - c).norm(), reach = cells_[j].radius + own;
+    if (d - reach > radii_.back()) continue;
+    const Rise rise = rise_of(j, sample);
+    for (int level = 0; level < kLevels; ++level) {
+      if (level > 0 && radii_[level - 1] > d + reach) break;
+      if (radii_[level] < d - reach) continue;
+      Rise& greatest = shells.of[level];
+      greatest.over_quadric = std::max(greatest.over_quadric, rise.over_quadric);
+      greatest.over_plane = std::max(greatest.over_plane, rise.over_plane);
+    }
   }
   double so_far = 0;
   for (int level = 0; level < kLevels; ++level) {
     Rise& rise = shells.of[level];
-    if (rise.over_quadric > 0) rise.over_quadric *= kSafety;
+    // The point that is meant lies up to a cell beside the sample.
+    const double nearer = level == 0 ? 1 : 1 + own / radii_[level - 1];
+    if (rise.over_quadric > 0) rise.over_quadric *= nearer * nearer;
     so_far = std::max(so_far, rise.over_quadric);
     shells.within[level] = so_far;
   }
+}
+
+/// What the quadric of a point in the cell adds to that of its sample: its curvature differs, and
+/// so do height and slope on the way there, by less than half as much again.
+double Bending::shift(std::size_t sample, const Eigen::Matrix3d& K) const {
+  return 1.5 * (K - samples_[sample].K).norm();
 }
 
 int Bending::nearest(const Eigen::Vector3d& point, int start) const {
@@ -149,7 +214,7 @@ double Bending::within(double radius, int sample, const Eigen::Matrix3d& K) {
   if (shells_[index].within[0] < 0) measure(index);
   int level = 0;
   while (level < kLevels && radii_[level] < radius) ++level;
-  return level == kLevels ? kInfinity : shells_[index].within[level];
+  return level == kLevels ? kInfinity : shells_[index].within[level] + shift(index, K);
 }
 
 Rise Bending::in_shell(int level, int sample, const Eigen::Matrix3d& K) {
@@ -157,7 +222,9 @@ Rise Bending::in_shell(int level, int sample, const Eigen::Matrix3d& K) {
   if (sample < 0) return {kInfinity, kInfinity};
   const auto index = static_cast<std::size_t>(sample);
   if (shells_[index].within[0] < 0) measure(index);
-  return shells_[index].of[level];
+  const Rise& rise = shells_[index].of[level];
+  const double more = shift(index, K);
+  return {rise.over_quadric + more, rise.over_plane + more};
 }
 
 }  // namespace condyle

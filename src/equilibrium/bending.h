@@ -3,9 +3,12 @@
 /// How far a surface rises over its osculating quadric and over its tangent plane, towards the
 /// solid that touches it: what a bound on the gap has to allow for.
 ///
-/// Measured, not bounded by theory: at a sample of the surface the height h of all others over the
-/// tangent plane is compared with ½ tᵀ K t. A surface without samples tells nothing, unless it
-/// bends evenly (plane, sphere, cylinder).
+/// At a sample the height h of every other sample over the tangent plane is compared with ½ tᵀ K t.
+/// What lies between the samples is allowed for: a maximum between them exceeds the highest sample
+/// by no more than the curvature there over half a cell, plus what the surface departs from the
+/// sample's own quadric within its cell, measured on its rim; near the sample the curvature itself
+/// bounds the rise. So is the way from the sample to the point of contact whose quadric is meant. A
+/// surface without samples tells nothing, unless it bends evenly (plane, sphere, cylinder).
 
 #include <Eigen/Core>
 
@@ -40,26 +43,40 @@ class Bending {
   /// -1 where no sample is near.
   [[nodiscard]] int nearest(const Eigen::Vector3d& point, int start) const;
 
-  /// Least a >= 0 [1/mm] with h - ½ tᵀ K t <= ½ a t² for all points within `radius` [mm] of a point
-  /// near `sample`, where the curvature tensor is K; infinite where the surface turns away too far.
-  /// Measured when a sample is first asked for.
+  /// a >= 0 [1/mm] with h - ½ tᵀ K t <= ½ a t² for all points within `radius` [mm] of a point in
+  /// the cell of `sample`, where the curvature tensor is K; infinite where the surface turns away
+  /// too far. Measured when a sample is first asked for.
   [[nodiscard]] double within(double radius, int sample, const Eigen::Matrix3d& K);
 
   /// The same of shell `level` alone, and over the plane.
   [[nodiscard]] Rise in_shell(int level, int sample, const Eigen::Matrix3d& K);
 
+  /// The greatest curvature away from the solid that touches the surface, over all cells [1/mm].
+  [[nodiscard]] double greatest_convexity() const { return greatest_convexity_; }
+
  private:
+  /// The surface about a sample, as far as half the way to its neighbours.
+  struct Cell {
+    double radius = 0;     ///< [mm]
+    double rise = 0;       ///< greatest 2 h - tᵀ K t over the sample's own quadric [mm]
+    double curvature = 0;  ///< greatest change of the curvature tensor [1/mm]
+  };
   struct Shells {
     std::array<Rise, kLevels> of;
     std::array<double, kLevels> within;  ///< up to and with each shell; the first < 0: not measured
   };
   struct Tree;
   [[nodiscard]] const std::vector<Eigen::Vector3d>& points() const;
+  [[nodiscard]] Cell cell_of(const Surface& surface, const Place& place, std::size_t sample) const;
+  [[nodiscard]] Rise rise_of(std::size_t cell, std::size_t base) const;
   void measure(std::size_t sample);
+  [[nodiscard]] double shift(std::size_t sample, const Eigen::Matrix3d& K) const;
 
   Radii radii_;
   bool even_;
   std::vector<SurfacePoint> samples_;
+  std::vector<Cell> cells_;
+  double greatest_convexity_ = 0;
   std::shared_ptr<const Tree> tree_;
   std::vector<Eigen::Vector3d> normals_;
   std::vector<std::array<int, 8>> neighbours_;

@@ -20,9 +20,10 @@ constexpr int kLeafSize = 8;
 // All in sample spacings:
 constexpr double kDeepest = 12;  // overlap of a surface with an edge that is still taken for one
 constexpr double kBendingSpacing = 2;
-constexpr double kValley = 0.06;  // a minimum between samples lies lower than both by this at most
-constexpr double kSame = 0.3;     // a minimum predicted nearer to one that is known is that one
-constexpr double kModel = 0.01;   // what the paraboloid of the gap may be wrong by within its reach
+constexpr double kValley = 0.06;    // least depth that is allowed for a minimum between samples
+constexpr double kHalfCell = 0.75;  // from a sample to the farthest place that it stands for
+constexpr double kSame = 0.3;       // a minimum predicted nearer to one that is known is that one
+constexpr double kModel = 0.01;  // what the paraboloid of the gap may be wrong by within its reach
 
 /// The spacing that is wanted, or a wider one where that would take too many samples: a small model
 /// on a large ball. The area is told by a coarse cover.
@@ -74,7 +75,8 @@ ContactSearch::ContactSearch(const ContactPair& pair, Cover cover)
       deepest_(has_edge(other()) ? kDeepest * spacing_ : kInfinity),
       shells_(Bending::shells(kBendingSpacing * spacing_, cover.extent)),
       bending_B_(*on_B_, kBendingSpacing * spacing_, shells_),
-      bending_A_(*on_A_, kBendingSpacing * spacing_, shells_) {
+      bending_A_(*on_A_, kBendingSpacing * spacing_, shells_),
+      valley_(valley_depth()) {
   for (const SurfacePoint& point : cover.points) {
     points_.push_back(point.c);
     normals_.push_back(point.n);
@@ -90,6 +92,14 @@ ContactSearch::ContactSearch(const ContactPair& pair, Cover cover)
   std::iota(order_.begin(), order_.end(), 0);
   neighbours_ = nearest_neighbours(points_, 1.6 * spacing_);
   if (n > 0) build(0, static_cast<int>(n));
+}
+
+/// By how much a minimum between samples may lie lower than the nearest of them: half the greatest
+/// relative curvature times the square of its distance.
+double ContactSearch::valley_depth() const {
+  const double convexity = bending_B_.greatest_convexity() + bending_A_.greatest_convexity();
+  const double half_cell = kHalfCell * spacing_;
+  return std::max(kValley * spacing_, 0.5 * convexity * half_cell * half_cell);
 }
 
 int ContactSearch::build(int first, int last) {
@@ -166,6 +176,7 @@ void ContactSearch::add_minimum(int sample,
                                 double cutoff,
                                 std::vector<GapMinimum>& minima) {
   const GapMinimum minimum = refine(sample, X_BA);
+  if (!minimum.refined && !faces_known_part(sample)) return;
   found_.push_back(sampled_on_A_ ? minimum.point_B : X_BA.inverse() * minimum.point_B);
   if (lines_ && add_line_ends(*on_B_, *on_A_, X_BA, minimum, spacing_, cutoff, minima)) return;
   if (minimum.gap < cutoff) minima.push_back(minimum);
@@ -173,6 +184,12 @@ void ContactSearch::add_minimum(int sample,
 
 bool ContactSearch::faces_known_part(int sample) const {
   return other().edge_distance(feet_[sample].place) >= 0;
+}
+
+/// A sample whose closest point lies less than a cell beyond the edge may stand for a minimum
+/// within.
+bool ContactSearch::nearly_faces_known_part(int sample) const {
+  return other().edge_distance(feet_[sample].place) >= -spacing_;
 }
 
 /// In a shallow valley a second minimum may have no sample that is lowest of its neighbours. Does
@@ -209,15 +226,15 @@ void ContactSearch::find(const RigidTransform& X_BA,
   if (places_.empty()) return;
   set_discs(known);
   // Look a little higher than the cutoff, keep what the refinement says.
-  visit(0, from_to(X_BA), cutoff + kValley * spacing_);
+  visit(0, from_to(X_BA), cutoff + valley_);
   found_.clear();
   for (const KnownContact& contact : known)
     found_.push_back(sampled_on_A_ ? contact.on_B : contact.on_A);
   for (const int sample : near_)
-    if (faces_known_part(sample) && is_lowest_of_neighbours(sample))
+    if (nearly_faces_known_part(sample) && is_lowest_of_neighbours(sample))
       add_minimum(sample, X_BA, cutoff, minima);
   for (const int sample : near_)
-    if (gap_[sample] < kValley * spacing_ && faces_known_part(sample) &&
+    if (gap_[sample] < cutoff + valley_ && nearly_faces_known_part(sample) &&
         leads_elsewhere(sample, X_BA, cutoff))
       add_minimum(sample, X_BA, cutoff, minima);
   std::sort(minima.begin(), minima.end(),

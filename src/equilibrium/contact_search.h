@@ -116,6 +116,9 @@ class ContactSearch {
                                    const RigidTransform& X_from_to);
   [[nodiscard]] bool is_lowest_of_neighbours(int sample) const;
   [[nodiscard]] bool faces_known_part(int sample) const;
+  [[nodiscard]] bool nearly_faces_known_part(int sample) const;
+  [[nodiscard]] double valley_depth() const;
+  [[nodiscard]] double doubt(const Quadric& quadric, double t);
   [[nodiscard]] bool leads_elsewhere(int sample, const RigidTransform& X_BA, double cutoff) const;
   void add_minimum(int sample,
                    const RigidTransform& X_BA,
@@ -136,6 +139,7 @@ class ContactSearch {
   double deepest_;             ///< overlap that is still taken for one [mm]
   Bending::Radii shells_;
   Bending bending_B_, bending_A_;
+  double valley_;  ///< a minimum between samples lies lower than the nearest by this at most [mm]
   std::vector<Eigen::Vector3d> points_;      ///< their points, in the frame of their body
   std::vector<Eigen::Vector3d> normals_;     ///< at the samples
   std::vector<Eigen::Matrix3d> curvatures_;  ///< curvature tensors at the samples

@@ -95,6 +95,13 @@ double ContactSearch::gap_of(int sample, const RigidTransform& X_from_to) {
   return gap_[sample];
 }
 
+/// What the gap by a quadric may be wrong by at a point `t` beside its origin.
+double ContactSearch::doubt(const Quadric& quadric, double t) {
+  if (!quadric.close) return 0;
+  return 0.5 * t * t *
+         (sampled_on_A_ ? bending_B_ : bending_A_).within(t, quadric.near, quadric.at.K);
+}
+
 /// By how much the gap may be lower somewhere in the cluster than at its centre, which lies
 /// `tangential` beside the origin of the other surface's quadric; infinite where the surfaces are
 /// too steep for that.
@@ -112,11 +119,14 @@ double ContactSearch::drop_within(const Cluster& cluster,
   const double trace = K.trace() + at.K.trace();
   const double square = K.squaredNorm() + at.K.squaredNorm() + 2 * RK.cwiseProduct(KR).sum();
   Bending& bending = sampled_on_A_ ? bending_B_ : bending_A_;
-  const double opening = -largest_principal(trace, square) - cluster.bend -
-                         bending.within(tangential.norm() + r, cluster.other.near, at.K);
+  // The other surface departs from its quadric by ½ a (t + r)² at most; ½ a r² counts as curvature.
+  const double t = tangential.norm(), a = bending.within(t + r, cluster.other.near, at.K);
+  const double beside = 0.5 * a * t * (t + 2 * r);
+  const double opening = -largest_principal(trace, square) - cluster.bend - a;
+  const double facing = -up.dot(n), tilt = 1 / (facing * facing);
   const double slope = off_normal(up, n).norm();
-  if (opening > 0 && slope < opening * r) return slope * slope / (2 * opening);
-  return slope * r - 0.5 * opening * r * r;
+  if (opening > 0 && slope < opening * r) return tilt * slope * slope / (2 * opening) + beside;
+  return tilt * (slope * r - 0.5 * opening * r * r) + beside;
 }
 
 /// Is the whole cluster shown to stay above the cutoff, by its quadric or by the way to its centre?
@@ -133,7 +143,7 @@ bool ContactSearch::is_clear(Cluster& cluster, const RigidTransform& X_from_to, 
     const bool near_foot = !quadric.close || tangential.squaredNorm() < reach * reach;
     if (near_foot) {
       // A distance changes by no more than the way; far behind an open patch is not inside.
-      const double way = 1.05 * cluster.radius;
+      const double way = 1.05 * cluster.radius + doubt(quadric, tangential.norm());
       if (gap - way > cutoff || gap + way < -deepest_) return true;
       // Feet move less than twice as far as points; beyond an edge they face nothing.
       if (other().edge_distance(quadric.place) < -2 * way - kBeyondEdge * spacing_) return true;

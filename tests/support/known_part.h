@@ -40,6 +40,12 @@ class KnownPart : public Surface {
     return known;
   }
 
+  [[nodiscard]] Extent extent() const override { return whole_->extent(); }
+  [[nodiscard]] std::unique_ptr<Surface> translated(const Eigen::Vector3d& d) const override {
+    return std::make_unique<KnownPart>(
+        whole_->translated(d), [edge = edge_, d](const Eigen::Vector3d& c) { return edge(c - d); });
+  }
+
  private:
   std::shared_ptr<const Surface> whole_;
   Edge edge_;

@@ -1,0 +1,191 @@
+#pragma once
+
+/// Pairs of small spline patches with seeded roughness near contact, and all minima of the gap
+/// between them by brute force: a dense grid on either patch, every low point of it refined by
+/// Newton.
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "equilibrium/contact_search.h"
+#include "support/random.h"
+#include "surface/bspline_basis.h"
+#include "surface/patch.h"
+
+namespace condyle::test {
+
+/// A sum of waves of random directions, phases and lengths.
+class Roughness {
+ public:
+  Roughness(Random& random, double amplitude) {
+    for (int k = 0; k < 6; ++k) {
+      const double angle = random.between(0, M_PI), length = random.between(5, 16);
+      const double size = amplitude / 2.5 * random.between(0.5, 1);
+      waves_.push_back({2 * M_PI / length * std::cos(angle), 2 * M_PI / length * std::sin(angle),
+                        random.between(0, 2 * M_PI), size});
+    }
+  }
+  [[nodiscard]] double at(double u, double v) const {
+    double height = 0;
+    for (const Eigen::Vector4d& w : waves_) height += w[3] * std::sin(w[0] * u + w[1] * v + w[2]);
+    return height;
+  }
+
+ private:
+  std::vector<Eigen::Vector4d> waves_;
+};
+
+/// 24 x 20 mm of a body that bends by 1/a and 1/b [1/mm] downwards from the height 0 at its middle,
+/// with knots `knot` mm apart; the solid lies below, or above where `upside_down`.
+inline std::shared_ptr<const Patch> bumpy_patch(
+    double a, double b, const Roughness& roughness, double knot, bool upside_down) {
+  const double U = 12, V = 10;
+  PatchData data;
+  data.nu = static_cast<int>(2 * U / knot) + 3;
+  data.nv = static_cast<int>(2 * V / knot) + 3;
+  data.knots_u = uniform_knots(data.nu, 3, -U, U);
+  data.knots_v = uniform_knots(data.nv, 3, -V, V);
+  const auto greville = [](const std::vector<double>& knots, int i) {
+    const auto k = static_cast<std::size_t>(i);
+    return (knots[k + 1] + knots[k + 2] + knots[k + 3]) / 3;
+  };
+  for (int i = 0; i < data.nu; ++i)
+    for (int j = 0; j < data.nv; ++j) {
+      const double u = greville(data.knots_u, i), v = greville(data.knots_v, j);
+      const double z = -a * u * u / 2 - b * v * v / 2 + roughness.at(u, v);
+      data.control_points.emplace_back(u, v, upside_down ? -z : z);
+    }
+  data.orientation = upside_down ? -1 : 1;
+  return std::make_shared<Patch>(data);
+}
+
+/// A condyle above a shallow plateau, `amplitude` [mm] of roughness on both.
+inline ContactPair bumpy_pair(Random& random, double amplitude) {
+  ContactPair pair;
+  pair.name = "bumpy";
+  const double knot = random.between(1.2, 2.2);
+  pair.on_B = bumpy_patch(random.between(0.02, 0.05), random.between(0.02, 0.05),
+                          Roughness(random, amplitude), knot, true);
+  pair.on_A = bumpy_patch(random.between(-0.015, 0.015), random.between(-0.015, 0.015),
+                          Roughness(random, amplitude), knot, false);
+  return pair;
+}
+
+/// All minima with gap < cutoff [mm] that lie within both known parts by more than `margin` [mm].
+class BruteForce {
+ public:
+  BruteForce(const ContactPair& pair, double step) : pair_(pair) {
+    sheet(*pair.on_B, step, on_B_);
+    sheet(*pair.on_A, step, on_A_);
+  }
+
+  std::vector<GapMinimum> minima(const RigidTransform& X, double cutoff, double margin = 0.02) {
+    std::vector<GapMinimum> minima;
+    scan(on_A_, *pair_.on_B, X, X, true, cutoff, margin, minima);
+    scan(on_B_, *pair_.on_A, X.inverse(), X, false, cutoff, margin, minima);
+    std::sort(minima.begin(), minima.end(),
+              [](const GapMinimum& a, const GapMinimum& b) { return a.gap < b.gap; });
+    return minima;
+  }
+
+ private:
+  /// Rows of places; one that is unknown has a gap that is not a number.
+  struct Sheet {
+    std::vector<std::vector<Place>> places;
+    std::vector<std::vector<Eigen::Vector3d>> points;
+    std::vector<std::vector<double>> gaps;
+    std::vector<std::vector<Place>> feet;
+  };
+
+  static void sheet(const Surface& surface, double step, Sheet& sheet) {
+    const auto& patch = dynamic_cast<const Patch&>(surface);
+    const int nu = static_cast<int>((patch.u_max() - patch.u_min()) / step),
+              nv = static_cast<int>((patch.v_max() - patch.v_min()) / step);
+    for (int i = 0; i <= nu; ++i) {
+      sheet.places.emplace_back();
+      sheet.points.emplace_back();
+      for (int j = 0; j <= nv; ++j) {
+        sheet.places.back().emplace_back(patch.u_min() + (patch.u_max() - patch.u_min()) * i / nu,
+                                         patch.v_min() + (patch.v_max() - patch.v_min()) * j / nv,
+                                         0);
+        sheet.points.back().push_back(patch.evaluate_frame(sheet.places.back().back()).c);
+      }
+      sheet.gaps.emplace_back(sheet.places.back().size());
+      sheet.feet.emplace_back(sheet.places.back().size());
+    }
+  }
+
+  void scan(Sheet& sheet,
+            const Surface& other,
+            const RigidTransform& to_other,
+            const RigidTransform& X,
+            bool from_A,
+            double cutoff,
+            double margin,
+            std::vector<GapMinimum>& minima) {
+    for (std::size_t i = 0; i < sheet.places.size(); ++i)
+      for (std::size_t j = 0; j < sheet.places[i].size(); ++j) {
+        const Eigen::Vector3d p = to_other * sheet.points[i][j];
+        Place foot = j > 0 ? sheet.feet[i][j - 1] : (i > 0 ? sheet.feet[i - 1][j] : other.seed(p));
+        SurfacePoint at = other.evaluate_frame(foot);
+        for (int k = 0; k < 4; ++k) {
+          const Eigen::Vector3d d = p - at.c, t = d - d.dot(at.n) * at.n;
+          if (t.squaredNorm() < 1e-6) break;
+          foot = other.moved(foot, at, t);
+          at = other.evaluate_frame(foot);
+        }
+        sheet.feet[i][j] = foot;
+        sheet.gaps[i][j] = at.n.dot(p - at.c);
+      }
+    const auto lowest = [&](std::size_t i, std::size_t j) {
+      for (std::size_t k = i == 0 ? 0 : i - 1; k < std::min(i + 2, sheet.gaps.size()); ++k)
+        for (std::size_t l = j == 0 ? 0 : j - 1; l < std::min(j + 2, sheet.gaps[k].size()); ++l)
+          if (sheet.gaps[k][l] < sheet.gaps[i][j]) return false;
+      return true;
+    };
+    for (std::size_t i = 0; i < sheet.places.size(); ++i)
+      for (std::size_t j = 0; j < sheet.places[i].size(); ++j) {
+        if (sheet.gaps[i][j] > cutoff + 0.01 || !lowest(i, j)) continue;
+        add(from_A ? sheet.feet[i][j] : sheet.places[i][j],
+            from_A ? sheet.places[i][j] : sheet.feet[i][j], X, cutoff, margin, minima);
+      }
+  }
+
+  void add(Place B,
+           Place A,
+           const RigidTransform& X,
+           double cutoff,
+           double margin,
+           std::vector<GapMinimum>& minima) const {
+    if (!refine_minimum(*pair_.on_B, B, *pair_.on_A, A, X, 2)) return;
+    GapMinimum minimum;
+    const SurfacePoint at = pair_.on_B->evaluate_frame(B);
+    minimum.on_B = B;
+    minimum.on_A = A;
+    minimum.point_B = at.c;
+    minimum.n = at.n;
+    minimum.gap = at.n.dot(X * pair_.on_A->evaluate_frame(A).c - at.c);
+    minimum.edge = std::min(pair_.on_B->edge_distance(B), pair_.on_A->edge_distance(A));
+    const bool same = std::any_of(minima.begin(), minima.end(), [&](const GapMinimum& known) {
+      return (known.point_B - minimum.point_B).norm() < 1e-5;
+    });
+    if (minimum.gap < cutoff && minimum.edge > margin && !same) minima.push_back(minimum);
+  }
+
+  const ContactPair& pair_;
+  Sheet on_B_, on_A_;
+};
+
+/// A little turned and shifted; its height is arbitrary.
+inline RigidTransform bumpy_pose(Random& random) {
+  const Eigen::Vector3d turn(random.between(-0.12, 0.12), random.between(-0.12, 0.12),
+                             random.between(-3, 3));
+  return {exp_rotation({turn.x(), turn.y(), 0}) * exp_rotation({0, 0, turn.z()}),
+          {random.between(-5, 5), random.between(-4, 4), 0}};
+}
+
+}  // namespace condyle::test
