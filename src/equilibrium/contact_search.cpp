@@ -88,6 +88,7 @@ ContactSearch::ContactSearch(const ContactPair& pair, Cover cover)
   stamp_.assign(n, -1);
   order_.resize(n);
   near_.reserve(n);
+  found_.reserve(n + kMaxConstraints);
   discs_.reserve(kMaxConstraints);
   std::iota(order_.begin(), order_.end(), 0);
   neighbours_ = nearest_neighbours(points_, 1.6 * spacing_);
@@ -174,9 +175,11 @@ GapMinimum ContactSearch::refine(int sample, const RigidTransform& X_BA) const {
 void ContactSearch::add_minimum(int sample,
                                 const RigidTransform& X_BA,
                                 double cutoff,
+                                bool lowest,
                                 std::vector<GapMinimum>& minima) {
   const GapMinimum minimum = refine(sample, X_BA);
-  if (!minimum.refined && !faces_known_part(sample)) return;
+  // A sample stands for a minimum of its own only where it is the lowest and faces what is known.
+  if (!minimum.refined && !(lowest && faces_known_part(sample))) return;
   found_.push_back(sampled_on_A_ ? minimum.point_B : X_BA.inverse() * minimum.point_B);
   if (lines_ && add_line_ends(*on_B_, *on_A_, X_BA, minimum, spacing_, cutoff, minima)) return;
   if (minimum.gap < cutoff) minima.push_back(minimum);
@@ -232,11 +235,11 @@ void ContactSearch::find(const RigidTransform& X_BA,
     found_.push_back(sampled_on_A_ ? contact.on_B : contact.on_A);
   for (const int sample : near_)
     if (nearly_faces_known_part(sample) && is_lowest_of_neighbours(sample))
-      add_minimum(sample, X_BA, cutoff, minima);
+      add_minimum(sample, X_BA, cutoff, /*lowest=*/true, minima);
   for (const int sample : near_)
-    if (gap_[sample] < cutoff + valley_ && nearly_faces_known_part(sample) &&
+    if (gap_[sample] < valley_ && nearly_faces_known_part(sample) &&
         leads_elsewhere(sample, X_BA, cutoff))
-      add_minimum(sample, X_BA, cutoff, minima);
+      add_minimum(sample, X_BA, cutoff, /*lowest=*/false, minima);
   std::sort(minima.begin(), minima.end(),
             [](const GapMinimum& a, const GapMinimum& b) { return a.gap < b.gap; });
   std::size_t kept = 0;

@@ -123,6 +123,7 @@ class ContactSearch {
   void add_minimum(int sample,
                    const RigidTransform& X_BA,
                    double cutoff,
+                   bool lowest,
                    std::vector<GapMinimum>& minima);
   [[nodiscard]] RigidTransform from_to(const RigidTransform& X_BA) const;
   [[nodiscard]] GapMinimum refine(int sample, const RigidTransform& X_BA) const;

@@ -15,6 +15,8 @@
 namespace condyle {
 namespace {
 
+constexpr std::size_t kMinimaOfAPair = 64;  // room for them
+
 /// Where the way from the last pose ended: what a failure is explained by.
 struct Failed {
   EquilibriumState state;
@@ -34,6 +36,7 @@ EquilibriumSolver::EquilibriumSolver(Model model, EquilibriumOptions options)
       predictor_(*model_) {
   for (const ContactPair& pair : model_->pairs) passed_.emplace_back(pair, model_->length);
   state_.contacts.reserve(kMaxConstraints);
+  minima_.reserve(kMinimaOfAPair);
   state_.sigma.assign(model_->conditions.size(), 0);
   state_.X = model_->start;
 }
