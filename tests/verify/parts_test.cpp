@@ -135,8 +135,11 @@ TEST(VerifyCoordinates, ChangeAsTheConditionsSay) {
         condition.axis = described.axis;
         condition.cardan_axis = described.cardan_axis;
         condition.frames = joint_frames(scene);
-        condition.x_C = described.ends[0].at;
-        condition.s_D = described.ends[1].at;
+        // A translation is that of the bodies' origins.
+        if (described.kind == ConditionKind::kDistance) {
+          condition.x_C = described.ends[0].at;
+          condition.s_D = described.ends[1].at;
+        }
         const RigidTransform X = random_pose();
         const ConditionDerivatives expected = evaluate(condition, X);
         EXPECT_NEAR(verification::coordinate(scene, described, X), expected.coordinate, 1e-12);
