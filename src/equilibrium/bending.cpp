@@ -21,6 +21,16 @@ double largest_principal(const Eigen::Matrix3d& K) {
   return 0.5 * (trace + std::sqrt(std::max(0.0, 2 * K.squaredNorm() - trace * trace)));
 }
 
+/// By how much two curvature tensors differ in the tangent plane with the normal n.
+double tangent_change(const Eigen::Matrix3d& K,
+                      const Eigen::Matrix3d& from,
+                      const Eigen::Vector3d& n) {
+  const Eigen::Matrix3d D = K - from;
+  const Eigen::Vector3d Dn = D * n;
+  const double along = n.dot(Dn);
+  return std::sqrt(std::max(0.0, D.squaredNorm() - 2 * Dn.squaredNorm() + along * along));
+}
+
 /// Of a plane, sphere or cylinder as far as `radius` from any of its points. A cup of radius R
 /// rises to h = d²/2R at the distance d from its point, so 2 h/t² = 1/R (1 - d²/4R²).
 Rise even_rise(double radius, const Eigen::Matrix3d& K) {
@@ -119,7 +129,7 @@ Bending::Cell Bending::cell_of(const Surface& surface, const Place& place, std::
         surface.moved(place, at, cell.radius * (std::cos(angle) * e0 + std::sin(angle) * e1)));
     const Eigen::Vector3d d = rim.c - at.c, t = d - at.n.dot(d) * at.n;
     cell.rise = std::max(cell.rise, kBetween * (2 * at.n.dot(d) - t.dot(at.K * t)));
-    cell.curvature = std::max(cell.curvature, kBetween * (rim.K - at.K).norm());
+    cell.curvature = std::max(cell.curvature, kBetween * tangent_change(rim.K, at.K, at.n));
   }
   return cell;
 }
@@ -131,7 +141,7 @@ Rise Bending::rise_of(std::size_t j, std::size_t i) const {
   const SurfacePoint& at = samples_[i];
   const SurfacePoint& to = samples_[j];
   const Cell& cell = cells_[j];
-  const double change = (to.K - at.K).norm();
+  const double change = tangent_change(to.K, at.K, at.n);
   const Eigen::Vector3d d = to.c - at.c;
   const double height = at.n.dot(d);
   const Eigen::Vector3d t = d - height * at.n;
@@ -180,7 +190,7 @@ void Bending::measure(std::size_t sample) {
 /// What the quadric of a point in the cell adds to that of its sample: its curvature differs, and
 /// so do height and slope on the way there, by less than half as much again.
 double Bending::shift(std::size_t sample, const Eigen::Matrix3d& K) const {
-  return 1.5 * (K - samples_[sample].K).norm();
+  return 1.5 * tangent_change(K, samples_[sample].K, samples_[sample].n);
 }
 
 int Bending::nearest(const Eigen::Vector3d& point, int start) const {
