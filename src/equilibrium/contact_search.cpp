@@ -44,6 +44,9 @@ bool has_edge(const Surface& surface) {
   return std::isfinite(surface.edge_distance(somewhere));
 }
 
+/// A surface without an edge turns away all around, within few cells: it takes finer ones.
+double bending_spacing(const Surface& surface) { return has_edge(surface) ? kBendingSpacing : 1; }
+
 }  // namespace
 
 /// Covers the surface that takes fewer samples; one without bounds has none.
@@ -74,8 +77,8 @@ ContactSearch::ContactSearch(const ContactPair& pair, Cover cover)
       places_(std::move(cover.places)),
       deepest_(has_edge(other()) ? kDeepest * spacing_ : kInfinity),
       shells_(Bending::shells(kBendingSpacing * spacing_, cover.extent)),
-      bending_B_(*on_B_, kBendingSpacing * spacing_, shells_),
-      bending_A_(*on_A_, kBendingSpacing * spacing_, shells_),
+      bending_B_(*on_B_, bending_spacing(*on_B_) * spacing_, shells_),
+      bending_A_(*on_A_, bending_spacing(*on_A_) * spacing_, shells_),
       valley_(valley_depth()) {
   for (const SurfacePoint& point : cover.points) {
     points_.push_back(point.c);
