@@ -10,6 +10,7 @@
 #include "pictures/picture_error.h"
 #include "pictures/run_program.h"
 #include "pictures/text.h"
+#include "results/output_file.h"
 
 namespace condyle {
 namespace {
@@ -60,27 +61,7 @@ std::size_t letters(const std::string& text) {
   }));
 }
 
-/// Right end of the axes, of the page: the legend has its place beside them.
-double right_end(const Chart& chart) {
-  std::size_t longest = 0;
-  for (const Panel& panel : chart.panels)
-    for (const Curve& curve : panel.curves) longest = std::max(longest, letters(curve.title));
-  for (const std::string& run : chart.runs) longest = std::max(longest, letters(run));
-  if (longest == 0) return 0.97;
-  const double legend = 100 + kLetter * static_cast<double>(std::min(longest, kLongestName + 1));
-  return 1 - legend / kWidth;
-}
-
 using Numbers = std::vector<double>;
-
-std::string data_block(const std::string& name, const Numbers& x, const Numbers& y) {
-  std::string block = "$" + name + " << END_OF_DATA\n";
-  for (std::size_t i = 0; i < x.size() && i < y.size(); ++i) {
-    const bool known = std::isfinite(x[i]) && std::isfinite(y[i]);
-    block += known ? fmt::format("{:.9g} {:.9g}\n", x[i], y[i]) : "\n";
-  }
-  return block + "END_OF_DATA\n";
-}
 
 bool has_points(const Numbers& x, const Numbers& y) {
   for (std::size_t i = 0; i < x.size() && i < y.size(); ++i) {
@@ -92,6 +73,32 @@ bool has_points(const Numbers& x, const Numbers& y) {
 bool has_line(const Curve& curve) { return has_points(curve.x, curve.y); }
 bool has_hollow(const Curve& curve) { return has_points(curve.hollow_x, curve.hollow_y); }
 bool has_points(const Curve& curve) { return has_line(curve) || has_hollow(curve); }
+bool has_hollow(const Panel& panel) {
+  return std::any_of(panel.curves.begin(), panel.curves.end(),
+                     [](const Curve& curve) { return has_hollow(curve); });
+}
+
+/// Right end of the axes, of the page: the legend has its place beside them.
+double right_end(const Chart& chart) {
+  std::size_t longest = 0;
+  for (const Panel& panel : chart.panels) {
+    for (const Curve& curve : panel.curves) longest = std::max(longest, letters(curve.title));
+    if (has_hollow(panel)) longest = std::max(longest, letters(kHollowName));
+  }
+  for (const std::string& run : chart.runs) longest = std::max(longest, letters(run));
+  if (longest == 0) return 0.97;
+  const double legend = 100 + kLetter * static_cast<double>(std::min(longest, kLongestName + 1));
+  return 1 - legend / kWidth;
+}
+
+std::string data_block(const std::string& name, const Numbers& x, const Numbers& y) {
+  std::string block = "$" + name + " << END_OF_DATA\n";
+  for (std::size_t i = 0; i < x.size() && i < y.size(); ++i) {
+    const bool known = std::isfinite(x[i]) && std::isfinite(y[i]);
+    block += known ? fmt::format("{:.9g} {:.9g}\n", x[i], y[i]) : "\n";
+  }
+  return block + "END_OF_DATA\n";
+}
 
 std::string terminal(PlotFormat format, int height) {
   switch (format) {
@@ -156,14 +163,10 @@ std::string title_labels(const Chart& chart, PlotFormat format, int height) {
   return script;
 }
 
-std::string head(const Chart& chart,
-                 const std::filesystem::path& file,
-                 PlotFormat format,
-                 int height) {
+std::string head(const Chart& chart, PlotFormat format, int height) {
   return "set encoding utf8\nset minussign\n" +
          fmt::format("set terminal {} noenhanced background '#ffffff'\n",
                      terminal(format, height)) +
-         "set output " + quoted(file.string()) + "\n" +
          "set border 3 linecolor '#505860' linewidth 1.2\nset tics nomirror out scale 0.6 "
          "textcolor '#303840'\n"
          "set grid linecolor '#e4e6e9' linetype 1 linewidth 1, linecolor '#e4e6e9' linetype 1 "
@@ -187,7 +190,7 @@ std::string hollow_command(const Curve& curve, std::size_t color, const std::str
 
 /// What hollow circles are.
 std::string hollow_legend(const Panel& panel) {
-  if (std::none_of(panel.curves.begin(), panel.curves.end(), has_hollow)) return "";
+  if (!has_hollow(panel)) return "";
   return fmt::format(
       ", NaN with points pointtype 6 pointsize 1.1 linewidth 1.6 linecolor '#303840' title {}",
       quoted(kHollowName));
@@ -281,12 +284,10 @@ const char* ending(PlotFormat format) {
   return "";
 }
 
-std::string gnuplot_script(const Chart& chart,
-                           const std::filesystem::path& file,
-                           PlotFormat format) {
+std::string gnuplot_script(const Chart& chart, PlotFormat format) {
   const int height = head_height(chart) + kFootHeight - kPanelGap +
                      (kPanelHeight + kPanelGap) * static_cast<int>(chart.panels.size());
-  std::string script = head(chart, file, format, height);
+  std::string script = head(chart, format, height);
   for (std::size_t i = 0; i < chart.panels.size(); ++i) script += panel_script(chart, i, height);
   return script + "unset multiplot\nunset output\n";
 }
@@ -296,18 +297,12 @@ void plot(const Chart& chart, const std::filesystem::path& file, PlotFormat form
   if (!std::filesystem::is_directory(folder))
     throw InputError(folder.string() + ": expected a folder to write " + file.filename().string() +
                      " into");
-  const std::filesystem::path part = file.string() + ".part";
-  const ProgramResult result = run_program({"gnuplot"}, gnuplot_script(chart, part, format));
-  std::error_code error;
-  const bool empty = std::filesystem::file_size(part, error) == 0 || error;
+  const ProgramResult result = run_program({"gnuplot"}, gnuplot_script(chart, format));
   if (!result.started)
     throw PictureError("gnuplot is not installed: plots need it (Debian package gnuplot-nox)");
-  if (result.exit_code != 0 || empty) {
-    std::filesystem::remove(part, error);
-    throw PictureError(file.string() + ": gnuplot did not write it: " + result.messages);
-  }
-  std::filesystem::rename(part, file, error);
-  if (error) throw InputError(file.string() + ": cannot write: " + error.message());
+  if (result.exit_code != 0 || result.output.empty())
+    throw PictureError(file.string() + ": gnuplot did not draw it: " + result.messages);
+  write_output_file(file, result.output);
 }
 
 }  // namespace condyle

@@ -39,9 +39,7 @@ enum class PlotFormat { kPng, kSvg, kPdf };
 [[nodiscard]] const char* ending(PlotFormat format);
 
 /// The script that draws `chart` into `file`.
-[[nodiscard]] std::string gnuplot_script(const Chart& chart,
-                                         const std::filesystem::path& file,
-                                         PlotFormat format);
+[[nodiscard]] std::string gnuplot_script(const Chart& chart, PlotFormat format);
 
 /// Draws; never leaves a half-written file. Throws InputError when the folder does not exist,
 /// PictureError when gnuplot is missing or refuses.

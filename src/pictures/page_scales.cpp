@@ -111,19 +111,38 @@ void draw_directions(const Pen& pen, const PageLayout& page, const Scenery& scen
   }
 }
 
+double scale_bar_length(double longest) {
+  const double decade = std::pow(10, std::floor(std::log10(longest)));
+  for (const double step : {5.0, 2.0})
+    if (step * decade <= longest) return step * decade;
+  return decade;
+}
+
+namespace {
+
+constexpr double kScaleBarLeft = 140, kScaleBarRoom = 200;  // [1/900 of the page]
+
+double scale_bar_pixels(const Pen& pen, const Scenery& scenery) {
+  const double mm_per_pixel = scenery.camera.mm_per_pixel;
+  return scale_bar_length(kScaleBarRoom * pen.s * mm_per_pixel) / mm_per_pixel;
+}
+
+}  // namespace
+
 void draw_scale_bar(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
-  constexpr double kLength = 20;  // mm
-  const double pixels = kLength / scenery.camera.mm_per_pixel, y = page.height - 52 * pen.s,
-               x = 140 * pen.s;
+  const double pixels = scale_bar_pixels(pen, scenery), y = page.height - 52 * pen.s,
+               x = kScaleBarLeft * pen.s;
   pen.canvas.rectangle({x, y - 2 * pen.s, x + pixels, y + 2 * pen.s}, kInk);
-  pen.canvas.text({x + 0.5 * pixels, y - 9 * pen.s}, fmt::format("{:g} mm", kLength),
+  pen.canvas.text({x + 0.5 * pixels, y - 9 * pen.s},
+                  fmt::format("{:g} mm", pixels * scenery.camera.mm_per_pixel),
                   pen.style(14, kInk, Align::kCenter));
 }
 
 void draw_force_scale(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
   const double force = round_up_nicely(0.2 * scenery.scales.force_top);
   const double pixels = force * scenery.scales.arrow_mm_per_n / scenery.camera.mm_per_pixel;
-  const double y = page.height - 52 * pen.s, x = 175 * pen.s + 20 / scenery.camera.mm_per_pixel;
+  const double y = page.height - 52 * pen.s,
+               x = (kScaleBarLeft + 35) * pen.s + scale_bar_pixels(pen, scenery);
   const Vector2d tip(x + pixels, y);
   pen.canvas.line({x, y}, tip - Vector2d(6 * pen.s, 0), 3 * pen.s, kInk);
   for (int i = 0; i <= static_cast<int>(12 * pen.s); ++i) {

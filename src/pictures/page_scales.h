@@ -15,6 +15,8 @@ void draw_bars(const Pen& pen, const PageLayout& page, const Scenery& scenery);
 /// A cross with the letters of the anatomical directions, lower left; three arms where the view is
 /// oblique.
 void draw_directions(const Pen& pen, const PageLayout& page, const Scenery& scenery);
+/// The longest of 1, 2, 5, 10, 20 ... [mm] that is not longer than this; longest > 0.
+[[nodiscard]] double scale_bar_length(double longest);
 void draw_scale_bar(const Pen& pen, const PageLayout& page, const Scenery& scenery);
 /// The arrow of a round force, to compare the arrows in the picture with.
 void draw_force_scale(const Pen& pen, const PageLayout& page, const Scenery& scenery);

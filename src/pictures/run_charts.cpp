@@ -114,7 +114,7 @@ Panel balance_panel(Curve curve) {
 }  // namespace
 
 Curve broken_at_jumps(Curve curve, const SweepResult& sweep, std::size_t contact) {
-  const auto path = contact_path(sweep, contact);
+  const auto path = resultant_path(sweep, contact);
   for (std::size_t i = sweep.poses.size(); i-- > 1;) {
     if (!std::isfinite(curve.y[i - 1]) || !std::isfinite(curve.y[i]) || joined(path, i - 1, i))
       continue;

@@ -1,6 +1,5 @@
 #include "pictures/run_program.h"
 
-#include <fcntl.h>
 #include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -29,11 +28,15 @@ void feed(int descriptor, const std::string& input) {
   }
 }
 
-std::string read_all(std::FILE* file) {
-  std::string text;
+std::string bytes_of(std::FILE* file) {
+  std::string bytes;
   std::rewind(file);
-  for (int c = std::fgetc(file); c != EOF; c = std::fgetc(file))
-    text += c == '\n' ? ' ' : static_cast<char>(c);
+  for (int c = std::fgetc(file); c != EOF; c = std::fgetc(file)) bytes += static_cast<char>(c);
+  return bytes;
+}
+
+std::string on_one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
   const std::size_t last = text.find_last_not_of(' ');
   return last == std::string::npos ? "" : text.substr(0, last + 1);
 }
@@ -50,9 +53,10 @@ int wait_for(pid_t process) {
 
 ProgramResult run_program(const std::vector<std::string>& command, const std::string& input) {
   ProgramResult result;
-  const File messages(std::tmpfile(), std::fclose);
+  const File output(std::tmpfile(), std::fclose), messages(std::tmpfile(), std::fclose);
   int ends[2];
-  if (!messages || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return result;
+  if (!output || !messages || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    return result;
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
@@ -60,7 +64,7 @@ ProgramResult run_program(const std::vector<std::string>& command, const std::st
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, fileno(output.get()), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, fileno(messages.get()), STDERR_FILENO);
   pid_t process = 0;
   result.started =
@@ -71,7 +75,8 @@ ProgramResult run_program(const std::vector<std::string>& command, const std::st
   close(ends[0]);
   if (!result.started) return result;
   result.exit_code = wait_for(process);
-  result.messages = read_all(messages.get());
+  result.output = bytes_of(output.get());
+  result.messages = on_one_line(bytes_of(messages.get()));
   return result;
 }
 

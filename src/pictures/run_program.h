@@ -1,6 +1,7 @@
 #pragma once
 
-/// Runs another program without a shell, feeds its standard input and collects what it says.
+/// Runs another program without a shell, feeds its standard input and collects what it writes and
+/// what it complains of. Nothing is left behind where either is interrupted.
 
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@ namespace condyle {
 struct ProgramResult {
   bool started = false;  ///< false: there is no such program
   int exit_code = -1;    ///< -1 when it was ended by a signal
+  std::string output;    ///< standard output, bytes
   std::string messages;  ///< standard error, on one line
 };
 

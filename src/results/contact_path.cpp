@@ -23,8 +23,25 @@ const ContactPointResult* place_of(const SweepResult& sweep, std::size_t pose, s
   return strongest_point(result.contacts[c]);
 }
 
+/// Where the resultant of a closed contact acts: its points weighted by force, on both bodies.
+struct Resultant {
+  Eigen::Vector3d point_ground = Eigen::Vector3d::Zero(), point_moving = Eigen::Vector3d::Zero();
+};
+
+Resultant resultant_of(const ContactResult& contact) {
+  Resultant mean;
+  if (!(contact.force > 0))
+    return {contact.points.front().point_ground, contact.points.front().point_moving};
+  for (const ContactPointResult& point : contact.points) {
+    mean.point_ground += point.force / contact.force * point.point_ground;
+    mean.point_moving += point.force / contact.force * point.point_moving;
+  }
+  return mean;
+}
+
 /// Of the body on which the place moves farther [mm].
-double step_length(const ContactPointResult& a, const ContactPointResult& b) {
+template <typename Place>
+double step_length(const Place& a, const Place& b) {
   return std::max((b.point_ground - a.point_ground).norm(),
                   (b.point_moving - a.point_moving).norm());
 }
@@ -49,12 +66,13 @@ struct Steps {
   std::vector<double> length, speed;
 };
 
-Steps steps_of(const SweepResult& sweep, const Piece& piece, std::size_t contact) {
+/// place(pose): where the contact acts in that pose.
+template <typename PlaceOf>
+Steps steps_of(const SweepResult& sweep, const Piece& piece, const PlaceOf& place) {
   Steps steps;
   for (std::size_t i = 1; i < piece.size(); ++i) {
     const double change = std::abs(sweep.poses[piece[i]].value - sweep.poses[piece[i - 1]].value);
-    steps.length.push_back(
-        step_length(*place_of(sweep, piece[i - 1], contact), *place_of(sweep, piece[i], contact)));
+    steps.length.push_back(step_length(place(piece[i - 1]), place(piece[i])));
     steps.speed.push_back(change > 0 ? steps.length.back() / change : steps.length.back());
   }
   return steps;
@@ -113,11 +131,28 @@ std::vector<Piece> unbroken(const SweepResult& sweep, std::size_t contact) {
 std::vector<Piece> contact_path(const SweepResult& sweep, std::size_t contact) {
   std::vector<Piece> path;
   for (const Piece& whole : unbroken(sweep, contact)) {
-    const Steps steps = steps_of(sweep, whole, contact);
+    const auto strongest = [&](std::size_t pose) { return *place_of(sweep, pose, contact); };
+    const Steps steps = steps_of(sweep, whole, strongest);
     path.push_back({whole.front()});
     for (std::size_t i = 1; i < whole.size(); ++i) {
       if (is_jump(steps, i - 1) || changes_point(sweep, whole[i - 1], whole[i], contact))
         path.emplace_back();
+      path.back().push_back(whole[i]);
+    }
+  }
+  return path;
+}
+
+std::vector<Piece> resultant_path(const SweepResult& sweep, std::size_t contact) {
+  std::vector<Piece> path;
+  for (const Piece& whole : unbroken(sweep, contact)) {
+    const auto resultant = [&](std::size_t pose) {
+      return resultant_of(sweep.poses[pose].contacts[contact]);
+    };
+    const Steps steps = steps_of(sweep, whole, resultant);
+    path.push_back({whole.front()});
+    for (std::size_t i = 1; i < whole.size(); ++i) {
+      if (is_jump(steps, i - 1)) path.emplace_back();
       path.back().push_back(whole[i]);
     }
   }

@@ -21,6 +21,12 @@ namespace condyle {
 [[nodiscard]] std::vector<std::vector<std::size_t>> contact_path(const SweepResult& sweep,
                                                                  std::size_t contact);
 
+/// The same of where the contact's resultant acts, its points weighted by force: it ends where the
+/// contact is lost or jumps, not where another of several points comes to carry most, for there the
+/// resultant moves on smoothly.
+[[nodiscard]] std::vector<std::vector<std::size_t>> resultant_path(const SweepResult& sweep,
+                                                                   std::size_t contact);
+
 /// Do two poses lie in one piece, with every pose between them?
 [[nodiscard]] bool joined(const std::vector<std::vector<std::size_t>>& path,
                           std::size_t a,

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+
+#include "pictures/page_scales.h"
 
 namespace condyle {
 namespace {
@@ -57,6 +60,17 @@ TEST(LabelLayout, EveryAnchorHasOneLabelInsideTheFrameWhereThereIsRoom) {
 
 TEST(LabelLayout, NothingToPlaceIsNothingPlaced) {
   EXPECT_TRUE(place_labels({}, {0, 0, 10, 10}, 5).empty());
+}
+
+TEST(ScaleBar, HasARoundLengthThatFits) {
+  for (const auto& [longest, length] : {std::pair{39.0, 20.0},
+                                        {20.0, 20.0},
+                                        {4.9, 2.0},
+                                        {1.5, 1.0},
+                                        {0.07, 0.05},
+                                        {700.0, 500.0},
+                                        {999.0, 500.0}})
+    EXPECT_DOUBLE_EQ(scale_bar_length(longest), length) << longest;
 }
 
 }  // namespace

@@ -143,7 +143,7 @@ TEST(PlotRun, RunsOverEachOtherShareColoursAndDifferInLines) {
   EXPECT_NE(curves[1].style, curves[3].style);
   EXPECT_NE(curves[2].color, curves[0].color);
   EXPECT_EQ(forces->chart.runs, (std::vector<std::string>{"first", "second"}));
-  const std::string script = gnuplot_script(forces->chart, "file.png", PlotFormat::kPng);
+  const std::string script = gnuplot_script(forces->chart, PlotFormat::kPng);
   EXPECT_NE(script.find("title 'first'"), std::string::npos);
   const std::size_t once = script.find("title 'lateral'");
   EXPECT_NE(once, std::string::npos);
@@ -191,6 +191,18 @@ TEST(RunProgram, AProgramThatDoesNotListenDoesNotHurt) {
   EXPECT_EQ(result.exit_code, 1);
 }
 
+TEST(RunProgram, CollectsEveryByteThatTheProgramWrites) {
+  const ProgramResult result = run_program({"cat"}, std::string("a\0\n\xff b", 6));
+  EXPECT_EQ(result.output, std::string("a\0\n\xff b", 6));
+  EXPECT_EQ(run_program({"cat"}, std::string(300'000, 'x')).output.size(), 300'000U);
+}
+
+// What is interrupted leaves no file half written: gnuplot knows no name of one.
+TEST(PlotRun, GnuplotWritesNoFileItself) {
+  const std::string script = gnuplot_script(contact_force_chart(block_run()), PlotFormat::kPng);
+  EXPECT_EQ(script.find("set output '"), std::string::npos) << script;
+}
+
 TEST(RunProgram, CollectsWhatTheProgramComplainsOf) {
   const ProgramResult result = run_program({"sh"}, "echo one >&2\necho two >&2\nexit 3\n");
   EXPECT_EQ(result.exit_code, 3);
@@ -200,7 +212,7 @@ TEST(RunProgram, CollectsWhatTheProgramComplainsOf) {
 TEST(PlotRun, ACurveMayBeDashedInTheColourOfAnother) {
   Chart chart{"title", "what", "x", {{"y", {}}}};
   chart.panels[0].curves = {{"first", {0, 1}, {0, 1}, 3, false}, {"", {0, 1}, {1, 2}, 3, true}};
-  const std::string script = gnuplot_script(chart, "file.png", PlotFormat::kPng);
+  const std::string script = gnuplot_script(chart, PlotFormat::kPng);
   const std::size_t first = script.find("linecolor '#CC79A7' dashtype 1");
   EXPECT_NE(first, std::string::npos) << script;
   EXPECT_NE(script.find("linecolor '#CC79A7' dashtype 2", first), std::string::npos) << script;
@@ -215,12 +227,26 @@ TEST(PlotRun, APoseBeyondAnEdgeIsAHollowPointInAGap) {
   ASSERT_EQ(medial.hollow_y.size(), 1U);
   EXPECT_DOUBLE_EQ(medial.hollow_y[0], 200);
   EXPECT_NEAR(medial.hollow_x[0], 28.6478898, 1e-6);  // 0.5 rad
-  const std::string script = gnuplot_script(chart, "file.png", PlotFormat::kPng);
+  const std::string script = gnuplot_script(chart, PlotFormat::kPng);
   EXPECT_NE(script.find("pointtype 6"), std::string::npos);
   EXPECT_NE(script.find("title 'left patch'"), std::string::npos);
   run.sweep.poses[1].status = PoseStatus::kSingular;
-  const std::string none = gnuplot_script(contact_force_chart(run), "file.png", PlotFormat::kPng);
+  const std::string none = gnuplot_script(contact_force_chart(run), PlotFormat::kPng);
   EXPECT_EQ(none.find("left patch"), std::string::npos);
+}
+
+TEST(PlotRun, TheLegendHasRoomForWhatHollowPointsAre) {
+  const auto right_margin = [](const condyle::Run& run) {
+    const std::string script = gnuplot_script(contact_force_chart(run), PlotFormat::kPng);
+    return std::stod(script.substr(script.find("rmargin at screen ") + 18));
+  };
+  auto run = block_run();
+  run.scene.contacts[0].name = "m";
+  run.scene.contacts[1].name = "l";
+  const double without = right_margin(run);
+  run.sweep.poses[1].status = PoseStatus::kLeftPatch;
+  // "left patch" has nine letters more than a name, of at least 8 of 1200 pixels each.
+  EXPECT_LT(right_margin(run), without - 9 * 8 / 1200.0);
 }
 
 TEST(PlotRun, APlaceOfContactIsNotJoinedThroughAJump) {

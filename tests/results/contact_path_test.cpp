@@ -98,5 +98,34 @@ TEST(ContactPath, KnowsWhatIsJoined) {
   EXPECT_FALSE(joined(path, 2, 3));
 }
 
+/// Load goes over from a point to its neighbour 5 mm further, a tenth at each degree.
+SweepResult handed_over() {
+  SweepResult sweep = along(std::vector<double>(11, 0.0));
+  for (std::size_t i = 0; i < sweep.poses.size(); ++i) {
+    ContactResult& contact = sweep.poses[i].contacts[0];
+    contact.force = 100;
+    contact.points.push_back(contact.points.front());
+    contact.points[0].force = 100 - 10 * static_cast<double>(i);
+    contact.points[1].force = 10 * static_cast<double>(i);
+    contact.points[1].point_ground = contact.points[1].point_moving = {5, 0, 0};
+  }
+  return sweep;
+}
+
+TEST(ContactPath, TheResultantMovesOnWhereAnotherPointComesToCarryMost) {
+  EXPECT_EQ(contact_path(handed_over(), 0).size(), 2U);
+  EXPECT_EQ(resultant_path(handed_over(), 0).size(), 1U);
+}
+
+TEST(ContactPath, TheResultantIsBrokenWhereItJumpsOrIsLost) {
+  SweepResult sweep = handed_over();
+  for (std::size_t i = 6; i < sweep.poses.size(); ++i)
+    for (ContactPointResult& point : sweep.poses[i].contacts[0].points) point.point_ground.y() += 9;
+  EXPECT_EQ(resultant_path(sweep, 0).size(), 2U);
+  sweep = handed_over();
+  sweep.poses[4].status = PoseStatus::kIterationLimit;
+  EXPECT_EQ(resultant_path(sweep, 0), (Path{{0, 1, 2, 3}, {5, 6, 7, 8, 9, 10}}));
+}
+
 }  // namespace
 }  // namespace condyle
