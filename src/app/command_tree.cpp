@@ -36,7 +36,24 @@ std::vector<OptionFacts> options_of(const CLI::App& app) {
   return options;
 }
 
+bool is_number(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  return type.rfind("FLOAT", 0) == 0 || type.rfind("INT", 0) == 0 || type.rfind("UINT", 0) == 0;
+}
+
 }  // namespace
+
+void refuse_empty_values(CLI::App& program) {
+  for (CLI::App* command : program.get_subcommands(nullptr)) {
+    for (CLI::Option* option : command->get_options()) {
+      if (option->get_items_expected_max() == 0) continue;
+      const std::string expected = is_number(*option) ? "expected a number" : "expected a value";
+      option->check(CLI::Validator(
+          [expected](const std::string& text) { return text.empty() ? expected : std::string(); },
+          ""));
+    }
+  }
+}
 
 ProgramFacts program_facts(const CLI::App& program) {
   ProgramFacts facts{program.get_name(), program.get_description(), options_of(program), {}};

@@ -32,6 +32,10 @@ struct ProgramFacts {
 
 [[nodiscard]] ProgramFacts program_facts(const CLI::App& program);
 
+/// No option takes an empty text: CLI11 would read it as the number 0. After all commands are
+/// there.
+void refuse_empty_values(CLI::App& program);
+
 /// What makes bash, zsh or fish complete commands and options, as text to be sourced. Throws
 /// InputError for another shell.
 [[nodiscard]] std::string completion_script(const ProgramFacts& program, const std::string& shell);

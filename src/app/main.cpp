@@ -9,6 +9,7 @@
 #include <new>
 #include <string>
 
+#include "app/command_tree.h"
 #include "app/commands.h"
 #include "input_error.h"
 
@@ -36,6 +37,7 @@ void setup(CLI::App& program, int& status) {
   setup_report(program, status);
   setup_completion(program, status);
   setup_manual(program, status);
+  refuse_empty_values(program);
 }
 
 /// CLI11 would only say that a command is missing.

@@ -19,13 +19,9 @@ double rounded(double number) {
 }  // namespace
 
 void add_range_options(CLI::App& command, RangeOptions& options) {
-  const CLI::Validator number(
-      [](const std::string& text) { return std::string(text.empty() ? "expected a number" : ""); },
-      "");
-  command.add_option("--from", options.from, "first value, in the unit of the scene")
-      ->check(number);
-  command.add_option("--to", options.to, "last value")->check(number);
-  command.add_option("--step", options.step, "step between values")->check(number);
+  command.add_option("--from", options.from, "first value, in the unit of the scene");
+  command.add_option("--to", options.to, "last value");
+  command.add_option("--step", options.step, "step between values");
 }
 
 void override_range(const std::string& file, const RangeOptions& options, Scene& scene) {

@@ -11,6 +11,7 @@
 #include "app/progress.h"
 #include "app/summary.h"
 #include "app/talk.h"
+#include "input_error.h"
 
 namespace condyle {
 namespace {
@@ -23,6 +24,14 @@ struct VerifyCommand {
   bool pushes = false, no_meshes = false;
 };
 
+Verification verified(const std::string& file, const Run& run, const VerifyOptions& options) {
+  try {
+    return verify_run(run, options);
+  } catch (const InputError& error) {
+    throw InputError(file + ": " + error.what());
+  }
+}
+
 int run_verify(const VerifyCommand& command) {
   const Talk& talk = command.talk;
   CommandClock clock;
@@ -32,7 +41,7 @@ int run_verify(const VerifyCommand& command) {
   options.pushes = command.pushes;
   options.meshes = !command.no_meshes;
   options.on_pose = [&](int done, int total) { progress.at(done, total); };
-  const Verification verification = verify_run(run, options);
+  const Verification verification = verified(command.run, run, options);
   progress.clear();
   for (const std::string& line : check_lines(verification)) say(talk, "{}\n", line);
   say(talk, "\n");

@@ -33,6 +33,14 @@ std::vector<std::string> contact_row(const PoseResult& pose, std::size_t index, 
   return row;
 }
 
+bool any_place(const Poses& poses) { return std::any_of(poses.begin(), poses.end(), has_place); }
+
+/// ", 2.8 mm beyond the edge"
+std::string beyond_words(const PoseResult& pose, const ContactResult& contact) {
+  const double beyond = pose.converged() ? 0 : beyond_edge(contact);
+  return beyond > 0 ? fmt::format(", {:.2g} mm beyond the edge", beyond) : "";
+}
+
 bool has_pressure(const Poses& poses, std::size_t index) {
   return std::any_of(poses.begin(), poses.end(), [&](const PoseResult& pose) {
     if (!pose.converged()) return false;
@@ -54,10 +62,12 @@ HtmlTable contact_table(const Run& run, std::size_t index) {
       table.columns.emplace_back(head);
   }
   for (const PoseResult& pose : run.sweep.poses) {
-    if (!pose.converged()) continue;
+    if (!has_place(pose)) continue;
     std::vector<std::string> row = contact_row(pose, index, pressed);
     row.insert(row.begin(), swept.at(pose.value));
+    row[1] += beyond_words(pose, pose.contacts[index]);
     table.rows.push_back(std::move(row));
+    table.row_classes.emplace_back(pose.converged() ? "" : "failed");
   }
   return table;
 }
@@ -105,11 +115,12 @@ HtmlTable ligament_table(const Run& run,
   for (const LigamentDescription& ligament : run.scene.ligaments)
     table.columns.push_back(ligament.name);
   for (const PoseResult& pose : run.sweep.poses) {
-    if (!pose.converged()) continue;
+    if (!has_place(pose)) continue;
     std::vector<std::string> row = {swept.at(pose.value)};
     for (const LigamentResult& ligament : pose.ligaments)
       row.push_back(number(factor * ligament.*part, 1));
     table.rows.push_back(std::move(row));
+    table.row_classes.emplace_back(pose.converged() ? "" : "failed");
   }
   return table;
 }
@@ -117,7 +128,7 @@ HtmlTable ligament_table(const Run& run,
 }  // namespace
 
 std::string contact_section(const Run& run) {
-  if (run.sweep.count_converged() == 0) return "";
+  if (!any_place(run.sweep.poses)) return "";
   std::string body;
   for (std::size_t i = 0; i < run.scene.contacts.size(); ++i) body += html(contact_table(run, i));
   if (!body.empty())
@@ -128,7 +139,7 @@ std::string contact_section(const Run& run) {
 }
 
 std::string ligament_section(const Run& run) {
-  if (run.sweep.count_converged() == 0 || run.scene.ligaments.empty()) return "";
+  if (!any_place(run.sweep.poses) || run.scene.ligaments.empty()) return "";
   const Swept swept = swept_of(run.scene);
   HtmlTable table{"",
                   {"ligament", "greatest force [N]", "at " + swept_head(swept), "least strain [%]",

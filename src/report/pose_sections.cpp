@@ -176,9 +176,9 @@ std::string solver_section(const Run& run) {
   }
   const double n = static_cast<double>(poses.size());
   std::string body = fmt::format(
-      "<p>{:.3g} Newton iterations and {:.3g} µs a pose; largest out-of-balance force {:.1e} "
+      "<p>{:.3g} Newton iterations and {} a pose; largest out-of-balance force {:.1e} "
       "N.</p>\n",
-      iterations / n, 1e6 * seconds / n, residual);
+      iterations / n, short_time(seconds / n, "µs"), residual);
   if (run.scene.simulation) body.clear();  // a motion is no sequence of equilibria
   return section("solver", "Solver", body.empty() ? "" : body + details("Each pose", html(table)));
 }

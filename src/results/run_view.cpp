@@ -45,6 +45,12 @@ double beyond_edge(const PoseResult& pose) {
   return farthest;
 }
 
+std::string short_time(double seconds, const std::string& micro) {
+  if (std::abs(seconds) < 999.5e-6) return fmt::format("{:.3g} {}", 1e6 * seconds, micro);
+  if (std::abs(seconds) < 0.9995) return fmt::format("{:.3g} ms", 1e3 * seconds);
+  return fmt::format("{:.{}f} s", seconds, seconds < 9.995 ? 2 : seconds < 99.95 ? 1 : 0);
+}
+
 ShownUnit shown_unit(const Scene& scene) {
   if (scene.simulation) return {"s", 1};
   if (!scene.sweep) return {"1", 1};

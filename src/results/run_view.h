@@ -38,6 +38,10 @@ struct ShownUnit {
 /// pose holds none.
 [[nodiscard]] const ContactPointResult* strongest_point(const ContactResult& contact);
 
+/// "7.5 us", "87.7 ms", "12.3 s": three digits, in a unit that suits them; `micro` is how
+/// microseconds are written.
+[[nodiscard]] std::string short_time(double seconds, const std::string& micro);
+
 /// Where in the body's frame a surface without bounds is worth seeing [mm]: at the first contact of
 /// the run.
 [[nodiscard]] Eigen::Vector3d place_of_interest(const Run& run, int body);

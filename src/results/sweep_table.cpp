@@ -7,6 +7,7 @@
 
 #include "math/rotation.h"
 #include "results/run_layout.h"
+#include "results/run_view.h"
 #include "scene/sweep_range.h"
 
 namespace condyle {
@@ -116,8 +117,9 @@ std::string SweepTable::head() const {
 std::string SweepTable::row(const PoseResult& pose) const {
   std::string line;
   for (const Cell& cell : cells_) {
-    line +=
-        fmt::format("{:>{}.{}f}", cell.value(*this, pose, cell.index), width(cell), cell.decimals);
+    const std::string number =
+        fmt::format("{:.{}f}", cell.value(*this, pose, cell.index), cell.decimals);
+    line += fmt::format(" {:>{}}", number, width(cell) - 1);
     if (!pose.solved()) break;
   }
   if (!pose.converged())
@@ -134,11 +136,11 @@ std::string summary(const SweepResult& sweep) {
   }
   const auto n = sweep.poses.size();
   return fmt::format(
-      "{} of {} poses converged, largest residual {:.2g} N, largest gap {:.2g} mm, {:.3g} ms "
-      "({:.3g} us a pose){}",
-      sweep.count_converged(), n, residual, largest_gap(sweep), 1e3 * seconds,
-      1e6 * seconds / static_cast<double>(std::max<std::size_t>(n, 1)),
-      on_events > 0 ? fmt::format(" and {:.3g} ms for events", 1e3 * on_events) : "");
+      "{} of {} poses converged, largest residual {:.2g} N, largest gap {:.2g} mm, {} ({} a "
+      "pose){}",
+      sweep.count_converged(), n, residual, largest_gap(sweep), short_time(seconds, "us"),
+      short_time(seconds / static_cast<double>(std::max<std::size_t>(n, 1)), "us"),
+      on_events > 0 ? fmt::format(" and {} for events", short_time(on_events, "us")) : "");
 }
 
 std::vector<std::string> event_lines(const Scene& scene, const SweepResult& sweep) {

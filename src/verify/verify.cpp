@@ -19,10 +19,8 @@ using namespace verification;
 
 void check_kind(const Run& run, std::vector<std::string>& not_checked) {
   if (run.sweep.poses.empty())
-    throw InputError(
-        fmt::format("{}: the run holds no poses{}, expected one of sweep, compare or "
-                    "simulate",
-                    run.scene.file.string(), run.laxity ? " (a test of laxity stores none)" : ""));
+    throw InputError(fmt::format("holds no poses{}, expected a run of sweep, compare or simulate",
+                                 run.laxity ? " (a test of laxity stores none)" : ""));
   const Scene& scene = run.scene;
   for (const ContactDescription& contact : scene.contacts)
     for (const int surface : contact.surfaces)

@@ -124,6 +124,14 @@ TEST_F(CommandLine, TakesNoEmptyTextForANumber) {
   }
 }
 
+TEST_F(CommandLine, TakesNoEmptyTextForAValue) {
+  expect_bad_input(run("sweep '' -o run.h5"), "SCENE: expected a value (condyle --help says more)");
+  expect_bad_input(run("sweep knee.toml -o ''"),
+                   "--output: expected a value (condyle --help says more)");
+  expect_bad_input(run("export run.h5 -o run.glb --at ''"),
+                   "--at: expected a number (condyle --help says more)");
+}
+
 TEST_F(CommandLine, NeedsASweep) {
   write("knee.toml", kScene.substr(0, kScene.find("[sweep]")));
   expect_bad_input(run("sweep knee.toml -o run.h5"),

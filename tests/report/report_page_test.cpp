@@ -115,6 +115,21 @@ TEST(ReportPage, HoldsTheNumbersOfTheRun) {
     EXPECT_EQ(count(page, std::string("<section id=\"") + id + "\">"), 1U) << id;
 }
 
+TEST(ReportPage, TablesHoldPosesBeyondAnEdgeMarked) {
+  condyle::Run run = block_run();
+  run.sweep.poses[1].status = PoseStatus::kLeftPatch;
+  run.sweep.poses[1].contacts[0].points[0].edge_distance = -2.76;
+  const std::string page = report_page(run, "run.h5", words_only());
+  const std::string mark = "closed, 2.8 mm beyond the edge";
+  EXPECT_EQ(count(page, mark), 1U);
+  const std::size_t row = page.rfind("<tr", page.find(mark));
+  EXPECT_EQ(page.substr(row, 19), "<tr class=\"failed\">");
+  // In the tables of poses, contacts (two), and forces and strains of ligaments.
+  EXPECT_EQ(count(page, "<tr class=\"failed\">"), 5U);
+  run.sweep.poses[1].status = PoseStatus::kSingular;
+  EXPECT_EQ(count(report_page(run, "run.h5", words_only()), "<tr class=\"failed\">"), 1U);
+}
+
 TEST(ReportPage, TellsHowThePatchesFit) {
   const std::string page = report_page(made_up_run(), "run.h5", words_only());
   EXPECT_NE(page.find("<section id=\"fit\">"), std::string::npos);

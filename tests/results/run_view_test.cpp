@@ -52,6 +52,14 @@ TEST(RunView, TheNearestPoseMayLieABitBeyondTheRun) {
   EXPECT_THROW((void)nearest_pose_of(run, "run.h5", 0.6), InputError);
 }
 
+TEST(RunView, TimesHaveAUnitThatSuitsThem) {
+  EXPECT_EQ(short_time(7.54e-6, "us"), "7.54 us");
+  EXPECT_EQ(short_time(0.0877, "us"), "87.7 ms");
+  EXPECT_EQ(short_time(0.0009996, "us"), "1 ms");
+  EXPECT_EQ(short_time(1.7017, "us"), "1.70 s");
+  EXPECT_EQ(short_time(1234.4, "us"), "1234 s");
+}
+
 TEST(RunView, ThePlaceOfInterestIsWhereMostIsCarried) {
   const condyle::Run run = made_up_run();  // two points at the last pose only
   EXPECT_EQ(place_of_interest(run, run.scene.moving_body()), made_up_point(1).point_moving);

@@ -20,6 +20,14 @@ TEST(SweepTable, HasAColumnForEverythingInItsUnit) {
             "   11.46   11.46   17.19    4.00    5.00    6.00    70.0    14.0     3     5\n");
 }
 
+TEST(SweepTable, NumbersThatFillTheirColumnsStandApart) {
+  condyle::Run run = made_up_run();
+  run.sweep.poses[2].iterations = 90;
+  run.sweep.poses[2].seconds = 0.208292;
+  const std::string row = SweepTable(run.scene).row(run.sweep.poses[2]);
+  EXPECT_NE(row.find(" 90 208292"), std::string::npos) << row;
+}
+
 TEST(SweepTable, SaysWhyAPoseFailed) {
   const condyle::Run run = made_up_run();
   EXPECT_EQ(SweepTable(run.scene).row(run.sweep.poses[1]),
@@ -43,7 +51,7 @@ TEST(Summary, CountsAndNamesTheLargest) {
   const condyle::Run run = made_up_run();
   // Gap 4e-11 mm is that of the second point of the last pose, seed 4; two poses of 5 us.
   EXPECT_EQ(summary(run.sweep),
-            "2 of 3 poses converged, largest residual 1e-12 N, largest gap 4e-11 mm, 0.01 ms (3.33 "
+            "2 of 3 poses converged, largest residual 1e-12 N, largest gap 4e-11 mm, 10 us (3.33 "
             "us a pose)");
 }
 
