@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -23,22 +24,23 @@ double tick_step(double range) {
 }
 
 /// Two lines that end above `at`; where what the bar shows and its unit are too long for one line,
-/// the unit has one of its own, and what is still too long is set smaller.
+/// the unit has one of its own, and what is still too long is set smaller or, where letters would be
+/// too small, further to the left.
 void draw_heading(const Pen& pen, const ColorBar& bar, const Vector2d& at) {
-  const double room = pen.canvas.width() - at.x() - 3 * pen.s, line = 19 * pen.s;
+  const double right = pen.canvas.width() - 3 * pen.s, room = right - at.x(), line = 19 * pen.s;
   const TextStyle quiet = pen.style(14, kQuiet);
-  const auto fitted = [&](const std::string& text, TextStyle style) {
+  const auto write = [&](const std::string& text, TextStyle style, double y) {
     while (style.size > 7 && pen.canvas.text_width(text, style) > room) --style.size;
-    return style;
+    const double left = std::min(at.x(), right - pen.canvas.text_width(text, style));
+    pen.canvas.text({left, y}, text, style);
   };
   std::vector<std::string> below = {bar.unit};
   const std::size_t bracket = bar.unit.rfind(" [");
   if (bracket != std::string::npos && pen.canvas.text_width(bar.unit, quiet) > room)
     below = {bar.unit.substr(0, bracket), bar.unit.substr(bracket + 1)};
   double y = at.y();
-  for (std::size_t i = below.size(); i-- > 0; y -= line)
-    pen.canvas.text({at.x(), y}, below[i], fitted(below[i], quiet));
-  pen.canvas.text({at.x(), y}, bar.title, fitted(bar.title, pen.style(14)));
+  for (std::size_t i = below.size(); i-- > 0; y -= line) write(below[i], quiet, y);
+  write(bar.title, pen.style(14), y);
 }
 
 /// Above the bar, as wide as it.

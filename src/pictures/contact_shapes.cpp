@@ -18,6 +18,7 @@ using Eigen::Vector3d;
 constexpr Rgb kContactColor = {22, 32, 43};
 struct PathSize {
   double radius, dot;  // [mm]
+  PathSize operator*(double size) const { return {radius * size, dot * size}; }
 };
 constexpr PathSize kOurPath = {0.5, 0.75}, kReferencePath = {0.3, 0.6};
 constexpr double kArrowRadius = 0.95, kEllipseRim = 0.16, kLineRadius = 0.45;  // [mm]
@@ -84,14 +85,14 @@ ShadedMesh paths_of(const Scene& scene,
 
 ShadedMesh contact_paths(const Run& run, int body, const PictureScales& scales) {
   const double range = std::max(1e-12, scales.sweep_high - scales.sweep_low);
-  return paths_of(run.scene, run.sweep, body, kOurPath, [&](const PoseResult& pose) {
+  return paths_of(run.scene, run.sweep, body, kOurPath * scales.size, [&](const PoseResult& pose) {
     return Paint{map_color(ColorMap::kFlexion, (pose.value - scales.sweep_low) / range), 0.9};
   });
 }
 
-ShadedMesh reference_paths(const Run& run, int body) {
+ShadedMesh reference_paths(const Run& run, int body, const PictureScales& scales) {
   if (!run.comparison) return {};
-  return paths_of(run.scene, run.comparison->reference, body, kReferencePath,
+  return paths_of(run.scene, run.comparison->reference, body, kReferencePath * scales.size,
                   [](const PoseResult&) {
                     return Paint{kReferenceColor, 0.9};
                   });
@@ -104,22 +105,24 @@ ShadedMesh contact_points(const std::vector<ContactMark>& marks, double radius) 
   return mesh;
 }
 
-ShadedMesh edge_crosses(const std::vector<ContactMark>& marks, const Eigen::Matrix3d& R_VP) {
+ShadedMesh edge_crosses(const std::vector<ContactMark>& marks,
+                        const Eigen::Matrix3d& R_VP,
+                        const PictureScales& scales) {
   ShadedMesh mesh;
   const Paint paint = {kAlarmColor, 1};
+  const double radius = kCrossRadius * scales.size;
   const Vector3d right = R_VP.row(0), up = R_VP.row(1);
   for (const ContactMark& mark : marks) {
     if (!(mark.beyond > 0)) continue;
     for (const double side : {1.0, -1.0}) {
-      const Vector3d arm = kCrossArm * (right + side * up).normalized();
-      append(mesh, tube({{mark.point - arm, kCrossRadius, paint},
-                         {mark.point + arm, kCrossRadius, paint}}));
+      const Vector3d arm = kCrossArm * scales.size * (right + side * up).normalized();
+      append(mesh, tube({{mark.point - arm, radius, paint}, {mark.point + arm, radius, paint}}));
     }
   }
   return mesh;
 }
 
-ShadedMesh contact_lines(const Scene& scene, const PoseResult& pose) {
+ShadedMesh contact_lines(const Scene& scene, const PoseResult& pose, const PictureScales& scales) {
   ShadedMesh mesh;
   const RigidTransform X_PB = tibia_moves(scene) ? pose.X_BA.inverse() : RigidTransform();
   for (const ContactResult& contact : pose.contacts) {
@@ -127,7 +130,7 @@ ShadedMesh contact_lines(const Scene& scene, const PoseResult& pose) {
       continue;
     std::vector<TubePoint> ends;
     for (const ContactPointResult* end : {&contact.points.front(), &contact.points.back()})
-      ends.push_back({X_PB * end->point_ground, kLineRadius, {kContactColor, 0.85}});
+      ends.push_back({X_PB * end->point_ground, kLineRadius * scales.size, {kContactColor, 0.85}});
     if ((ends[0].center - ends[1].center).norm() > 1e-3) append(mesh, tube(ends));
   }
   return mesh;
@@ -170,9 +173,9 @@ ShadedMesh force_arrows(const std::vector<ContactMark>& marks, const PictureScal
   ShadedMesh mesh;
   for (const ContactMark& mark : marks) {
     const double length = mark.force * scales.arrow_mm_per_n;
-    if (length < 1) continue;
-    append(mesh, arrow(mark.point, mark.point + length * mark.toward_femur, kArrowRadius,
-                       {kContactColor, 0.75}));
+    if (length < scales.size) continue;
+    append(mesh, arrow(mark.point, mark.point + length * mark.toward_femur,
+                       kArrowRadius * scales.size, {kContactColor, 0.75}));
   }
   return mesh;
 }

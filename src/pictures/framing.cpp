@@ -82,4 +82,10 @@ std::vector<Points> joint_points(const Run& run, const std::vector<BodyShape>& s
   return points;
 }
 
+double joint_radius(const std::vector<Points>& joints) {
+  double radius = 0;
+  for (const Points& points : joints) radius = std::max(radius, ball_around(points).radius);
+  return radius;
+}
+
 }  // namespace condyle

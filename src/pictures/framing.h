@@ -16,4 +16,7 @@ namespace condyle {
 [[nodiscard]] std::vector<std::vector<Eigen::Vector3d>> joint_points(
     const Run& run, const std::vector<BodyShape>& shapes);
 
+/// Of the greatest body's points about their middle [mm]: how large what is shown is.
+[[nodiscard]] double joint_radius(const std::vector<std::vector<Eigen::Vector3d>>& joints);
+
 }  // namespace condyle

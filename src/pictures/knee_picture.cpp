@@ -25,6 +25,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kFramePoses = 40;                   // about as many decide the frame
 constexpr double kPlainSpacing = 1.2, kGapSpacing = 0.7;  // between vertices of patches [mm]
+constexpr double kKneeRadius = 25;                        // what is smaller has smaller marks [mm]
 constexpr double kContactDot = 1.5, kSmallDot = 0.7;      // [mm]
 
 struct KeptShape {
@@ -76,7 +77,6 @@ KneePictures::State::State(const Run& r, const PictureOptions& o)
     : run(r),
       options(o),
       page(o.panel ? panel_layout(o.width, o.height) : page_layout(o.width, o.height)),
-      scales(picture_scales(r)),
       renderer(o.width, o.height),
       body_meshes(body_shapes(r, o.proximity ? kGapSpacing : kPlainSpacing)) {
   for (const BodyShape& shape : body_meshes) {
@@ -84,10 +84,12 @@ KneePictures::State::State(const Run& r, const PictureOptions& o)
         {shape.body, {renderer.add(shape.mesh), {}, shape.layer, shape.gloss, shape.closed}});
   }
   joints = joint_points(run, body_meshes);
+  const double radius = joint_radius(joints);
+  scales = picture_scales(run, radius > 0 ? std::min(1.0, radius / kKneeRadius) : 1);
   if (options.proximity) gaps.emplace(run);
   for (std::size_t i = 0; i < 2; ++i) {
     path[i] = renderer.add(contact_paths(run, bodies()[i], scales));
-    reference_path[i] = renderer.add(reference_paths(run, bodies()[i]));
+    reference_path[i] = renderer.add(reference_paths(run, bodies()[i], scales));
   }
   for (int* id : {&ligaments, &contacts, &ellipses, &arrows, &crosses}) *id = renderer.add({});
 }
@@ -181,13 +183,14 @@ void KneePictures::State::fill_meshes(Scenery& scenery) {
                           : ligament_tubes(run, scenery.pose, scenery.X_P, scales);
   }
   renderer.replace(ligaments, lines);
-  ShadedMesh dots = contact_points(scenery.marks, options.hertz ? kSmallDot : kContactDot);
-  if (!stage.apart()) append(dots, contact_lines(run.scene, scenery.pose));
+  ShadedMesh dots =
+      contact_points(scenery.marks, scales.size * (options.hertz ? kSmallDot : kContactDot));
+  if (!stage.apart()) append(dots, contact_lines(run.scene, scenery.pose, scales));
   renderer.replace(contacts, dots);
   renderer.replace(ellipses, options.hertz ? hertz_ellipses(scenery.marks) : ShadedMesh{});
   renderer.replace(arrows,
                    shows_arrows(scenery) ? force_arrows(scenery.marks, scales) : ShadedMesh{});
-  renderer.replace(crosses, edge_crosses(scenery.marks, scenery.camera.R_VP));
+  renderer.replace(crosses, edge_crosses(scenery.marks, scenery.camera.R_VP, scales));
   if (gaps) scenery.overlap = paint_gaps(scenery);
 }
 

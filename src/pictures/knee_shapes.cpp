@@ -57,7 +57,7 @@ std::vector<BodyShape> body_shapes(const Run& run, double spacing) {
   return shapes;
 }
 
-PictureScales picture_scales(const Run& run) {
+PictureScales picture_scales(const Run& run, double size) {
   PictureScales scales;
   scales.strain_known =
       std::any_of(run.scene.ligaments.begin(), run.scene.ligaments.end(),
@@ -75,10 +75,11 @@ PictureScales picture_scales(const Run& run) {
   scales.ligament_top = scales.strain_known ? strain.top : round_up_nicely(tension);
   scales.ligament_greatest = scales.strain_known ? strain.greatest : tension;
   scales.force_top = contact;
-  scales.arrow_mm_per_n = 35 / contact;
+  scales.size = size;
+  scales.arrow_mm_per_n = size * 35 / contact;
   if (low <= high) scales.sweep_low = low, scales.sweep_high = high;
   const double strands = static_cast<double>(run.scene.ligaments.size());
-  scales.tube_radius = 1.5 * std::min(1.0, std::sqrt(20 / std::max(1.0, strands)));
+  scales.tube_radius = size * 1.5 * std::min(1.0, std::sqrt(20 / std::max(1.0, strands)));
   return scales;
 }
 

@@ -45,8 +45,9 @@ struct PictureScales {
   double arrow_mm_per_n = 0.3;      ///< length of arrows
   double sweep_low = 0, sweep_high = 1;  ///< range of the swept value, poses that have a place
   double tube_radius = 1.5;              ///< [mm]
+  double size = 1;  ///< of dots, lines, arrows and crosses, as a fraction of that for a knee
 };
-[[nodiscard]] PictureScales picture_scales(const Run& run);
+[[nodiscard]] PictureScales picture_scales(const Run& run, double size = 1);
 
 /// Colour of a ligament; slack ones are grey.
 [[nodiscard]] Rgb ligament_color(const PictureScales& scales, const LigamentResult& ligament);
@@ -89,15 +90,18 @@ struct ContactMark {
 /// body.
 [[nodiscard]] ShadedMesh contact_paths(const Run& run, int body, const PictureScales& scales);
 /// The same of the reference model, where the run holds one: thin, in kReferenceColor.
-[[nodiscard]] ShadedMesh reference_paths(const Run& run, int body);
+[[nodiscard]] ShadedMesh reference_paths(const Run& run, int body, const PictureScales& scales);
 inline constexpr Rgb kReferenceColor = {190, 58, 40};
 /// Balls at the contact points.
 [[nodiscard]] ShadedMesh contact_points(const std::vector<ContactMark>& marks, double radius);
 /// Crosses in the plane of the page over the points that lie beyond an edge. R_VP as of the camera.
 [[nodiscard]] ShadedMesh edge_crosses(const std::vector<ContactMark>& marks,
-                                      const Eigen::Matrix3d& R_VP);
+                                      const Eigen::Matrix3d& R_VP,
+                                      const PictureScales& scales);
 /// Between the ends of contacts that are lines.
-[[nodiscard]] ShadedMesh contact_lines(const Scene& scene, const PoseResult& pose);
+[[nodiscard]] ShadedMesh contact_lines(const Scene& scene,
+                                       const PoseResult& pose,
+                                       const PictureScales& scales);
 /// The ellipses of Hertz' estimate in the tangent plane, to scale; nothing for marks without one.
 [[nodiscard]] ShadedMesh hertz_ellipses(const std::vector<ContactMark>& marks);
 inline constexpr Rgb kHertzColor = {226, 120, 62};

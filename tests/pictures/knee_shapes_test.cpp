@@ -146,15 +146,35 @@ TEST(KneeShapes, ThePathIsNotDrawnThroughAJump) {
 TEST(KneeShapes, PointsBeyondAnEdgeAreCrossed) {
   auto run = block_run();
   const Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  EXPECT_TRUE(edge_crosses(contact_marks(run.scene, run.sweep.poses[0]), R).vertices.empty());
+  EXPECT_TRUE(edge_crosses(contact_marks(run.scene, run.sweep.poses[0]), R, picture_scales(run))
+                  .vertices.empty());
   run.sweep.poses[0].contacts[0].points[0].edge_distance = -2;
-  const ShadedMesh cross = edge_crosses(contact_marks(run.scene, run.sweep.poses[0]), R);
+  const ShadedMesh cross =
+      edge_crosses(contact_marks(run.scene, run.sweep.poses[0]), R, picture_scales(run));
   ASSERT_FALSE(cross.vertices.empty());
   const Vector3d point = contact_marks(run.scene, run.sweep.poses[0])[0].point;
   Vector3d middle = Vector3d::Zero();
   for (const ShadedVertex& v : cross.vertices)
     middle += v.position.cast<double>() / static_cast<double>(cross.vertices.size());
   EXPECT_LT((middle - point).norm(), 0.05);
+}
+
+TEST(KneeShapes, MarksOfASmallSceneAreSmall) {
+  auto run = block_run();
+  run.sweep.poses[0].contacts[0].points[0].edge_distance = -2;
+  const std::vector<ContactMark> marks = contact_marks(run.scene, run.sweep.poses[0]);
+  const auto reach = [&](const ShadedMesh& mesh) {
+    double farthest = 0;
+    for (const ShadedVertex& v : mesh.vertices)
+      farthest = std::max(farthest, (v.position.cast<double>() - marks[0].point).norm());
+    return farthest;
+  };
+  const PictureScales knee = picture_scales(run), small = picture_scales(run, 0.25);
+  const Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  EXPECT_NEAR(reach(edge_crosses(marks, R, small)), reach(edge_crosses(marks, R, knee)) / 4, 1e-3);
+  const std::vector<ContactMark> first = {marks[0]};
+  EXPECT_NEAR(reach(force_arrows(first, small)), reach(force_arrows(first, knee)) / 4, 1e-3);
+  EXPECT_DOUBLE_EQ(small.tube_radius, knee.tube_radius / 4);
 }
 
 TEST(LigamentGroups, NumberedStrandsAreOneLigament) {
