@@ -82,12 +82,17 @@ class KneeFinder {
     return count;
   }
 
+  [[nodiscard]] std::vector<std::string> spanned_joints() const {
+    std::vector<std::string> names;
+    for (const OsimJoint& joint : model_.joints)
+      if (joint.type != "WeldJoint" && spanning_ligaments(joint) > 0) names.push_back(joint.name);
+    return names;
+  }
+
   void choose_joint() {
     int most = 0;
     const OsimJoint* rival = nullptr;  // spanned by as many
-    std::vector<std::string> names;
     for (const OsimJoint& joint : model_.joints) {
-      names.push_back(joint.name);
       if (joint.type == "WeldJoint") continue;
       if (!options_.joint.empty() && joint.name != options_.joint) continue;
       const int count = spanning_ligaments(joint);
@@ -108,7 +113,7 @@ class KneeFinder {
     if (options_.joint.empty())
       fail("no joint is spanned by its ligaments, expected a knee joint between femur and tibia");
     fail(fmt::format("--joint {}: no ligament spans a joint of this name, expected one of {}",
-                     options_.joint, fmt::join(names, ", ")));
+                     options_.joint, fmt::join(spanned_joints(), ", ")));
   }
 
   [[nodiscard]] const OsimMesh& mesh_at(const std::string& path, const OsimContact& contact) const {

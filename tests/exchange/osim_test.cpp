@@ -172,7 +172,7 @@ TEST(OsimImport, AsksWhichJointAndWhichSideIsMeant) {
   options.joint = "hip_r";
   EXPECT_EQ(message(model, options),
             "m.osim: --joint hip_r: no ligament spans a joint of this name, expected one of "
-            "femur_femur_distal_r, knee_r, pf_r, tibia_tibia_proximal_r");
+            "knee_r");
   for (OsimJoint& joint : model.joints)
     if (joint.name == "knee_r") joint.name = "knee";
   for (std::string& body : model.bodies)
