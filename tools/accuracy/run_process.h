@@ -8,7 +8,7 @@ namespace condyle::accuracy {
 /// A program that was run to its end.
 struct Process {
   bool good = false;     ///< it was found and ended with 0
-  std::string output;    ///< what it said, less than 64 kB
+  std::string output;    ///< what it said
   double seconds = 0;    ///< of the processor
   double megabytes = 0;  ///< most memory that it held (resident); 0 where the system does not tell
 };
