@@ -1,7 +1,7 @@
 #pragma once
 
 /// A point of contact between a surface on B (ground) and one on A (moving), linearised for
-/// Newton's method [Dortmans 1986, 2.45-2.58, 2.87-2.104; theory: equilibrium.md sections 3 and 6].
+/// Newton's method [Dortmans 1986, 2.45-2.58, 2.87-2.104; docs/elements.md, docs/equilibrium.md].
 ///
 /// Conditions g = a + s - c = 0 and h = n + m = 0 (c, n, K on B; s = R ĉ, m = R n̂, Kr = R K̂ Rᵀ from
 /// A). They determine how the contact point slides on both surfaces when the pose changes by (da,

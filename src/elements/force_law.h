@@ -3,11 +3,11 @@
 /// Force laws f(L) of line elements, tension positive [N], length L [mm]. Each gives force, slope
 /// and energy.
 ///
-///   toe-linear   ε = L/l₀ - 1:  f = 0 (ε <= 0),  k ε²/(2 ε_t) (toe),  k (ε - ε_t/2) (linear)
-///   [Blankevoort 1991] quadratic    f = k (L - l₀)² for L > l₀, else 0 [Wismans 1980] polynomial
-///   f = c₀ + c₁ L + c₂ L² ..., optionally cut off where negative                  [Dortmans 1986,
-///   4] table        monotone cubic through (L_i, f_i), constant slope outside [Fritsch and Carlson
-///   1980] custom       any function of yours
+///   toe-linear   0 for ε = L/l₀ - 1 <= 0, k ε²/(2 ε_t), then k (ε - ε_t/2)  [Blankevoort 1991]
+///   quadratic    k (L - l₀)² for L > l₀, else 0                             [Wismans 1980]
+///   polynomial   c₀ + c₁ L + c₂ L² ..., cut off where negative if asked     [Dortmans 1986, 4]
+///   table        monotone cubic, constant slope outside         [Fritsch and Carlson 1980]
+///   custom       any function of yours
 
 #include <functional>
 #include <variant>

@@ -1,8 +1,8 @@
 #pragma once
 
 /// Rotations as 3 x 3 tensors, perturbed from the left: R <- exp([θ]x) R, θ in the outer (ground)
-/// frame [rad]. Exp, never a sum of angles, so no orientation is special (theory: equilibrium.md
-/// section 1).
+/// frame [rad]. Exp, never a sum of angles, so no orientation is special
+/// (docs/conventions.md).
 
 #include <Eigen/Core>
 

@@ -13,7 +13,6 @@ bool SmallLu::factor(int n) {
   double largest = 0;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) largest = std::max(largest, std::abs(a_[i][j]));
-  double greatest = 0, least = largest;
   for (int k = 0; k < n; ++k) {
     int pivot = k;
     for (int i = k + 1; i < n; ++i)
@@ -28,12 +27,7 @@ bool SmallLu::factor(int n) {
       for (int j = 0; j < k; ++j) std::swap(multipliers_[j][k], multipliers_[j][pivot]);
     }
     const double p = std::abs(a_[k][k]);
-    greatest = std::max(greatest, p);
-    least = std::min(least, p);
-    if (!(p > 1e-15 * largest)) {
-      pivot_ratio_ = 0;
-      return false;
-    }
+    if (!(p > 1e-15 * largest)) return false;
     const double inverse = 1 / a_[k][k];
     inverse_pivot_[k] = inverse;
     const int first = (k + 1) / 4 * 4;
@@ -44,7 +38,6 @@ bool SmallLu::factor(int n) {
         store_four(a_[i] + j, load_four(a_[i] + j) - factor * load_four(a_[k] + j));
     }
   }
-  pivot_ratio_ = n == 0 ? 1 : least / greatest;
   return true;
 }
 

@@ -22,9 +22,6 @@ class SmallLu {
   /// Solves A x = b for b and x of length n; `b` becomes x.
   void solve(double* b) const;
 
-  /// Smallest over largest pivot of the last factorisation: a cheap hint at the condition.
-  [[nodiscard]] double pivot_ratio() const { return pivot_ratio_; }
-
  private:
   static constexpr int kStride = 16;  ///< rows are worked on four numbers at a time
   // After factor(): U in the upper triangle of a_ (below it nothing that means anything), the
@@ -34,7 +31,6 @@ class SmallLu {
   std::array<double, kMaxSize> inverse_pivot_{};
   std::array<int, kMaxSize> row_{};
   int n_ = 0;
-  double pivot_ratio_ = 0;
 };
 
 }  // namespace condyle

@@ -46,7 +46,8 @@ struct NormalTree {
 /// ground.
 [[nodiscard]] NormalTree normal_tree(const LinearGraph& graph);
 
-/// B with B x = 0, chords x edges, and C with C y = 0, branches x edges; B Cᵀ = 0.
+/// B with B x = 0, chords x edges, and C with C y = 0, branches x edges; B Cᵀ = 0. The equations
+/// are written without them; tests hold tree, circuits and cut-sets against them.
 [[nodiscard]] Eigen::MatrixXi circuit_matrix(const LinearGraph& graph, const NormalTree& tree);
 [[nodiscard]] Eigen::MatrixXi cut_set_matrix(const LinearGraph& graph, const NormalTree& tree);
 
@@ -57,7 +58,7 @@ struct NormalTree {
                                                    int to);
 
 /// T with x' = T x and y = Tᵀ y', from the tree `old_tree` to the tree `new_tree` of one component:
-/// two terminal graphs on the same vertices [Tokad 1992, Fig. 4].
+/// two terminal graphs on the same vertices [Tokad 1992, Fig. 4]. For tests of the theory alone.
 [[nodiscard]] Eigen::MatrixXi tree_transformation(const LinearGraph& old_tree,
                                                   const LinearGraph& new_tree);
 
@@ -65,6 +66,7 @@ struct NormalTree {
 using EdgeVariables = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// Tellegen's theorem: Σ x.y over all edges, zero; and the sum of the magnitudes, to compare with.
+/// For tests of a network's equations.
 struct TellegenSum {
   double sum = 0, scale = 0;
 };

@@ -32,7 +32,8 @@ struct MassProperties {
                                            double density,
                                            const std::string& what);
 
-/// Of point masses; their sum must be positive.
+/// Of point masses; their sum must be positive. With the next three the identities of the paper,
+/// which tests hold the mass of a mesh against.
 [[nodiscard]] MassProperties mass_of_points(const std::vector<PointMass>& points);
 
 /// J_0 about a point of the body frame [tonne mm²].

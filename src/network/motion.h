@@ -18,8 +18,8 @@ struct EnergySum {
 
 struct MotionFrame {
   NetworkState state;
-  std::vector<double> contact_force, contact_gap;              ///< [N], [mm]
-  std::vector<Eigen::Vector3d> contact_point, contact_normal;  ///< ground frame [mm]
+  std::vector<double> contact_force, contact_gap;  ///< [N], [mm]
+  std::vector<Eigen::Vector3d> contact_point;      ///< ground frame [mm]
   std::vector<LineState> lines;
   std::vector<double> condition_multiplier;  ///< σ [N] or [N mm]
   EnergySum energy;

@@ -15,7 +15,6 @@ void add_contacts(const NetworkEquations& equations, MotionFrame& frame) {
     frame.contact_force.push_back(equations.contact_force(i));
     frame.contact_gap.push_back(known ? contact.gap() : INFINITY);
     frame.contact_point.push_back(known ? contact.B.c : nowhere);
-    frame.contact_normal.push_back(known ? contact.B.n : nowhere);
   }
 }
 

@@ -40,7 +40,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 }
 
 /// The matrix of the massless body with ports at these arms: (x_1 .. x_k, y_0) from
-/// (y_1 .. y_k, x_0).
+/// (y_1 .. y_k, x_0). Never built by the equations, which carry each port by itself: tests compare.
 [[nodiscard]] Eigen::MatrixXd hybrid_matrix(const std::vector<Eigen::Vector3d>& arms);
 
 /// The terms of W x_0 + u = P dx_0/dt + Q + u at a pose, for the reference port at `reference`
@@ -65,7 +65,7 @@ struct InertiaTerms {
                                       const Eigen::Matrix3d& R,
                                       const Eigen::Vector3d& arm);
 
-/// dP/dt: with it x_0.(Q - dP/dt x_0 / 2) = 0 [Tokad 1992, 48].
+/// dP/dt: with it x_0.(Q - dP/dt x_0 / 2) = 0 [Tokad 1992, 48], which tests ask of Q.
 [[nodiscard]] Matrix6 inertia_rate(const MassProperties& mass,
                                    const Eigen::Vector3d& reference,
                                    const Eigen::Matrix3d& R,

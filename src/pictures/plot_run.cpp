@@ -28,10 +28,4 @@ std::vector<std::filesystem::path> plot_run(const Run& run,
   return plot_charts(charts, folder, formats);
 }
 
-std::vector<std::filesystem::path> plot_runs(const std::vector<NamedRun>& runs,
-                                             const std::filesystem::path& folder,
-                                             const std::vector<PlotFormat>& formats) {
-  return plot_charts(overlay(runs), folder, formats);
-}
-
 }  // namespace condyle

@@ -22,9 +22,4 @@ std::vector<std::filesystem::path> plot_charts(const std::vector<NamedChart>& ch
                                                const std::filesystem::path& folder,
                                                const std::vector<PlotFormat>& formats);
 
-/// The same of several runs over each other.
-std::vector<std::filesystem::path> plot_runs(const std::vector<NamedRun>& runs,
-                                             const std::filesystem::path& folder,
-                                             const std::vector<PlotFormat>& formats);
-
 }  // namespace condyle

@@ -118,7 +118,7 @@ bool needs_axis(const Scene& scene, const Source& source) {
 }
 
 /// The medial plateau is deeper from front to back than the lateral one, by 12 % on average
-/// [Cheng, in morphology tables]: the other way round, the knee may be one of the other side.
+/// [Cheng 2009]: the other way round, the knee may be one of the other side.
 void suspect_side(const Scene& scene, const TriangleMesh& mesh, Source& source) {
   constexpr double kSuspicious = 0.95;
   const double ratio = plateau_depth_ratio(mesh, bone_frame(scene.joint->tibia, source));

@@ -25,8 +25,8 @@ struct Unit {
 [[nodiscard]] Unit border_sweep_unit(const Scene& scene);
 
 /// from, from + step, ... up to `to`, which is met where it is a whole number of steps away. Throws
-/// InputError
-/// ("step = -5, expected ...") for a range that leads nowhere or holds more than a million values.
+/// InputError ("step = -5, expected ...") for a range that leads nowhere or holds more than a
+/// million values.
 [[nodiscard]] std::vector<double> range_values(double from, double to, double step);
 
 }  // namespace condyle

@@ -276,7 +276,7 @@ SurfacePoint Patch::evaluate_frame(const Place& place) const {
                           : general_derivatives(place.x(), place.y()));
 }
 
-/// Normal, reciprocal base g_u, g_v and K = Σ (n.c_ab) g_a g_b (theory section 2).
+/// Normal, reciprocal base g_u, g_v and K = Σ (n.c_ab) g_a g_b.
 CONDYLE_FMA_CLONE
 SurfacePoint Patch::point_from(const PatchDerivatives& d) const {
   const Eigen::Vector3d N = d.c_u.cross(d.c_v);

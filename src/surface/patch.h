@@ -8,7 +8,7 @@
 /// falls off; `edge_distance` tells.
 ///
 /// The normal is the side of c_u x c_v when `orientation` is +1, the other side when -1; it points
-/// out of the bone. References: [Piegl and Tiller 1997, ch. 2-3]; theory: equilibrium.md section 2.
+/// out of the bone. References: [Piegl and Tiller 1997, ch. 2-3]; docs/surface.md.
 
 #include "surface/surface.h"
 

@@ -92,7 +92,7 @@ TEST(ArcLength, FollowsAKneeWhereASweepDoes) {
   }
 }
 
-// Problem 1 of the report: the wall is left at a pull of p(0) [theory section 9].
+// Problem 1 of the report: the wall is left at a pull of p(0) [docs/dortmans.md].
 TEST(ArcLength, OpensAContactWhereItsForceVanishes) {
   Model model = test::Problem1::model(0, 1);
   model.start.R = exp_rotation({0, -1.3, 0});

@@ -20,7 +20,7 @@ SweepResult run(EquilibriumSolver& solver, double& swept, const std::vector<doub
   return result;
 }
 
-// The contact of problem 1 carries p(0) = 32.11453374 N [theory section 9]: a pull of x newtons off
+// The contact of problem 1 carries p(0) = 32.11453374 N [docs/dortmans.md]: a pull of x newtons off
 // the wall leaves p(0) - x, so the contact opens at exactly that pull, and closes there on the way
 // back.
 TEST(Events, ContactOpensWhereThePullEqualsItsForceAndClosesThereAgain) {

@@ -27,7 +27,7 @@ KinematicCondition prescribed(ConditionKind kind,
 /// The Cardan angle w of R = Ry(w).
 double angle_about_y(const RigidTransform& X) { return std::atan2(X.R(0, 2), X.R(2, 2)); }
 
-// Exact answers: theory section 9, e.g. w = -1.4056476493802696, p = 32.11453374, sigma =
+// Exact answers (docs/dortmans.md), e.g. w = -1.4056476493802696, p = 32.11453374, sigma =
 // 119.90259274 at phi = 0.
 TEST(Newton, ReportProblem1HasTheExactAnswerInFiveIterationsPerIncrement) {
   using P = test::Problem1;

@@ -1,5 +1,5 @@
-/// The problems of chapter 4 of [Dortmans 1986] as scenes, against their exact answers (theory:
-/// equilibrium.md section 9). Scenes are in cm, results in mm.
+/// The problems of chapter 4 of [Dortmans 1986] as scenes, against their exact answers
+/// (docs/dortmans.md). Scenes are in cm, results in mm.
 
 #include <gtest/gtest.h>
 

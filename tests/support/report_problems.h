@@ -1,7 +1,7 @@
 #pragma once
 
-/// The problems of chapter 4 of [Dortmans 1986] with their exact answers (theory: equilibrium.md
-/// section 9), for tests. Units of the report: cm and N; the solver does not mind.
+/// The problems of chapter 4 of [Dortmans 1986] with their exact answers, for tests
+/// (docs/dortmans.md). Units of the report: cm and N; the solver does not mind.
 
 #include <cmath>
 
