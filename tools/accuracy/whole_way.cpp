@@ -32,7 +32,6 @@ void set_knots(double knots, Scene& scene) {
 }
 
 void set_smoothing(const Way& way, Scene& scene) {
-  if (way.smoothing == Smoothing::kOfScene) return;
   for (SurfaceDescription& surface : scene.surfaces) {
     surface.patch.smoothing.reset();
     if (way.smoothing == Smoothing::kGiven) surface.patch.smoothing = way.length;
@@ -104,7 +103,6 @@ std::vector<Way> ways() {
   Way fine{"roughness, correlation 0.5 mm", 0.7, 0.2, kSeeds};
   fine.correlation = 0.5;
   all.push_back(fine);
-  all.push_back({"smoothing", 1.4, 0.2, kSeeds, Smoothing::kChosen});
   for (const double length : {3.0, 4.0, 6.0})
     all.push_back({"smoothing", 1.4, 0.2, kSeeds, Smoothing::kGiven, length});
   Way mixed{"exact condyles", 1.4, 0.2, kSeeds};

@@ -14,14 +14,14 @@ namespace condyle::accuracy {
 
 inline constexpr double kKnots = 2;  ///< what the program takes by itself [mm]
 
-enum class Smoothing { kOfScene, kChosen, kGiven };
+enum class Smoothing { kChosen, kGiven };
 
 /// What is made, fitted and swept. Lengths in mm.
 struct Way {
   std::string group;
   double cell = 1.4, roughness = 0;
   int seeds = 1;
-  Smoothing smoothing = Smoothing::kOfScene;
+  Smoothing smoothing = Smoothing::kChosen;
   double length = 0;  ///< of smoothing, where given
   double knots = kKnots;
   bool exact_condyles = false, exact_plateaus = false;  ///< in place of the fitted ones

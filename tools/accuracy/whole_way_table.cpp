@@ -9,7 +9,6 @@ namespace condyle::accuracy {
 namespace {
 
 std::string smoothing_of(const Way& way) {
-  if (way.smoothing == Smoothing::kOfScene) return "scene";
   return way.smoothing == Smoothing::kChosen ? "auto" : fmt::format("{:.1f}", way.length);
 }
 
@@ -36,9 +35,8 @@ std::string introduction(const PoseErrors& solver) {
       "poses "
       "that converge. On the exact surfaces themselves steps of 10° and of 5° agree to {:.0e} mm "
       "and {:.0e}°. Rough meshes: five seeds together, correlation 1.5 mm unless named. Smoothing: "
-      "`scene` is what `data/phantom/knee.toml` says (4 mm for the medial condyle, elsewhere "
-      "chosen "
-      "by the program), `auto` all chosen, else one length for all. Surface: root mean square of "
+      "`auto` is chosen by the program for each patch, else one length for all. Surface: root mean "
+      "square of "
       "the four patches, farther than 4 mm from the edge. Time: from the files to four patches on "
       "two threads (in brackets reading and cleaning alone) + the sweep of ten poses, mean of the "
       "seeds; and the median pose.\n\n| varied | grid [mm] | roughness [mm] | knots [mm] | "
