@@ -3,15 +3,14 @@
 /// Where two surfaces come near each other: all local minima of the gap between them at a given
 /// pose.
 ///
-/// One surface of the pair is covered with samples in a tree of clusters. Each cluster keeps the
-/// osculating quadric of the other surface at the foot of its centre from the pose before; with it
-/// the gap over the whole cluster is bounded from below by a quadratic model less what both
-/// surfaces depart from their quadrics (bending.h). Clusters whose bound stays above the cutoff are
-/// passed over, and so are those within a ball about a known contact in which the surfaces are
-/// shown to be apart. Samples that are left and nearer than all their neighbours, or lead to an
-/// overlap of their own by the paraboloid of the gap (gap_paraboloid.h), are refined by Newton on
-/// the contact conditions at a fixed pose. No pose is trusted that this search has not
-/// seen.
+/// Both surfaces of the pair are covered with samples (surface_cover.h). The samples of one hang in
+/// a tree of clusters: with an osculating quadric of the other surface near a cluster the gap over
+/// all of it is bounded from below, and so it is over the cell of a single sample. Clusters and
+/// samples whose bound stays above the cutoff are passed over, and so are those within a ball about
+/// a known contact in which the surfaces are shown to be apart (bending.h). Samples that are left
+/// and nearer than all their neighbours, or lead to an overlap of their own by the paraboloid of
+/// the gap (gap_paraboloid.h), are refined by Newton on the contact conditions at a fixed pose. No
+/// pose is trusted that this search has not seen.
 
 #include <array>
 #include <memory>
@@ -59,66 +58,65 @@ class ContactSearch {
                     double merge = 0.3);
 
   /// False for a pair of surfaces without bounds: nothing can be searched there.
-  [[nodiscard]] bool has_samples() const { return !places_.empty(); }
+  [[nodiscard]] bool has_samples() const { return sampled().size() > 0; }
 
  private:
   /// How far beyond the known part a minimum may lie, in sample spacings.
   static constexpr double kBeyondEdge = 2;
-  /// The other surface near a point, as its osculating quadric at a place that was the point's
-  /// foot.
-  struct Quadric {
+  /// The covers of a pair, constant.
+  struct Covers {
+    Covers(const ContactPair& pair, double wanted);
+    double spacing;  ///< that can be afforded [mm]
+    SurfaceCover on_B, on_A;
+    bool sampled_on_A;  ///< the surface that takes fewer samples; one without bounds has none
+    bool lines;         ///< the surfaces may touch along a line (line_contact.h)
+  };
+  /// Where the other surface is nearest to a point, kept from pose to pose.
+  struct Closest {
     Place place = Place::Zero();
     SurfacePoint at = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(),
                        Eigen::Matrix<double, 3, 2>::Zero()};
-    int near = -1;       ///< sample of the other surface's bending
-    bool known = false;  ///< false: no foot yet
-    bool close = false;  ///< the foot was found by tangent steps, so the quadric means something
+    int near = -1;       ///< sample of the other surface
+    bool known = false;  ///< `place` and `at` were found, at this or an earlier pose
+    bool close = false;  ///< by tangent steps, so the quadric there means something
   };
-  struct Cluster {
-    int center;       ///< a sample
-    double radius;    ///< of all samples below it, about that sample [mm]
-    double bend;      ///< allowance of the sampled surface within it [1/mm]
-    int first, last;  ///< range in order_
-    int child[2];     ///< -1: leaf
-    Quadric other;
-    bool split;  ///< its own bound was of no use the last time
+  /// A sample of the present pose.
+  struct Seen {
+    double gap = 0;         ///< [mm]
+    double error = 0;       ///< of it
+    double lower = 0;       ///< bound of the gap in its cell
+    int stamp = -1;         ///< pose at which it was computed
+    bool measured = false;  ///< to the closest point, not by a quadric nearby
   };
   /// A ball about a known contact in which the surfaces touch nowhere else.
   struct Disc {
     Eigen::Vector3d center;  ///< on the sampled surface, in its body's frame
     double radius;           ///< [mm]
   };
-  /// The samples of a pair, and what follows from them.
-  struct Cover {
-    double spacing = 0;  ///< that can be afforded [mm]
-    bool on_A = false;
-    std::vector<Place> places;
-    std::vector<SurfacePoint> points;
-    double extent = 0;  ///< no two are farther apart [mm]
-  };
-  [[nodiscard]] static Cover cover(const Surface& on_B, const Surface& on_A, double wanted);
-  ContactSearch(const ContactPair& pair, Cover cover);
 
   void find_within(const RigidTransform& X_BA,
                    double reach,
                    std::vector<GapMinimum>& minima,
                    double merge);
-  int build(int first, int last);
   void set_discs(const std::vector<KnownContact>& known);
-  [[nodiscard]] bool is_clear(Cluster& cluster, const RigidTransform& X_from_to, double cutoff);
+  /// What a sample tells about a cluster, before anything is fitted for it.
+  enum class Sight { kClear, kNotClear, kPerhaps };
+  [[nodiscard]] Sight look(const SurfaceCover::Cluster& cluster,
+                           const Eigen::Vector3d& p,
+                           const RigidTransform& X_from_to,
+                           double cutoff,
+                           int near) const;
+  [[nodiscard]] bool is_clear(int cluster, const RigidTransform& X_from_to, double cutoff);
   bool visit(int cluster, const RigidTransform& X_from_to, double cutoff);
-  void scan(const Cluster& cluster, const RigidTransform& X_from_to, double cutoff);
-  void find_foot(const Eigen::Vector3d& p, double close, Quadric& quadric) const;
-  [[nodiscard]] static double gap_over(const Quadric& quadric, const Eigen::Vector3d& p);
-  double gap_of(int sample, const RigidTransform& X_from_to);
-  [[nodiscard]] double drop_within(const Cluster& cluster,
-                                   const Eigen::Vector3d& tangential,
-                                   const RigidTransform& X_from_to);
+  void estimate(int sample, int near, const RigidTransform& X_from_to);
+  void measure(int sample, const RigidTransform& X_from_to);
+  [[nodiscard]] Facing face(const Eigen::Vector3d& p, double r, Closest& closest);
+  [[nodiscard]] bool is_beside(const Eigen::Vector3d& p, double r, const Closest& closest) const;
+  [[nodiscard]] Facing face_closest(const Eigen::Vector3d& p, double r, Closest& closest);
+  void find_closest(const Eigen::Vector3d& p, double close, Closest& closest) const;
   [[nodiscard]] bool is_lowest_of_neighbours(int sample) const;
   [[nodiscard]] bool faces_known_part(int sample) const;
   [[nodiscard]] bool nearly_faces_known_part(int sample) const;
-  [[nodiscard]] double valley_depth() const;
-  [[nodiscard]] double doubt(const Quadric& quadric, double t);
   [[nodiscard]] bool leads_elsewhere(int sample, const RigidTransform& X_BA, double cutoff) const;
   void add_minimum(int sample,
                    const RigidTransform& X_BA,
@@ -126,33 +124,42 @@ class ContactSearch {
                    bool lowest,
                    std::vector<GapMinimum>& minima);
   [[nodiscard]] RigidTransform from_to(const RigidTransform& X_BA) const;
-  [[nodiscard]] GapMinimum refine(int sample, const RigidTransform& X_BA) const;
   [[nodiscard]] double edge_of(const Place& on_B, const Place& on_A) const;
-  [[nodiscard]] const Surface& sampled() const { return sampled_on_A_ ? *on_A_ : *on_B_; }
-  [[nodiscard]] const Surface& other() const { return sampled_on_A_ ? *on_B_ : *on_A_; }
+  [[nodiscard]] GapMinimum refine(int sample, const RigidTransform& X_BA) const;
+  [[nodiscard]] const SurfaceCover& sampled() const {
+    return sampled_on_A_ ? covers_->on_A : covers_->on_B;
+  }
+  [[nodiscard]] const SurfaceCover& other() const {
+    return sampled_on_A_ ? covers_->on_B : covers_->on_A;
+  }
+  [[nodiscard]] const Bending& bending_of_other() const {
+    return sampled_on_A_ ? bending_B_ : bending_A_;
+  }
+  [[nodiscard]] Bending& bending_of_other() { return sampled_on_A_ ? bending_B_ : bending_A_; }
+  [[nodiscard]] Seen& seen(int sample) { return seen_[static_cast<std::size_t>(sample)]; }
+  [[nodiscard]] const Seen& seen(int sample) const {
+    return seen_[static_cast<std::size_t>(sample)];
+  }
+  [[nodiscard]] Closest& closest(int sample) { return closest_[static_cast<std::size_t>(sample)]; }
+  [[nodiscard]] const Closest& closest(int sample) const {
+    return closest_[static_cast<std::size_t>(sample)];
+  }
 
+  std::shared_ptr<const Covers> covers_;
   const Surface* on_B_;
   const Surface* on_A_;
   double spacing_;
-  bool lines_;  ///< the surfaces may touch along a line (line_contact.h)
   bool sampled_on_A_;
-  std::vector<Place> places_;  ///< samples on the sampled surface
-  double deepest_;             ///< overlap that is still taken for one [mm]
+  double deepest_;  ///< overlap that is still taken for one [mm]
   Bending::Radii shells_;
   Bending bending_B_, bending_A_;
-  double valley_;  ///< a minimum between samples lies lower than the nearest by this at most [mm]
-  std::vector<Eigen::Vector3d> points_;      ///< their points, in the frame of their body
-  std::vector<Eigen::Vector3d> normals_;     ///< at the samples
-  std::vector<Eigen::Matrix3d> curvatures_;  ///< curvature tensors at the samples
-  std::vector<Quadric> feet_;                ///< of single samples, kept from pose to pose
-  std::vector<double> gap_;                  ///< of the present pose
-  std::vector<int> stamp_;                   ///< pose at which gap_ was computed
-  std::vector<std::array<int, 8>> neighbours_;
-  std::vector<int> order_;
-  std::vector<Cluster> clusters_;
+  std::vector<Closest> closest_;          ///< to each sample
+  std::vector<Closest> cluster_closest_;  ///< to the centre of each cluster
+  std::vector<char> split_;               ///< the cluster's own bound was of no use the last time
+  std::vector<Seen> seen_;
   std::vector<Disc> discs_;
-  int near_contact_B_ = -1, near_contact_A_ = -1;  ///< samples of the bendings
-  std::vector<int> near_;                          ///< samples below the cutoff
+  int near_contact_B_ = -1, near_contact_A_ = -1;  ///< samples
+  std::vector<int> near_;                          ///< samples whose cell may reach the cutoff
   std::vector<Eigen::Vector3d> found_;             ///< minima, in the frame of the other body
   int now_ = 0;
   std::vector<GapMinimum> nearest_;  ///< the last answer of find_nearest, and to what
