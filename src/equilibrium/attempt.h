@@ -4,9 +4,11 @@
 
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "equilibrium/descent.h"
 #include "equilibrium/newton.h"
+#include "equilibrium/work.h"
 
 namespace condyle {
 
@@ -19,17 +21,19 @@ struct OffSurfaces {
 };
 
 struct Attempt {
-  int most_iterations = 0;  ///< after which nothing more is begun
-  int iterations = 0;       ///< of Newton and of the descent, over the whole attempt
-  NewtonReport newton;      ///< the last
-  DescentReport descent;    ///< the last
-  int zero_element = -1;    ///< that had no length on the way from the pose before
-  int passed_pair = -1;     ///< whose surfaces had passed through each other
-  double depth = 0;         ///< by which they had [mm]
+  Work most;              ///< after which nothing more is begun
+  Work spent;             ///< over the whole attempt
+  NewtonReport newton;    ///< the last
+  DescentReport descent;  ///< the last
+  int zero_element = -1;  ///< that had no length on the way from the pose before
+  int passed_pair = -1;   ///< whose surfaces had passed through each other
+  double depth = 0;       ///< by which they had [mm]
   /// Of those met with the values asked for the one least beyond an edge.
   std::optional<OffSurfaces> off;
   /// The first one met on the way to those values, else the last one the solver told of.
   std::optional<OffSurfaces> off_on_the_way;
+  /// From where the descent has been tried in vain with the values asked for.
+  std::vector<RigidTransform> descended_from;
   std::optional<RigidTransform> other;  ///< a second position of equilibrium at the same values
 };
 

@@ -17,7 +17,8 @@ constexpr std::size_t kMemorySize = 24;
 constexpr std::size_t kMostMinima = 12;  // of one pair
 constexpr double kCompliance = 1e-8;     // of the constraints, relative
 constexpr double kNewtonReach = 0.05;  // a step shorter than this [L] is worth an attempt of Newton
-constexpr double kLeastReach = 1e-6;   // of a step [L]: below, nothing more is gained
+constexpr double kLeastReach = 1e-4;   // of a step [L]: below, nothing more is gained
+constexpr double kAtRest = 1e-6;       // nor where the programme asks for no more than this [L]
 
 /// X moved by a step in scaled components (da, L dπ).
 RigidTransform moved(const RigidTransform& X, const Vector6& step, double L) {
@@ -51,15 +52,20 @@ Descent::Descent(const Model& model,
                  DescentOptions options)
     : model_(model), searches_(searches), newton_(newton), options_(options) {}
 
-DescentReport Descent::solve(EquilibriumState& state, const Accept& accept, int max_steps) {
+DescentReport Descent::solve(EquilibriumState& state,
+                             const Accept& accept,
+                             int most_steps,
+                             const Work& most) {
   DescentReport report;
   const Eigen::Vector3d origin = state.X.p;
   start(state.X);
   // Attempts of Newton's method within count as well.
-  while (report.steps < max_steps && report.iterations < 2 * max_steps && iterate(accept, report)) {
+  while (report.steps < most_steps && report.spent.iterations < most.iterations &&
+         searches_made_ < most.searches && iterate(accept, report)) {
     report.ran_away = (X_.p - origin).norm() > 50 * model_.length;
     if (report.ran_away) break;
   }
+  report.spent.searches = searches_made_;
   state.X = X_;
   if (report.converged) state = result_;
   return report;
@@ -71,13 +77,26 @@ void Descent::start(const RigidTransform& X) {
   reach_ = options_.longest_step * model_.length;
   penalty_ = 0;
   patience_ = 0;
+  searches_made_ = 0;
+  has_forgotten_ = false;
+  refused_.reset();
   gather(X_, constraints_);
+}
+
+/// Material points that are kept too long spoil the convergence: once more without them.
+bool Descent::start_anew() {
+  if (has_forgotten_ || memory_.empty()) return false;
+  has_forgotten_ = true;
+  memory_.clear();
+  gather(X_, constraints_);
+  reach_ = 0.1 * options_.longest_step * model_.length;
+  return true;
 }
 
 /// One quadratic programme and its step; false when there is nothing more to gain.
 bool Descent::iterate(const Accept& accept, DescentReport& report) {
   ++report.steps;
-  ++report.iterations;
+  ++report.spent.iterations;
   const double L = model_.length;
   Programme programme;
   set_forces(programme);
@@ -92,20 +111,12 @@ bool Descent::iterate(const Accept& accept, DescentReport& report) {
   if (settled || reach_ < kLeastReach * L) {
     if (try_newton(forces, constraints_, accept, report)) return false;
     patience_ = 2;
-    if (full < 1e-11 * L) return false;
+    if (full < kAtRest * L) return false;
   }
-  if (reach_ < kLeastReach * L) {
-    // Material points that are kept too long spoil the convergence: once more without them.
-    if (memory_.empty()) return false;
-    memory_.clear();
-    gather(X_, constraints_);
-    reach_ = 0.1 * options_.longest_step * L;
-    return true;
-  }
+  if (reach_ < kLeastReach * L) return start_anew();
   const Vector6 step = full > reach_ ? step_within_reach(programme) : solution.x;
   penalty_ = std::max(0.9 * penalty_, 1.5 * std::max(forces.largest, 0.1 * programme.force_scale));
   remember(constraints_);
-  gather(X_, constraints_);  // with what was just remembered
   take_step(programme, step, report);
   return true;
 }
@@ -142,12 +153,13 @@ void Descent::gather(const RigidTransform& X, std::vector<Constraint>& constrain
   constraints.clear();
   const double L = model_.length;
   // The next step is at most twice as long as this one's reach, and must not pass through anything.
-  const double ahead = 2 * std::max(options_.longest_step * L, 2 * reach_);
+  const double ahead = 2 * std::max(kNewtonReach * L, 2 * reach_);
   for (int p = 0; p < static_cast<int>(model_.pairs.size()); ++p) {
     const ContactMode mode = model_.pairs[p].mode;
     if (mode == ContactMode::kOpen) continue;
     const bool held = mode == ContactMode::kClosed;
     searches_[p].find(X, held ? 20 * L : ahead, minima_, 0.003 * L);
+    ++searches_made_;
     minima_.resize(std::min(minima_.size(), held ? 1 : kMostMinima));
     const std::size_t first = constraints.size();
     for (const GapMinimum& minimum : minima_) {
@@ -364,6 +376,7 @@ void Descent::take_step(const Programme& programme, const Vector6& step, Descent
   reach_ = 0.35 * std::min(reach_, step.norm());
 }
 
+/// True where there is nothing more to gain.
 bool Descent::try_newton(const Multipliers& multipliers,
                          const std::vector<Constraint>& constraints,
                          const Accept& accept,
@@ -383,10 +396,20 @@ bool Descent::try_newton(const Multipliers& multipliers,
     trial.contacts.resize(kMaxConstraints - trial.sigma.size());
   }
   report.newton = newton_.solve(trial);
-  report.iterations += report.newton.iterations;
+  report.spent.iterations += report.newton.iterations;
   report.converged = report.newton.outcome == NewtonOutcome::kConverged && accept(trial);
   if (report.converged) result_ = trial;
-  return report.converged;
+  const bool refused = !report.converged && report.newton.outcome == NewtonOutcome::kConverged;
+  return report.converged || (refused && stays_refused(trial.X));
+}
+
+/// Does Newton come to an equilibrium once more that was not accepted, from as good as there?
+bool Descent::stays_refused(const RigidTransform& found) {
+  constexpr double kSame = 1e-6, kThere = 0.01;  // of L
+  const double L = model_.length;
+  const bool again = refused_ && step_between(*refused_, found, L).norm() < kSame * L;
+  refused_ = found;
+  return again && step_between(X_, found, L).norm() < kThere * L;
 }
 
 }  // namespace condyle

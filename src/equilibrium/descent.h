@@ -15,12 +15,14 @@
 /// Whenever the set of carrying contacts settles, Newton takes over; the caller verifies.
 
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "equilibrium/contact_search.h"
 #include "equilibrium/newton.h"
 #include "equilibrium/small_qp.h"
+#include "equilibrium/work.h"
 
 namespace condyle {
 
@@ -33,7 +35,7 @@ struct DescentReport {
   bool converged = false;  ///< Newton converged from here and the caller accepted it
   bool ran_away = false;   ///< the pose left every reasonable place: nothing carries the load
   int steps = 0;           ///< quadratic programmes solved
-  int iterations = 0;      ///< those and the iterations of the Newton attempts within
+  Work spent;              ///< iterations: those and the ones of the Newton attempts within
   double step = 0;         ///< last accepted step [mm]
   NewtonReport newton;     ///< of the last attempt
 };
@@ -48,8 +50,11 @@ class Descent {
   using Accept = std::function<bool(EquilibriumState&)>;
 
   /// Improves `state` in place. `accept` says whether a Newton solution is one (no pull, no
-  /// overlap).
-  DescentReport solve(EquilibriumState& state, const Accept& accept, int max_steps);
+  /// overlap). Given up after `most_steps` or as much work.
+  DescentReport solve(EquilibriumState& state,
+                      const Accept& accept,
+                      int most_steps,
+                      const Work& most);
 
  private:
   using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -76,6 +81,7 @@ class Descent {
   };
 
   void start(const RigidTransform& X);
+  bool start_anew();
   bool iterate(const Accept& accept, DescentReport& report);
   void gather(const RigidTransform& X, std::vector<Constraint>& constraints);
   void add_memory(int pair,
@@ -102,6 +108,7 @@ class Descent {
                   const std::vector<Constraint>& constraints,
                   const Accept& accept,
                   DescentReport& report);
+  bool stays_refused(const RigidTransform& found);
   [[nodiscard]] double violation(const std::vector<Constraint>& constraints,
                                  const RigidTransform& X) const;
   [[nodiscard]] double energy_change(const RigidTransform& from, const RigidTransform& to) const;
@@ -110,7 +117,6 @@ class Descent {
   std::vector<ContactSearch>& searches_;
   Newton& newton_;
   DescentOptions options_;
-
   EquilibriumState result_;
   RigidTransform X_;
   std::vector<Constraint> constraints_, trial_;
@@ -119,6 +125,9 @@ class Descent {
   double reach_ = 0;    ///< longest step allowed now [mm]
   double penalty_ = 0;  ///< weight of a violation in the merit [N]
   int patience_ = 0;    ///< iterations before Newton is tried again
+  int searches_made_ = 0;
+  bool has_forgotten_ = false;             ///< the material points, once
+  std::optional<RigidTransform> refused_;  ///< the last equilibrium that was not accepted
 };
 
 }  // namespace condyle

@@ -194,7 +194,7 @@ bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
   constexpr int kRounds = 8;
   for (int round = 0; round < kRounds; ++round) {
     attempt.newton = newton_.solve(state);
-    attempt.iterations += attempt.newton.iterations;
+    attempt.spent.iterations += attempt.newton.iterations;
     if (attempt.newton.outcome == NewtonOutcome::kZeroLength)
       attempt.zero_element = attempt.newton.zero_element;
     if (attempt.newton.outcome != NewtonOutcome::kConverged) return false;
@@ -211,7 +211,7 @@ void EquilibriumSolver::solve(PoseResult& result, Patience patience) {
   const auto begin = std::chrono::steady_clock::now();
   read_drive(target_);
   Attempt attempt;
-  attempt.most_iterations = options_.most_iterations / (patience == Patience::kWay ? 3 : 1);
+  attempt.most = options_.most.share(patience == Patience::kWay ? 3 : 1);
   from_elsewhere_ = false;
   bool solved = false, at_once = false;
   if (has_state_) {
@@ -233,7 +233,8 @@ void EquilibriumSolver::solve(PoseResult& result, Patience patience) {
   set_drive(target_, target_, 1);
   if (!solved) solved = take_off_surfaces(next_, attempt);
   clear(result);
-  result.iterations = attempt.iterations;
+  result.iterations = attempt.spent.iterations;
+  spent_ = attempt.spent;
   result.residual = attempt.newton.residual;
   if (solved) {
     describe(attempt, result);

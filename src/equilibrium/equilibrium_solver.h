@@ -31,8 +31,9 @@ struct EquilibriumOptions {
   NewtonOptions newton;
   DescentOptions descent;
   PoseDescriptionOptions description;
-  int most_iterations = 450;  ///< of Newton and of the descent, spent on one pose; a third of them
-                              ///< on one that is only followed from the pose before it
+  /// Spent on one pose by all ways together; a third of it on one that is only followed from the
+  /// pose before it.
+  Work most{450, 120};
 };
 
 /// How much is tried where the step from the last pose does not settle.
@@ -73,6 +74,9 @@ class EquilibriumSolver {
   /// The state of the last pose solved, converged or beyond the edge of a patch.
   [[nodiscard]] const EquilibriumState& solution() const { return next_; }
 
+  /// On the last pose, whether it was found or not.
+  [[nodiscard]] const Work& spent() const { return spent_; }
+
   /// Was the last pose found from another start than the pose before it?
   [[nodiscard]] bool from_elsewhere() const { return from_elsewhere_; }
 
@@ -85,6 +89,7 @@ class EquilibriumSolver {
   bool solve_first(EquilibriumState& state, const Drive& target, Attempt& attempt);
   bool advance(EquilibriumState& state, const Drive& from, const Drive& to, Attempt& attempt);
   bool descend(EquilibriumState& state, Attempt& attempt);
+  [[nodiscard]] bool tried_from(const RigidTransform& X, const Attempt& attempt) const;
   bool settle(EquilibriumState& state, Attempt& attempt);
   bool solve_from_last(EquilibriumState& state, Attempt& attempt, Patience patience);
   bool solve_from_elsewhere(EquilibriumState& state, Attempt& attempt);
@@ -117,6 +122,7 @@ class EquilibriumSolver {
   bool has_edge_ = false;    ///< since a pose converged
   bool on_the_way_ = false;  ///< the values under way are not those asked for
   bool from_elsewhere_ = false;
+  Work spent_;
   std::vector<GapMinimum> minima_;
   std::vector<KnownContact> known_;
 };

@@ -10,18 +10,26 @@
 
 namespace condyle {
 
+bool EquilibriumSolver::tried_from(const RigidTransform& X, const Attempt& attempt) const {
+  constexpr double kPracticallySame = 1e-3;  // of L
+  return std::any_of(
+      attempt.descended_from.begin(), attempt.descended_from.end(),
+      [&](const RigidTransform& Y) { return distance(*model_, X, Y) < kPracticallySame; });
+}
+
 bool EquilibriumSolver::descend(EquilibriumState& state, Attempt& attempt) {
   constexpr int kFewSteps = 10;  // where conforming surfaces leave the answer open
-  const int left = attempt.most_iterations - attempt.iterations;
-  if (left <= 0) return false;
+  const Work left = attempt.most.after(attempt.spent);
+  if (!left.any() || (!on_the_way_ && tried_from(state.X, attempt))) return false;
+  const RigidTransform from = state.X;
   const bool open_ended = conforming_pair(*model_, searches_, state.X).has_value();
-  // The descent spends at most twice as many iterations as steps.
-  const int steps =
-      std::min(open_ended ? kFewSteps : options_.descent.max_steps, std::max(1, left / 2));
-  attempt.descent = descent_.solve(
-      state, [&](EquilibriumState& s) { return carries_and_clear(s, attempt); }, steps);
+  const int steps = open_ended ? kFewSteps : options_.descent.max_steps;
+  attempt.descent =
+      descent_.solve(state, [&](EquilibriumState& s) { return carries_and_clear(s, attempt); },
+                     steps, {std::min(2 * steps, left.iterations), left.searches});
   attempt.newton = attempt.descent.newton;
-  attempt.iterations += attempt.descent.iterations;
+  attempt.spent.add(attempt.descent.spent);
+  if (!attempt.descent.converged && !on_the_way_) attempt.descended_from.push_back(from);
   return attempt.descent.converged;
 }
 
@@ -48,7 +56,7 @@ bool EquilibriumSolver::advance(EquilibriumState& state,
       state = trial;
       t = next;
       part = std::min(2 * part, kLongest);
-    } else if ((part /= 2) < kShortest || attempt.iterations >= attempt.most_iterations) {
+    } else if ((part /= 2) < kShortest || !attempt.most.after(attempt.spent).any()) {
       return false;
     }
   }

@@ -87,13 +87,13 @@ class EventSearch {
 
   /// The pose at a value, from another one; nothing where it has no equilibrium.
   std::optional<SolvedPose> pose_at(double value, const SolvedPose& from) {
-    if (wasted_ > options_.most_wasted) return std::nullopt;
+    if (!options_.most_wasted.after(wasted_).any()) return std::nullopt;
     swept_ = from.value;
     solver_.set_state(from.state);
     swept_ = value;
     SolvedPose pose{value, solver_.solve(Patience::kNone), {}};
     if (!pose.result.solved()) {
-      wasted_ += pose.result.iterations;
+      wasted_.add(solver_.spent());
       return std::nullopt;
     }
     pose.state = solver_.solution();
@@ -185,7 +185,7 @@ class EventSearch {
   EquilibriumSolver& solver_;
   double& swept_;
   const EventOptions& options_;
-  int wasted_ = 0;  ///< iterations on trials without equilibrium
+  Work wasted_;  ///< on trials without equilibrium
 };
 
 }  // namespace

@@ -29,11 +29,11 @@ struct EventOptions {
                      ///< in units of L
   double jump =
       0.01;  ///< and has, when it still moves farther than this within the tolerance, in units of L
-  double snap = 0.05;      ///< a body that moved farther than this, in units of L, may have snapped
-                           ///< through
-  int most_events = 16;    ///< between two poses
-  int most_wasted = 6000;  ///< iterations on trials without equilibrium, after which no event more
-                           ///< is looked for between the two poses
+  double snap = 0.05;    ///< a body that moved farther than this, in units of L, may have snapped
+                         ///< through
+  int most_events = 16;  ///< between two poses
+  Work most_wasted{6000, 300};  ///< on trials without equilibrium, after which no event more is
+                                ///< looked for between the two poses
 };
 
 /// Appends the events between two poses of one sweep. `swept` is the value in the solver's model;

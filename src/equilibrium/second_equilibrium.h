@@ -9,6 +9,9 @@
 
 namespace condyle {
 
+/// How far two poses are from each other in units of L, rotations counted as L dπ.
+[[nodiscard]] double distance(const Model& model, const RigidTransform& a, const RigidTransform& b);
+
 /// Do two poses agree to within 1e-6 L, rotations counted as L dπ?
 [[nodiscard]] bool same_pose(const Model& model, const RigidTransform& a, const RigidTransform& b);
 
@@ -18,6 +21,13 @@ namespace condyle {
                                              const RigidTransform& here,
                                              const RigidTransform& there,
                                              const std::string& by);
+
+/// "since the pose before it the body moved 42 mm and 3.1 degrees beyond what is prescribed"; empty
+/// for less than half of L (rotations as L dπ): `carried` is the pose before with the prescribed
+/// coordinates of `here` (carried_pose.h).
+[[nodiscard]] std::string jump(const Model& model,
+                               const RigidTransform& carried,
+                               const RigidTransform& here);
 
 /// Adds a sentence to the remark of a pose, once.
 void add_remark(PoseResult& pose, const std::string& remark);
