@@ -8,6 +8,7 @@
 
 #include "math/rotation.h"
 #include "support/ball_on_floor.h"
+#include "support/hold.h"
 #include "support/report_problems.h"
 #include "support/spring_knee.h"
 #include "surface/exact_surfaces.h"
@@ -159,14 +160,8 @@ TEST(EquilibriumSolver, ABallPulledOffItsFloorRunsAway) {
 TEST(EquilibriumSolver, ABuriedBodyIsNeverConverged) {
   for (const double depth : {3.0, 30.0, 300.0}) {
     Model model = ball_over_floor(-10);
-    for (int k = 0; k < 3; ++k) {
-      KinematicCondition hold;
-      hold.kind = ConditionKind::kTranslation;
-      hold.axis = Eigen::Vector3d::Unit(k);
-      hold.value = k == 2 ? -depth : 0;
-      model.conditions.push_back(hold);
-      model.condition_names.emplace_back("hold");
-    }
+    for (int k = 0; k < 3; ++k)
+      test::hold(model, ConditionKind::kTranslation, k, k == 2 ? -depth : 0);
     model.start.p = {0, 0, -depth};
     EquilibriumSolver solver(std::move(model));
     EXPECT_FALSE(solver.solve().converged()) << depth;
@@ -175,14 +170,8 @@ TEST(EquilibriumSolver, ABuriedBodyIsNeverConverged) {
 
 TEST(EquilibriumSolver, SevenConditionsAreTooMany) {
   Model model = ball_over_floor(-10);
-  for (int k = 0; k < 7; ++k) {
-    KinematicCondition hold;
-    hold.kind = k % 2 == 0 ? ConditionKind::kTranslation : ConditionKind::kRotation;
-    hold.axis = Eigen::Vector3d::Unit(k % 3);
-    hold.cardan_axis = k % 3;
-    model.conditions.push_back(hold);
-    model.condition_names.emplace_back("hold");
-  }
+  for (int k = 0; k < 7; ++k)
+    test::hold(model, k % 2 == 0 ? ConditionKind::kTranslation : ConditionKind::kRotation, k % 3);
   EquilibriumSolver solver(std::move(model));
   const PoseResult pose = solver.solve();
   EXPECT_EQ(pose.status, PoseStatus::kSingular);

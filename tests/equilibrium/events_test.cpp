@@ -6,6 +6,7 @@
 
 #include "equilibrium/sweep.h"
 #include "math/rotation.h"
+#include "support/hold.h"
 #include "support/report_problems.h"
 #include "support/truss.h"
 
@@ -60,19 +61,9 @@ TEST(Events, AContactThatJumpsBetweenTwoRidgesDoesSoHalfWay) {
   weight.vector = {0, 0, -10};
   model.loads = {weight};
   model.load_names = {"weight"};
-  const auto hold = [&](ConditionKind kind, const Eigen::Vector3d& axis, int cardan, double value) {
-    KinematicCondition condition;
-    condition.kind = kind;
-    condition.axis = axis;
-    condition.cardan_axis = cardan;
-    condition.value = value;
-    model.conditions.push_back(condition);
-    model.condition_names.emplace_back("hold");
-  };
-  hold(ConditionKind::kTranslation, Eigen::Vector3d::UnitX(), 0, -3);
-  hold(ConditionKind::kTranslation, Eigen::Vector3d::UnitY(), 0, 0);
-  for (int axis = 0; axis < 3; ++axis)
-    hold(ConditionKind::kRotation, Eigen::Vector3d::UnitX(), axis, 0);
+  test::hold(model, ConditionKind::kTranslation, 0, -3);
+  test::hold(model, ConditionKind::kTranslation, 1);
+  for (int axis = 0; axis < 3; ++axis) test::hold(model, ConditionKind::kRotation, axis);
   model.start.p = {-3, 0, 62};
   model.length = 30;
   EquilibriumSolver solver(std::move(model));

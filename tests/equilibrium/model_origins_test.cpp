@@ -7,6 +7,7 @@
 #include "equilibrium/equilibrium_solver.h"
 #include "equilibrium/model_origins.h"
 #include "support/ball_on_floor.h"
+#include "support/hold.h"
 #include "support/quadric_knee.h"
 
 namespace condyle {
@@ -84,18 +85,9 @@ TEST(ModelOrigins, APrescribedTranslationStaysThatOfTheFilesOrigin) {
   model.pairs[0].on_A = make_sphere({0, 10, 0}, 10, true);
   model.loads[0].at = {0, 10, 0};
   model.start.p = {0, 0, 10};
-  const auto hold = [&model](ConditionKind kind, const Vector3d& axis, int cardan, double value) {
-    KinematicCondition condition;
-    condition.kind = kind;
-    condition.axis = axis;
-    condition.cardan_axis = cardan;
-    condition.value = value;
-    model.conditions.push_back(condition);
-    model.condition_names.emplace_back("held");
-  };
-  hold(ConditionKind::kTranslation, Vector3d::UnitX(), 0, 2);
-  hold(ConditionKind::kTranslation, Vector3d(0, 0.6, 0.8), 0, 11);
-  for (int k = 0; k < 3; ++k) hold(ConditionKind::kRotation, Vector3d::UnitX(), k, 0.1 * k);
+  test::hold(model, ConditionKind::kTranslation, 0, 2);
+  test::add(model, "hold", test::held(ConditionKind::kTranslation, Vector3d(0, 0.6, 0.8), 0, 11));
+  for (int k = 0; k < 3; ++k) test::hold(model, ConditionKind::kRotation, k, 0.1 * k);
   Model moved = model;
   move_origins(kFar, moved);
   moved.length = model.length;

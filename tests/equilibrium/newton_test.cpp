@@ -6,23 +6,12 @@
 
 #include "equilibrium/equilibrium_solver.h"
 #include "math/rotation.h"
+#include "support/hold.h"
 #include "support/report_problems.h"
 #include "support/spring_knee.h"
 
 namespace condyle {
 namespace {
-
-KinematicCondition prescribed(ConditionKind kind,
-                              const Eigen::Vector3d& axis,
-                              int cardan_axis,
-                              double value) {
-  KinematicCondition condition;
-  condition.kind = kind;
-  condition.axis = axis;
-  condition.cardan_axis = cardan_axis;
-  condition.value = value;
-  return condition;
-}
 
 /// The Cardan angle w of R = Ry(w).
 double angle_about_y(const RigidTransform& X) { return std::atan2(X.R(0, 2), X.R(2, 2)); }
@@ -56,8 +45,8 @@ TEST(Newton, ReportProblem1HasTheExactAnswerInFiveIterationsPerIncrement) {
 // w = 0, sigma_x = -1 - 6 alpha, sigma_z = -4.
 TEST(Newton, ReportProblem2HasTheExactAnswerInThreeIterations) {
   Model model = test::six_elements(1);
-  model.conditions = {prescribed(ConditionKind::kTranslation, Eigen::Vector3d::UnitX(), 0, 0),
-                      prescribed(ConditionKind::kTranslation, Eigen::Vector3d::UnitZ(), 0, 3)};
+  model.conditions = {test::held(ConditionKind::kTranslation, Eigen::Vector3d::UnitX(), 0, 0),
+                      test::held(ConditionKind::kTranslation, Eigen::Vector3d::UnitZ(), 0, 3)};
   model.condition_names = {"x", "z"};
   Newton newton(model);
   EquilibriumState state;
@@ -77,7 +66,7 @@ TEST(Newton, ReportProblem2HasTheExactAnswerInThreeIterations) {
 // Centre (0, 0, 7/3), sigma = -10 sin w.
 TEST(Newton, ReportProblem3HasTheExactAnswerInFourIterations) {
   Model model = test::six_elements(0);
-  model.conditions = {prescribed(ConditionKind::kRotation, Eigen::Vector3d::UnitX(), 1, 0)};
+  model.conditions = {test::held(ConditionKind::kRotation, Eigen::Vector3d::UnitX(), 1, 0)};
   model.condition_names = {"w"};
   Newton newton(model);
   EquilibriumState state;
@@ -141,7 +130,7 @@ TEST(Newton, ContactThatDependsOnAConditionIsSingular) {
   Model model = test::Problem1::model(0);
   // The contact already prescribes the x-position of the centre.
   model.conditions.push_back(
-      prescribed(ConditionKind::kTranslation, Eigen::Vector3d::UnitX(), 0, 1));
+      test::held(ConditionKind::kTranslation, Eigen::Vector3d::UnitX(), 0, 1));
   model.condition_names.emplace_back("x");
   Newton newton(model);
   EquilibriumState state;

@@ -7,6 +7,7 @@
 #include "equilibrium/equilibrium_solver.h"
 #include "equilibrium/motion_name.h"
 #include "support/ball_on_floor.h"
+#include "support/hold.h"
 #include "support/quadric_knee.h"
 #include "support/truss.h"
 
@@ -59,14 +60,8 @@ TEST(Stability, OfATrussIsTheSlopeOfItsLoad) {
 
 TEST(Stability, OfSixConditionsLeavesNoMotion) {
   Model model;
-  for (int i = 0; i < 6; ++i) {
-    KinematicCondition hold;
-    hold.kind = i < 3 ? ConditionKind::kTranslation : ConditionKind::kRotation;
-    hold.axis = Eigen::Vector3d::Unit(i % 3);
-    hold.cardan_axis = i % 3;
-    model.conditions.push_back(hold);
-    model.condition_names.emplace_back("hold");
-  }
+  for (int i = 0; i < 6; ++i)
+    test::hold(model, i < 3 ? ConditionKind::kTranslation : ConditionKind::kRotation, i % 3);
   const Judged judged = judge(model, unloaded(model));
   EXPECT_EQ(judged.stability.lowest_stiffness, INFINITY);
   EXPECT_TRUE(judged.stability.stable());

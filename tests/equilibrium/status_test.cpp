@@ -7,29 +7,19 @@
 
 #include "equilibrium/equilibrium_solver.h"
 #include "support/ball_on_floor.h"
+#include "support/hold.h"
+#include "support/known_part.h"
 #include "support/quadric_knee.h"
 
 namespace condyle {
 namespace {
 
-KinematicCondition hold(ConditionKind kind, int axis, double value = 0) {
-  KinematicCondition condition;
-  condition.kind = kind;
-  condition.axis = Eigen::Vector3d::Unit(axis);
-  condition.cardan_axis = axis;
-  condition.value = value;
-  return condition;
-}
+using test::add, test::held;
 
 Model ball_on_floor() {
   Model model = test::ball_on_floor("weight", -10);
   model.start.p = {0, 0, 10.5};
   return model;
-}
-
-void add(Model& model, const char* name, const KinematicCondition& condition) {
-  model.conditions.push_back(condition);
-  model.condition_names.emplace_back(name);
 }
 
 void add_spring(Model& model,
@@ -56,17 +46,17 @@ void expect_reason(const PoseResult& pose, PoseStatus status, const std::string&
 
 TEST(Status, ConditionsThatSayTheSameAreNamed) {
   Model model = ball_on_floor();
-  add(model, "x", hold(ConditionKind::kTranslation, 0));
-  add(model, "other", hold(ConditionKind::kTranslation, 1));
-  add(model, "x again", hold(ConditionKind::kTranslation, 0));
+  add(model, "x", held(ConditionKind::kTranslation, 0));
+  add(model, "other", held(ConditionKind::kTranslation, 1));
+  add(model, "x again", held(ConditionKind::kTranslation, 0));
   expect_reason(solve(model), PoseStatus::kSingular,
                 "conditions \"x\" and \"x again\" depend on each other");
 }
 
 TEST(Status, ConditionsThatContradictEachOtherSaySo) {
   Model model = ball_on_floor();
-  add(model, "x", hold(ConditionKind::kTranslation, 0, 0));
-  add(model, "x again", hold(ConditionKind::kTranslation, 0, 2));
+  add(model, "x", held(ConditionKind::kTranslation, 0, 0));
+  add(model, "x again", held(ConditionKind::kTranslation, 0, 2));
   expect_reason(solve(model), PoseStatus::kSingular,
                 "conditions \"x\" and \"x again\" depend on each other and cannot all hold");
 }
@@ -77,7 +67,7 @@ TEST(Status, AConditionThatRepeatsAContactIsNamedWithIt) {
     Model model = ball_on_floor();
     model.start.p.z() = height;
     model.pairs[0].mode = ContactMode::kClosed;
-    add(model, "height", hold(ConditionKind::kTranslation, 2, height));
+    add(model, "height", held(ConditionKind::kTranslation, 2, height));
     expect_reason(solve(model), PoseStatus::kSingular,
                   "condition \"height\" and contact \"floor\" depend on each other");
   }
@@ -86,7 +76,7 @@ TEST(Status, AConditionThatRepeatsAContactIsNamedWithIt) {
 // Two fibres that would have to be longer than their ends are apart.
 TEST(Status, FibresThatCannotBothHaveTheirLengthAreNamed) {
   Model model;
-  KinematicCondition left = hold(ConditionKind::kDistance, 0, 4), right = left;
+  KinematicCondition left = held(ConditionKind::kDistance, 0, 4), right = left;
   left.x_C = {-10, 0, 0};
   right.x_C = {10, 0, 0};
   add(model, "left", left);
@@ -100,9 +90,9 @@ TEST(Status, SevenConditionsAreNamed) {
   Model model = ball_on_floor();
   for (int k = 0; k < 6; ++k)
     add(model, "one of six",
-        hold(k < 3 ? ConditionKind::kTranslation : ConditionKind::kRotation, k % 3,
+        held(k < 3 ? ConditionKind::kTranslation : ConditionKind::kRotation, k % 3,
              k == 2 ? 12 : 0));
-  add(model, "the seventh", hold(ConditionKind::kTranslation, 0));
+  add(model, "the seventh", held(ConditionKind::kTranslation, 0));
   expect_reason(solve(model), PoseStatus::kSingular, "\"the seventh\"");
 }
 
@@ -117,8 +107,8 @@ TEST(Status, ALoadThatNothingCarriesIsNamed) {
 TEST(Status, ALineElementWithoutLengthIsNamed) {
   Model model;
   model.length = 10;
-  for (int k = 0; k < 3; ++k) add(model, "hold", hold(ConditionKind::kTranslation, k));
-  for (int k = 0; k < 3; ++k) add(model, "turn", hold(ConditionKind::kRotation, k));
+  for (int k = 0; k < 3; ++k) add(model, "hold", held(ConditionKind::kTranslation, k));
+  for (int k = 0; k < 3; ++k) add(model, "turn", held(ConditionKind::kRotation, k));
   add_spring(model, "point", {1, 2, 3}, {1, 2, 3}, QuadraticLaw{10, 5});
   expect_reason(solve(model), PoseStatus::kZeroLength, "\"point\"");
 }
@@ -143,39 +133,13 @@ TEST(Status, AnIterationLimitSaysWhatIsStillOff) {
   expect_reason(solve(model, options), PoseStatus::kIterationLimit, "condition \"flexion\" is");
 }
 
-/// A floor that is known only where x < 0.
-class HalfFloor : public Surface {
- public:
-  HalfFloor() : plane_(make_plane({0, 0, 0}, {0, 0, 1})) {}
-  [[nodiscard]] SurfacePoint evaluate(const Place& place) const override {
-    return plane_->evaluate(place);
-  }
-  [[nodiscard]] Place moved(const Place& place,
-                            const SurfacePoint& at,
-                            const Eigen::Vector3d& dc) const override {
-    return plane_->moved(place, at, dc);
-  }
-  [[nodiscard]] Place closest(const Eigen::Vector3d& p, const Place& start) const override {
-    return plane_->closest(p, start);
-  }
-  [[nodiscard]] Place seed(const Eigen::Vector3d& p) const override { return plane_->seed(p); }
-  [[nodiscard]] double edge_distance(const Place& place) const override { return -place.x(); }
-  [[nodiscard]] std::vector<Place> samples(double) const override { return {}; }
-  [[nodiscard]] Extent extent() const override { return plane_->extent(); }
-  [[nodiscard]] std::unique_ptr<Surface> translated(const Eigen::Vector3d&) const override {
-    return nullptr;
-  }
-
- private:
-  std::unique_ptr<Surface> plane_;
-};
-
 TEST(Status, AContactBeyondTheKnownSurfaceIsNamed) {
   Model model = ball_on_floor();
-  model.pairs[0].on_B = std::make_shared<HalfFloor>();
-  add(model, "x", hold(ConditionKind::kTranslation, 0, -1));
-  add(model, "y", hold(ConditionKind::kTranslation, 1));
-  for (int k = 0; k < 3; ++k) add(model, "turn", hold(ConditionKind::kRotation, k));
+  model.pairs[0].on_B = std::make_shared<test::KnownPart>(
+      model.pairs[0].on_B, [](const Eigen::Vector3d& c) { return -c.x(); });
+  add(model, "x", held(ConditionKind::kTranslation, 0, -1));
+  add(model, "y", held(ConditionKind::kTranslation, 1));
+  for (int k = 0; k < 3; ++k) add(model, "turn", held(ConditionKind::kRotation, k));
   model.start.p.x() = -1;
   EquilibriumSolver solver(std::move(model));
   const PoseResult inside = solver.solve();
@@ -187,7 +151,7 @@ TEST(Status, AContactBeyondTheKnownSurfaceIsNamed) {
 // Conditions hold the ball 3 mm deep in the floor, from which it cannot come.
 TEST(Status, ABodyHeldInsideTheOtherIsNamed) {
   Model model = ball_on_floor();
-  add(model, "height", hold(ConditionKind::kTranslation, 2, 7));
+  add(model, "height", held(ConditionKind::kTranslation, 2, 7));
   model.start.p.z() = 7;
   expect_reason(
       solve(model), PoseStatus::kOverlap,
