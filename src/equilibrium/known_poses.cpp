@@ -45,7 +45,8 @@ bool same_value(double a, double b) {
 std::vector<KnownPose> known_poses(const SweepResult& result) {
   std::vector<KnownPose> poses;
   std::unordered_map<double, int> visits;
-  for (const PoseResult& pose : result.poses) poses.push_back({pose, visits[pose.value]++, {}, {}});
+  for (const PoseResult& pose : result.poses)
+    poses.push_back({pose, visits[pose.value]++, {}, {}, false});
   if (const int rising = direction(result.poses)) hand_out_events(result.events, rising, poses);
   return poses;
 }

@@ -15,6 +15,7 @@ struct KnownPose {
   /// Value of the solved pose before it, where the events in between are known; and these events.
   std::optional<double> from;
   std::vector<Event> events;
+  bool from_elsewhere = false;  ///< not found from the pose before it
 };
 
 /// The poses of a result, in its order. Its events find their places where the values only rise or

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "equilibrium/carried_pose.h"
 #include "equilibrium/restore_state.h"
 #include "equilibrium/second_equilibrium.h"
 
@@ -36,6 +37,7 @@ void SweepWalk::step(double value) {
   const KnownPose* known = known_.find(value, stop.visit);
   if (known != nullptr && take_over(*known, stop)) {
     stop.taken = known;
+    stop.from_elsewhere = known->from_elsewhere;
   } else {
     compute(stop);
   }
@@ -62,18 +64,18 @@ bool SweepWalk::take_over(const KnownPose& known, Stop& stop) {
     stop.at.state = solver_.solution();
     pose.iterations = known.pose.iterations;
     pose.seconds = known.pose.seconds;
+    if (!known.pose.remark.empty()) pose.remark = known.pose.remark;
   }
   if (!same || !pose.converged()) stand_at_last_converged();
   return same;
 }
 
+RigidTransform SweepWalk::in_model(const PoseResult& pose) const {
+  return solver_.model().origins.into_model(pose.X_BA);
+}
+
 bool SweepWalk::agrees(const PoseResult& pose, const PoseResult& known) const {
-  constexpr double kClose = 1e-6;  // [rad], and of L
-  const Model& model = solver_.model();
-  const RigidTransform here = model.origins.into_model(pose.X_BA),
-                       there = model.origins.into_model(known.X_BA);
-  return pose.status == known.status && (here.R - there.R).norm() < kClose &&
-         (here.p - there.p).norm() < kClose * model.length;
+  return pose.status == known.status && same_pose(solver_.model(), in_model(pose), in_model(known));
 }
 
 void SweepWalk::compute(Stop& stop) {
@@ -130,10 +132,22 @@ void SweepWalk::tell() {
       find_events(stop);
       last_solved_ = told_;
     }
+    note_jump(stop);
     if (options_.on_pose) options_.on_pose(stop.at.result);
     if (stop.taken == nullptr && options_.on_computed)
-      options_.on_computed({stop.at.result, stop.visit, stop.from, stop.events});
+      options_.on_computed(
+          {stop.at.result, stop.visit, stop.from, stop.events, stop.from_elsewhere});
   }
+}
+
+/// Says so where the body moved far since the pose before, by more than what is prescribed.
+void SweepWalk::note_jump(Stop& stop) {
+  if (!stop.converged() || told_ == 0 || !stops_[told_ - 1].converged()) return;
+  swept_ = stop.at.value;
+  const Model& model = solver_.model();
+  const std::string words =
+      jump(model, carried(model, in_model(stops_[told_ - 1].at.result)), in_model(stop.at.result));
+  if (!words.empty()) add_remark(stop.at.result, words);
 }
 
 /// Events since the last solved pose. The solver then stands at the last converged one.
@@ -197,8 +211,7 @@ void SweepWalk::follow(std::size_t from, int way) {
     solver_.solve(trial_, Patience::kNone);
     stop.at.result.seconds += trial_.seconds;
     const Model& model = solver_.model();
-    const RigidTransform here = model.origins.into_model(stop.at.result.X_BA),
-                         there = model.origins.into_model(trial_.X_BA);
+    const RigidTransform here = in_model(stop.at.result), there = in_model(trial_);
     if (!trial_.converged() || same_pose(model, here, there)) return;
     add_remark(stop.at.result,
                second_equilibrium(model, here, there,

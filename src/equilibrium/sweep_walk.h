@@ -32,12 +32,14 @@ class SweepWalk {
 
   void step(double value);
   bool take_over(const KnownPose& known, Stop& stop);
+  [[nodiscard]] RigidTransform in_model(const PoseResult& pose) const;
   [[nodiscard]] bool agrees(const PoseResult& pose, const PoseResult& known) const;
   void compute(Stop& stop);
   void mend_gap();
   bool mend(Stop& stop, const Stop& from);
   void tell();
   void find_events(Stop& stop);
+  void note_jump(Stop& stop);
   void stand_at(const SolvedPose& pose);
   void stand_at_last_converged();
   void note_second_equilibria();

@@ -7,11 +7,12 @@
 ///     condyle journal 1 scene HASH surfaces HASH
 ///     pose VALUE VISIT STATUS ITERATIONS RESIDUAL SECONDS  R (9, by columns) a (3)
 ///          n σ ...  n {contact p point_ground point_moving} ...
-///          FROM n {value kind contact} ...  "REASON" HASH
+///          FROM n {value kind contact} ...  "REASON" "REMARK" LENGTH ELSEWHERE HASH
 ///
 /// (one line each). Numbers in mm, N, N mm, rad, s, with as many digits as say them exactly; FROM
-/// is nan where the events before the pose are not known. The hash is that of the line before it,
-/// so a line that was torn is known as such; what follows a torn line is not read.
+/// is nan where the events before the pose are not known, LENGTH is that of the remark in bytes,
+/// ELSEWHERE 1 where the pose was not found from the one before it. The hash is that of the line
+/// before it, so a line that was torn is known as such; what follows a torn line is not read.
 
 #include <filesystem>
 #include <string>

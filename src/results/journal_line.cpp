@@ -95,14 +95,40 @@ void take_events(Taker& take, std::size_t contacts, KnownPose& known) {
   }
 }
 
-/// Cuts the hash off the end of a line; false where it does not fit what stands before it.
-bool check_hash(std::string_view& line) {
+/// Cuts the last number off a line.
+template <typename Number>
+bool take_last(std::string_view& line, Number& number) {
   const std::size_t at = line.rfind(' ');
   if (at == std::string_view::npos) return false;
   Taker take{line.substr(at)};
-  const auto hash = take.number<std::uint64_t>();
+  number = take.number<Number>();
   line = line.substr(0, at);
-  return take.ok && take.rest.empty() && hash == hash_bytes(line);
+  return take.ok && take.rest.empty();
+}
+
+/// ' "REASON" "REMARK" LENGTH ELSEWHERE'; words may hold quotes, so the remark tells its length. A
+/// line of an older run ends with the reason.
+bool take_words(std::string_view line, KnownPose& known) {
+  constexpr std::size_t kQuotes = 3;  // ' "..."'
+  if (!line.ends_with('"')) {
+    int elsewhere = 0;
+    std::size_t length = 0;
+    if (!take_last(line, elsewhere) || !take_last(line, length) ||
+        line.size() < length + 2 * kQuotes)
+      return false;
+    known.from_elsewhere = elsewhere != 0;
+    known.pose.remark = line.substr(line.size() - length - 1, length);
+    line = line.substr(0, line.size() - length - kQuotes);
+  }
+  if (line.size() < kQuotes) return false;
+  known.pose.reason = line.substr(2, line.size() - kQuotes);
+  return true;
+}
+
+/// Cuts the hash off the end of a line; false where it does not fit what stands before it.
+bool check_hash(std::string_view& line) {
+  std::uint64_t hash = 0;
+  return take_last(line, hash) && hash == hash_bytes(line);
 }
 
 }  // namespace
@@ -129,7 +155,9 @@ void write_journal_line(const KnownPose& known, std::string& out) {
     put(out, static_cast<int>(event.kind));
     put(out, event.contact);
   }
-  out += " \"" + pose.reason + "\"";
+  out += " \"" + pose.reason + "\" \"" + pose.remark + "\"";
+  put(out, pose.remark.size());
+  put(out, static_cast<int>(known.from_elsewhere));
   std::replace(out.begin() + static_cast<std::ptrdiff_t>(begin), out.end(), '\n', ' ');
   put(out, hash_bytes(std::string_view(out).substr(begin)));
   out += '\n';
@@ -158,9 +186,7 @@ bool read_journal_line(std::string_view line,
   for (ConditionResult& condition : pose.conditions) condition.multiplier = take.number<double>();
   take_contacts(take, contacts, pose);
   take_events(take, contacts, known);
-  if (!take.ok || take.rest.size() < 3) return false;
-  pose.reason = take.rest.substr(2, take.rest.size() - 3);
-  return true;
+  return take.ok && take_words(take.rest, known);
 }
 
 }  // namespace condyle

@@ -143,6 +143,25 @@ TEST(SecondEquilibrium, OfASnapThroughIsToldOnEitherWay) {
   }
 }
 
+// Past the limit load the truss snaps through: one pose, and only that, is told to lie far from the
+// one before it.
+TEST(Jumps, ABodyThatMovedFarBetweenTwoPosesIsTold) {
+  using test::Truss;
+  EquilibriumSolver solver(Truss::model());
+  const std::vector<double> loads = {-12, -8, -4, 0, 4, 8, 12};
+  const SweepResult result = sweep(solver, solver.model().loads[0].scale, loads);
+  int told = 0;
+  for (std::size_t k = 1; k < loads.size(); ++k) {
+    const PoseResult &before = result.poses[k - 1], &pose = result.poses[k];
+    const double moved = (pose.X_BA.p - before.X_BA.p).norm();
+    const bool says =
+        pose.remark.find("since the pose before it the body moved") != std::string::npos;
+    EXPECT_EQ(says, moved > 0.5 * solver.model().length) << loads[k] << ": " << moved << " mm";
+    told += says;
+  }
+  EXPECT_EQ(told, 1);
+}
+
 // The tibia far above the femur's condyles: nothing faces, both contacts would be open.
 TEST(PassedThrough, AStartOnTheWrongSideIsOverlapAtOnce) {
   Model model = knee();

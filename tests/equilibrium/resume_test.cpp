@@ -11,6 +11,7 @@
 #include "scene/read_scene.h"
 #include "support/report_problems.h"
 #include "support/same_sweep.h"
+#include "support/truss.h"
 
 namespace condyle {
 namespace {
@@ -42,6 +43,24 @@ Values values_of(const std::vector<KnownPose>& poses) {
 }
 
 const Values kThereAndBack = {0, 20, 40, 60, 40, 20, 0};
+
+// That the pose stands on another branch than the one before is known from no number of the pose.
+TEST(Resume, KeepsWhatIsSaidOfSecondEquilibriaAndJumps) {
+  const Values loads = {-12, -8, -4, 0, 4, 8, 12};
+  std::vector<KnownPose> computed;
+  SweepOptions options;
+  options.on_computed = [&](const KnownPose& pose) { computed.push_back(pose); };
+  EquilibriumSolver solver(test::Truss::model());
+  const SweepResult whole = sweep(solver, solver.model().loads[0].scale, loads, options);
+  for (std::size_t stop = 0; stop <= loads.size(); ++stop) {
+    EquilibriumSolver again(test::Truss::model());
+    SweepOptions resumed;
+    resumed.known.assign(computed.begin(), computed.begin() + static_cast<std::ptrdiff_t>(stop));
+    const SweepResult result = sweep(again, again.model().loads[0].scale, loads, resumed);
+    for (std::size_t k = 0; k < loads.size(); ++k)
+      EXPECT_EQ(result.poses[k].remark, whole.poses[k].remark) << stop << ", " << loads[k];
+  }
+}
 
 TEST(Resume, GoesOnWhereTheSweepWasStopped) {
   PulledSphere whole, part, rest;

@@ -26,6 +26,8 @@ KnownPose made_up_known(int i) {
   known.pose = made_up_pose(i);
   known.visit = i;
   known.from = 0.1 * (i - 1);
+  known.pose.remark = "a \"second\" position of equilibrium exists" + std::string(i, '!');
+  known.from_elsewhere = i == 1;
   known.events = {{0.1 * i - 0.03, EventKind::kOpening, 0}, {0.1 * i, EventKind::kLimitPoint, -1}};
   return known;
 }
@@ -70,6 +72,8 @@ TEST_F(JournalFile, GivesBackTheLastBit) {
     EXPECT_EQ(a.pose.value, b.pose.value);
     EXPECT_EQ(a.visit, b.visit);
     EXPECT_EQ(a.from, b.from);
+    EXPECT_EQ(a.pose.remark, b.pose.remark);
+    EXPECT_EQ(a.from_elsewhere, b.from_elsewhere);
     EXPECT_EQ(a.pose.X_BA.R, b.pose.X_BA.R);
     EXPECT_EQ(a.pose.X_BA.p, b.pose.X_BA.p);
     EXPECT_EQ(a.pose.seconds, b.pose.seconds);
@@ -100,6 +104,22 @@ TEST_F(JournalFile, HoldsAFailureWithItsReason) {
   EXPECT_EQ(back.pose.reason, "\"a\" and \"b\" depend on each other");
   EXPECT_EQ(back.pose.residual, std::numeric_limits<double>::infinity());
   EXPECT_FALSE(back.from);
+}
+
+// Lines of runs before remarks were kept end with the reason.
+TEST_F(JournalFile, ReadsALineWithoutARemark) {
+  KnownPose known = made_up_known(1);
+  known.pose.remark.clear();
+  known.pose.reason = "an \"old\" one";
+  std::string line;
+  write_journal_line(known, line);
+  line.resize(line.rfind(" \"\" "));
+  line += " " + std::to_string(hash_bytes(line));
+  KnownPose back;
+  ASSERT_TRUE(read_journal_line(line, 1, 1, back));
+  EXPECT_EQ(back.pose.reason, known.pose.reason);
+  EXPECT_EQ(back.pose.remark, "");
+  EXPECT_FALSE(back.from_elsewhere);
 }
 
 // Cut after every single byte: never an error, and every whole line is there.
