@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // All in sample spacings:
+constexpr double kFacingSpacing = 1.5;  // of the surface that the samples of the other one face
 constexpr double kDeepest = 12;     // overlap of a surface with an edge that is still taken for one
 constexpr double kNeighbour = 1.6;  // a sample nearer than this may be the lower one
 constexpr double kSame = 0.3;       // a minimum predicted nearer to one that is known is that one
@@ -34,6 +35,12 @@ double affordable_spacing(const Surface& surface, double wanted) {
     return std::max(wanted, coarse * std::sqrt(static_cast<double>(n) / kMost));
   }
   return wanted;
+}
+
+/// Does surface a take fewer samples than b? One without bounds has none.
+bool takes_fewer(const Surface& a, const Surface& b, double spacing) {
+  const std::size_t of_a = a.samples(spacing).size(), of_b = b.samples(spacing).size();
+  return of_a > 0 && (of_b == 0 || of_a <= of_b);
 }
 
 /// Behind a surface that ends somewhere is not yet inside.
@@ -61,9 +68,9 @@ void keep_isolated(std::vector<GapMinimum>& minima, double merge) {
 ContactSearch::Covers::Covers(const ContactPair& pair, double wanted)
     : spacing(
           std::max(affordable_spacing(*pair.on_B, wanted), affordable_spacing(*pair.on_A, wanted))),
-      on_B(*pair.on_B, spacing),
-      on_A(*pair.on_A, spacing),
-      sampled_on_A(on_A.size() > 0 && (on_B.size() == 0 || on_A.size() <= on_B.size())),
+      sampled_on_A(takes_fewer(*pair.on_A, *pair.on_B, spacing)),
+      on_B(*pair.on_B, sampled_on_A ? kFacingSpacing * spacing : spacing),
+      on_A(*pair.on_A, sampled_on_A ? spacing : kFacingSpacing * spacing),
       lines(have_straight_lines(*pair.on_B, *pair.on_A, spacing)) {}
 
 ContactSearch::ContactSearch(const ContactPair& pair, double spacing)

@@ -66,10 +66,10 @@ class ContactSearch {
   /// The covers of a pair, constant.
   struct Covers {
     Covers(const ContactPair& pair, double wanted);
-    double spacing;  ///< that can be afforded [mm]
-    SurfaceCover on_B, on_A;
+    double spacing;     ///< that can be afforded [mm]
     bool sampled_on_A;  ///< the surface that takes fewer samples; one without bounds has none
-    bool lines;         ///< the surfaces may touch along a line (line_contact.h)
+    SurfaceCover on_B, on_A;
+    bool lines;  ///< the surfaces may touch along a line (line_contact.h)
   };
   /// Where the other surface is nearest to a point, kept from pose to pose.
   struct Closest {
