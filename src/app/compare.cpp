@@ -15,6 +15,7 @@
 #include "equilibrium/sweep.h"
 #include "input_error.h"
 #include "results/output_file.h"
+#include "results/run_view.h"
 #include "results/sweep_table.h"
 #include "scene/read_scene.h"
 
@@ -35,7 +36,6 @@ int run_compare(const CompareCommand& command) {
   CommandClock clock;
   check_output_file(command.output);
   Scene scene = read_scene(command.scene);
-  scene.simulation.reset();  // another command's
   refuse_to_overwrite_inputs(command.output, scene);
   override_range(command.scene, command.range, scene);
   check_wismans_scene(scene);
@@ -48,19 +48,21 @@ int run_compare(const CompareCommand& command) {
   run.sweep = sweep(scene, surfaces);
   const SweepResult& ours = run.sweep;
   Progress progress(talk, "sweeps");
-  run.comparison = compare(scene, surfaces, ours, command.options,
-                           [&](int done, int total) { progress.at(done, total); });
+  const auto comparison = std::make_shared<const Comparison>(
+      compare(scene, surfaces, ours, command.options,
+              [&](int done, int total) { progress.at(done, total); }));
+  run.study = comparison;
   progress.clear();
-  for (const std::string& line : summary_lines(scene, surfaces, ours, *run.comparison))
+  for (const std::string& line : summary_lines(scene, surfaces, ours, *comparison))
     say(talk, "{}\n", line);
   write_run(command.output, run);
   say(talk, "wrote {}\n", command.output);
-  for (const std::string& line : failures(scene, ours)) fmt::print(stderr, "condyle: {}\n", line);
-  for (const std::string& line : failures(scene, run.comparison->reference))
+  const SweptQuantity swept = swept_quantity(run);
+  for (const std::string& line : failures(swept, ours)) fmt::print(stderr, "condyle: {}\n", line);
+  for (const std::string& line : failures(swept, comparison->reference))
     fmt::print(stderr, "condyle: reference: {}\n", line);
   const auto all = static_cast<int>(ours.poses.size());
-  const bool both =
-      ours.count_converged() == all && run.comparison->reference.count_converged() == all;
+  const bool both = ours.count_converged() == all && comparison->reference.count_converged() == all;
   return finish(talk, clock.summary(talk, command.output, both ? 0 : kSomePoseFailed), run);
 }
 

@@ -75,7 +75,7 @@ std::string file_ending(const ExportCommand& command) {
 
 /// Of the poses asked for, or of all.
 int report_failures(const ExportCommand& command, const Run& run) {
-  const ShownUnit unit = shown_unit(run.scene);
+  const SweptQuantity swept = swept_quantity(run);
   int status = 0;
   std::vector<const PoseResult*> asked;
   for (const double value : command.at)
@@ -85,7 +85,7 @@ int report_failures(const ExportCommand& command, const Run& run) {
   for (const PoseResult* pose : asked) {
     if (pose->converged()) continue;
     fmt::print(stderr, "condyle: {} {:g} {}: {}\n", has_place(*pose) ? "marked" : "left out",
-               unit.per_inside * pose->value, unit.name, name(pose->status));
+               swept.shown(pose->value), swept.unit.name, name(pose->status));
     status = kSomePoseFailed;
   }
   return status;

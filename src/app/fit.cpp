@@ -62,7 +62,8 @@ int run_fit(const FitOptions& options) {
 #endif
   const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
   if (talk.plain()) print_known_parts(surfaces);
-  const Run run = make_run(scene, surfaces);
+  Run run = make_run(scene, surfaces);
+  run.study = FitStudy{};
   say(talk, "\n");
   for (const std::string& line : run.start)
     if (!is_warning(line)) say(talk, "{}\n", line);

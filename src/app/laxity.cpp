@@ -13,6 +13,7 @@
 #include "app/summary.h"
 #include "app/talk.h"
 #include "input_error.h"
+#include "results/run_view.h"
 #include "results/sweep_table.h"
 
 namespace condyle {
@@ -27,10 +28,10 @@ struct LaxityCommand {
   CompareOptions options;
 };
 
-int report_failures(const Scene& scene, const LaxityResult& result) {
+int report_failures(const SweptQuantity& swept, const LaxityResult& result) {
   int status = 0;
   const auto report = [&](const LaxityCurve& curve, const SweepResult& sweep, const char* model) {
-    for (const std::string& line : failures(scene, sweep)) {
+    for (const std::string& line : failures(swept, sweep)) {
       fmt::print(stderr, "condyle: {} deg, {}{}: {}\n",
                  std::round(1e6 * curve.flexion / kDegree) / 1e6, curve.cut ? "cut" : "intact",
                  model, line);
@@ -47,21 +48,22 @@ int report_failures(const Scene& scene, const LaxityResult& result) {
 int run_laxity(const LaxityCommand& command) {
   const Talk& talk = command.talk;
   CommandClock clock;
-  auto [scene, surfaces, run] = begin_study(talk, command.scene, command.output, [](Scene& s) {
-    if (!s.laxity)
-      throw InputError(s.file.string() +
-                       ": [laxity] is missing, expected the angles of flexion of the test");
-    s.simulation.reset();  // another command's
-  });
+  auto [scene, surfaces, run] =
+      begin_study(talk, command.scene, command.output, [](const Scene& s) {
+        if (!s.laxity)
+          throw InputError(s.file.string() +
+                           ": [laxity] is missing, expected the angles of flexion of the test");
+      });
   Progress progress(talk, "curves");
-  run.laxity = test_laxity(scene, surfaces, command.options,
-                           [&](int done, int total) { progress.at(done, total); });
+  const auto laxity = std::make_shared<const LaxityResult>(test_laxity(
+      scene, surfaces, command.options, [&](int done, int total) { progress.at(done, total); }));
+  run.study = laxity;
   progress.clear();
-  for (const std::string& line : laxity_lines(scene, *run.laxity)) say(talk, "{}\n", line);
+  for (const std::string& line : laxity_lines(scene, *laxity)) say(talk, "{}\n", line);
   write_run(command.output, run);
   say(talk, "wrote {}\n", command.output);
-  return finish(talk, clock.summary(talk, command.output, report_failures(scene, *run.laxity)),
-                run);
+  const int status = report_failures(swept_quantity(run), *laxity);
+  return finish(talk, clock.summary(talk, command.output, status), run);
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene
 Study begin_study(const Talk& talk,
                   const std::string& scene,
                   const std::string& output,
-                  const std::function<void(Scene&)>& check) {
+                  const std::function<void(const Scene&)>& check) {
   check_output_file(output);
   Study study{read_scene(scene), {}, {}};
   refuse_to_overwrite_inputs(output, study.scene);

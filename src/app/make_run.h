@@ -15,7 +15,7 @@
 namespace condyle {
 
 /// Scene, patches, what there is to know of the start, and the meshes of the bodies; nothing
-/// computed yet.
+/// computed yet, a sweep until it is said to be something else.
 [[nodiscard]] Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces);
 
 /// What a command starts from that computes something from a scene.
@@ -29,7 +29,7 @@ struct Study {
 [[nodiscard]] Study begin_study(const Talk& talk,
                                 const std::string& scene,
                                 const std::string& output,
-                                const std::function<void(Scene&)>& check);
+                                const std::function<void(const Scene&)>& check);
 
 /// Throws InputError where the file to write is the scene or one of its meshes.
 void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene& scene);

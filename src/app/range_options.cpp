@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "input_error.h"
-#include "scene/sweep_range.h"
+#include "scene/swept_quantity.h"
 
 namespace condyle {
 namespace {
@@ -29,7 +29,7 @@ void override_range(const std::string& file, const RangeOptions& options, Scene&
     throw InputError(file + ": [sweep] is missing, expected what to vary and how far");
   if (!options.from && !options.to && !options.step) return;
   std::vector<double>& values = scene.sweep->values;
-  const double unit = declared_sweep_unit(scene).factor;
+  const double unit = quantity_of_sweep(scene).declared.factor;
   const double from = rounded(values.front() / unit), to = rounded(values.back() / unit);
   const double step = values.size() > 1 ? rounded((values[1] - values[0]) / unit) : 1;
   try {

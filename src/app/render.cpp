@@ -20,7 +20,6 @@
 #include "pictures/picture_folder.h"
 #include "pictures/png_file.h"
 #include "pictures/strip.h"
-#include "pictures/swept_quantity.h"
 #include "results/output_file.h"
 #include "results/run_view.h"
 
@@ -252,7 +251,7 @@ int run_render(const RenderCommand& command) {
         "--hertz: " + command.run +
         " holds no estimates of contact pressure, expected a scene with a surface that "
         "has a modulus");
-  const SweptQuantity swept = swept_quantity(run.scene);
+  const SweptQuantity swept = swept_quantity(run);
   std::vector<std::size_t> poses =
       command.movie ? movie_poses(command, run, swept) : chosen_poses(command, run, swept);
   const int status = keep_drawable(run, swept, poses);

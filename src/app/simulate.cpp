@@ -13,6 +13,7 @@
 #include "app/summary.h"
 #include "app/talk.h"
 #include "input_error.h"
+#include "results/motion_view.h"
 #include "results/sweep_table.h"
 
 namespace condyle {
@@ -28,45 +29,40 @@ struct SimulateCommand {
 
 /// At most some thirty rows of the table that a sweep prints.
 void print_rows(const Scene& scene, const std::vector<PoseResult>& poses) {
-  const SweepTable table(scene);
+  const SweepTable table(scene, quantity_of_motion());
   fmt::print("{}", table.head());
   const std::size_t step = std::max<std::size_t>(1, poses.size() / 30);
   for (std::size_t i = 0; i < poses.size(); i += step) fmt::print("{}", table.row(poses[i]));
 }
 
-void print_events(const Scene& scene, const Simulation& simulation) {
-  for (const ContactEvent& event : simulation.motion.events) {
-    const std::string& contact = scene.contacts[simulation.contact_of[event.contact]].name;
-    fmt::print("{:.6f} s: {} {}", event.t, contact, event.closing ? "closes" : "opens");
+void print_events(const MotionView& motion) {
+  for (const MotionEvent& event : motion.events) {
+    fmt::print("{:.6f} s: {} {}", event.time, event.contact, event.closing ? "closes" : "opens");
     if (event.closing && event.speed > 0) fmt::print(" at {:.4g} mm/s", event.speed);
     fmt::print("\n");
   }
 }
 
-void print_balance(const Simulation& simulation) {
-  const Motion& motion = simulation.motion;
-  if (motion.frames.empty()) return;
-  const MotionFrame &first = motion.frames.front(), &last = motion.frames.back();
-  const auto change = [&](double EnergySum::*part) {
-    return (last.energy.*part - first.energy.*part) / kJoule;
-  };
+void print_balance(const MotionView& motion, double mass) {
+  if (motion.energies.empty()) return;
+  const auto change = [&](double MotionEnergies::*part) { return motion.change(part) / kJoule; };
   fmt::print(
       "\nEnergy in J: kinetic {:+.6g}, gravity {:+.6g}, ligaments {:+.6g}, dissipated {:.6g}, "
       "loads "
       "gave {:.6g}\n",
-      change(&EnergySum::kinetic), change(&EnergySum::gravity), change(&EnergySum::elastic),
-      last.dissipated / kJoule, last.driver_work / kJoule);
-  fmt::print("Balance kept to {:.1e} of the largest of them\n",
-             motion.largest_imbalance / std::max(motion.energy_scale, 1e-300));
+      change(&MotionEnergies::kinetic), change(&MotionEnergies::gravity),
+      change(&MotionEnergies::elastic), change(&MotionEnergies::dissipated),
+      change(&MotionEnergies::work));
+  fmt::print("Balance kept to {:.1e} of the largest of them\n", motion.imbalance);
   fmt::print("{:.3f} s of motion of {:.4g} kg in {:.3f} s, {} steps\n",
-             last.state.t - first.state.t, simulation.mass.mass * 1e3, simulation.seconds,
-             motion.steps);
+             motion.change(&MotionEnergies::time), mass * 1e3, motion.seconds, motion.steps);
 }
 
-void print_motion(const Scene& scene, const Simulation& simulation) {
-  print_rows(scene, simulation.poses);
-  print_events(scene, simulation);
-  print_balance(simulation);
+void print_motion(const Run& run) {
+  print_rows(run.scene, run.sweep.poses);
+  const MotionView motion = *motion_view(run);
+  print_events(motion);
+  print_balance(motion, run.simulation()->mass.mass);
 }
 
 int report_failures(const Simulation& simulation) {
@@ -87,21 +83,22 @@ int report_failures(const Simulation& simulation) {
 int run_simulate(const SimulateCommand& command) {
   const Talk& talk = command.talk;
   CommandClock clock;
-  auto [scene, surfaces, run] = begin_study(talk, command.scene, command.output, [](Scene& s) {
-    if (!s.simulation)
-      throw InputError(s.file.string() +
-                       ": [simulate] is missing, expected time, rate and gravity");
-    s.sweep.reset();  // another command's
-  });
+  auto [scene, surfaces, run] =
+      begin_study(talk, command.scene, command.output, [](const Scene& s) {
+        if (!s.simulation)
+          throw InputError(s.file.string() +
+                           ": [simulate] is missing, expected time, rate and gravity");
+      });
   Progress progress(talk, "frames");
-  run.simulation =
-      simulate(scene, surfaces, [&](int done, int total) { progress.at(done, total); });
+  const auto simulation = std::make_shared<const Simulation>(
+      simulate(scene, surfaces, [&](int done, int total) { progress.at(done, total); }));
+  run.study = simulation;
   progress.clear();
-  run.sweep.poses = run.simulation->poses;
-  if (talk.plain()) print_motion(scene, *run.simulation);
+  run.sweep.poses = simulation->poses;
+  if (talk.plain()) print_motion(run);
   write_run(command.output, run);
   say(talk, "wrote {}\n", command.output);
-  return finish(talk, clock.summary(talk, command.output, report_failures(*run.simulation)), run);
+  return finish(talk, clock.summary(talk, command.output, report_failures(*simulation)), run);
 }
 
 }  // namespace

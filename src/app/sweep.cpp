@@ -18,6 +18,7 @@
 #include "input_error.h"
 #include "results/journal.h"
 #include "results/output_file.h"
+#include "results/run_view.h"
 #include "results/sweep_table.h"
 #include "scene/read_scene.h"
 
@@ -39,7 +40,7 @@ SweepResult sweep_aloud(const Talk& talk,
                         const std::vector<FittedSurface>& surfaces,
                         std::vector<KnownPose> known,
                         Journal& journal) {
-  const SweepTable table(scene);
+  const SweepTable table(scene, quantity_of_sweep(scene));
   say(talk, "{}", table.head());
   const bool resumed = !known.empty();
   std::size_t computed = 0;
@@ -86,7 +87,6 @@ int run_sweep(const SweepCommand& command) {
   CommandClock clock;
   check_output_file(command.output);
   Scene scene = read_scene(command.scene);
-  scene.simulation.reset();  // another command's
   if (command.resume && scene.sweep && scene.sweep->arc_length) {
     throw InputError(command.scene +
                      ": [sweep]: path = \"arc length\", expected \"steps\" for --resume");
@@ -102,10 +102,12 @@ int run_sweep(const SweepCommand& command) {
   Journal journal(journal_path(command.output), identity(scene, surfaces), earlier.journal_bytes);
   run.sweep = sweep_aloud(talk, scene, surfaces, std::move(earlier.poses), journal);
   const SweepResult& result = run.sweep;
-  for (const std::string& line : event_lines(scene, result)) say(talk, "{}\n", line);
+  for (const std::string& line : event_lines(scene, swept_quantity(run), result))
+    say(talk, "{}\n", line);
   write_result(command, run, journal);
   if (!journal.failure().empty()) fmt::print(stderr, "condyle: {}\n", journal.failure());
-  for (const std::string& line : failures(scene, result)) fmt::print(stderr, "condyle: {}\n", line);
+  for (const std::string& line : failures(swept_quantity(run), result))
+    fmt::print(stderr, "condyle: {}\n", line);
   const bool all = result.count_converged() == static_cast<int>(result.poses.size());
   CommandSummary facts = clock.summary(talk, command.output, all ? 0 : kSomePoseFailed);
   if (!journal.failure().empty()) facts.warnings.push_back(journal.failure());

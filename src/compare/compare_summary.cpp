@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "compare/compare.h"
-#include "scene/sweep_range.h"
+#include "scene/swept_quantity.h"
 
 namespace condyle {
 namespace {
@@ -12,8 +12,8 @@ namespace {
 using Lines = std::vector<std::string>;
 
 std::string at_value(const Scene& scene, const SweepResult& sweep, std::size_t pose) {
-  const Unit unit = border_sweep_unit(scene);
-  return fmt::format("{:g}", std::round(1e6 * sweep.poses.at(pose).value / unit.factor) / 1e6);
+  const double shown = quantity_of_sweep(scene).shown(sweep.poses.at(pose).value);
+  return fmt::format("{:g}", std::round(1e6 * shown) / 1e6);
 }
 
 void add_fits(const Scene& scene,
@@ -54,10 +54,9 @@ void add_contacts(const Scene& scene,
                   const SweepResult& ours,
                   const Comparison& comparison,
                   Lines& lines) {
-  const std::string unit = border_sweep_unit(scene).name;
+  const std::string unit = quantity_of_sweep(scene).unit_after_number();
   const auto say = [&](const std::string& what, const std::string& where) {
-    if (!where.empty())
-      lines.push_back(fmt::format("{} at {}{}", what, where, unit == "1" ? "" : " " + unit));
+    if (!where.empty()) lines.push_back(fmt::format("{} at {}{}", what, where, unit));
   };
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     const std::string& name = scene.contacts[c].name;
@@ -84,8 +83,8 @@ void add_contacts(const Scene& scene,
 void add_failures(const Scene& scene, const Comparison& comparison, Lines& lines) {
   for (const PoseResult& pose : comparison.reference.poses) {
     if (pose.converged()) continue;
-    const Unit unit = border_sweep_unit(scene);
-    lines.push_back(fmt::format("reference at {:g}: {}", pose.value / unit.factor, pose.reason));
+    lines.push_back(fmt::format("reference at {:g}: {}", quantity_of_sweep(scene).shown(pose.value),
+                                pose.reason));
   }
   for (const Variant v : {Variant::kSurfaces, Variant::kSprings, Variant::kClosed}) {
     const std::size_t n = comparison.reference.poses.size();

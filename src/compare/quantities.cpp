@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "scene/ligament_bundles.h"
+#include "scene/swept_quantity.h"
 
 namespace condyle {
 namespace {
@@ -19,9 +20,7 @@ void add_joint(const Scene& scene, std::vector<Quantity>& quantities) {
   const auto length = [&](const char* name, double JointCoordinates::*member) {
     quantities.push_back({name, "mm", [member](const PoseResult& p) { return p.joint.*member; }});
   };
-  const bool swept = scene.sweep && !scene.sweep->varies_load &&
-                     scene.conditions[scene.sweep->index].kind == ConditionKind::kFlexion;
-  if (!swept) angle("flexion", &JointCoordinates::flexion);
+  if (!quantity_of_sweep(scene).flexion) angle("flexion", &JointCoordinates::flexion);
   angle("adduction", &JointCoordinates::adduction);
   angle("internal rotation", &JointCoordinates::internal_rotation);
   length("lateral shift", &JointCoordinates::lateral_shift);

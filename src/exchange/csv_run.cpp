@@ -6,7 +6,6 @@
 #include <iterator>
 
 #include "exchange/run_table.h"
-#include "scene/sweep_range.h"
 
 namespace condyle {
 namespace {
@@ -21,13 +20,12 @@ std::string quoted(const std::string& text) {
 }  // namespace
 
 std::string csv_of_poses(const Run& run, const std::vector<ShownPose>& shown) {
-  const ShownUnit unit = shown_unit(run.scene);
+  const SweptQuantity quantity = swept_quantity(run);
   const std::vector<TableColumn> columns = run_columns(run, shown);
   std::string text = "pose,swept,swept_unit,quantity,name,component,value,unit\n";
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    const double swept =
-        in_unit(run.sweep.poses[shown[i].index].value, {unit.name, 1 / unit.per_inside});
-    const std::string head = fmt::format("{},{},{},", shown[i].index, swept, unit.name);
+    const double swept = quantity.shown(run.sweep.poses[shown[i].index].value);
+    const std::string head = fmt::format("{},{},{},", shown[i].index, swept, quantity.unit.name);
     for (const TableColumn& column : columns) {
       if (!std::isfinite(column.values[i])) continue;
       fmt::format_to(std::back_inserter(text), "{}{},{},{},{},{}\n", head, column.quantity,

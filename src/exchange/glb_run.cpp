@@ -106,16 +106,13 @@ class GlbRun {
   }
 
   void add_times() {
-    out_.animation = scene_.simulation ? "motion" : "sweep";
+    out_.animation = run_.kind() == RunKind::kSimulation ? "motion" : "sweep";
     for (const ShownPose& shown : shown_) out_.times.push_back(shown.time);
-    const ShownUnit unit = shown_unit(scene_);
-    out_.words = {{"title", scene_.title}, {"unit", unit.name}};
-    out_.words.emplace_back("varied", scene_.simulation ? "time"
-                                      : scene_.sweep    ? scene_.sweep->vary
-                                                        : "");
+    const SweptQuantity swept = swept_quantity(run_);
+    out_.words = {{"title", scene_.title}, {"unit", swept.unit.name}, {"varied", swept.name}};
     out_.extras.push_back({"time_s", out_.times});
     out_.extras.push_back(
-        {"value", of_poses([&](const PoseResult& p) { return unit.per_inside * p.value; })});
+        {"value", of_poses([&](const PoseResult& p) { return swept.shown(p.value); })});
     out_.extras.push_back(
         {"status", of_poses([](const PoseResult& p) { return static_cast<double>(p.status); })});
     out_.extras.push_back({"strain_top", {strain_scale(run_).top}});

@@ -56,7 +56,7 @@ RigidTransform opensim_frame(const Scene& scene,
   X.R.col(1) = frame.proximal;
   X.R.col(2) = scene.joint->side == Side::kRight ? frame.lateral : Vector3d(-frame.lateral);
   X.p = frame.origin;
-  return body_pose(scene, pose, frame.body) * X;
+  return body_pose(scene, pose.X_BA, frame.body) * X;
 }
 
 class StorageColumns {

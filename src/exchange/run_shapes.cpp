@@ -94,9 +94,8 @@ void thin_out(RunShape& shape, std::size_t triangles) {
 SurfaceMesh mesh_of(const Run& run, const SurfaceDescription& surface, double spacing) {
   if (surface.kind != SurfaceKind::kPatch)
     return exact_mesh(surface, place_of_interest(run, surface.body));
-  const auto patch = std::find_if(run.patches.begin(), run.patches.end(),
-                                  [&](const RunPatch& p) { return p.surface == surface.name; });
-  return patch == run.patches.end() ? SurfaceMesh() : patch_mesh(Patch(patch->data), spacing);
+  const RunPatch* patch = patch_of(run, surface.name);
+  return patch == nullptr ? SurfaceMesh() : patch_mesh(Patch(patch->data), spacing);
 }
 
 }  // namespace

@@ -38,10 +38,10 @@ std::vector<ShownPose> shown_poses(const Run& run, const std::string& file) {
                      ": holds no pose that converged, expected the result of condyle sweep "
                      "or simulate");
   }
-  if (run.scene.simulation) return shown;
-  const ShownUnit unit = shown_unit(run.scene);
+  if (run.kind() == RunKind::kSimulation) return shown;
+  const Unit unit = swept_quantity(run).unit;
   const double per_value = unit.name == "deg"
-                               ? unit.per_inside / kDegreesPerSecond
+                               ? 1 / (unit.factor * kDegreesPerSecond)
                                : kWholeSweep / std::max(whole_change(run, shown), 1e-12);
   double time = 0;
   for (std::size_t i = 0; i < shown.size(); ++i) {
@@ -78,12 +78,8 @@ std::vector<ShownPose> converged_only(const Run& run,
   return good;
 }
 
-RigidTransform body_pose(const Scene& scene, const PoseResult& pose, int body) {
-  return body == scene.moving_body() ? pose.X_BA : RigidTransform();
-}
-
 Vector3d insertion(const Scene& scene, const PoseResult& pose, const Attachment& end) {
-  return body_pose(scene, pose, end.body) * end.at;
+  return body_pose(scene, pose.X_BA, end.body) * end.at;
 }
 
 Vector3d force_on_moving_body(const ContactResult& contact) {

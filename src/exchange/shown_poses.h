@@ -36,9 +36,6 @@ inline constexpr double kDegreesPerSecond = 10;
                                                     const std::string& file,
                                                     const std::vector<ShownPose>& shown);
 
-/// Pose of a body in the ground frame.
-[[nodiscard]] RigidTransform body_pose(const Scene& scene, const PoseResult& pose, int body);
-
 /// A ligament's end in the ground frame [mm].
 [[nodiscard]] Eigen::Vector3d insertion(const Scene& scene,
                                         const PoseResult& pose,

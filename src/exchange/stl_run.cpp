@@ -67,7 +67,7 @@ std::string stl_of_pose(const Run& run,
   std::vector<std::pair<const TriangleMesh*, RigidTransform>> parts;
   for (const RunShape& shape : shapes) {
     if (shape.bone == bones)
-      parts.emplace_back(&shape.mesh, body_pose(run.scene, pose, shape.body));
+      parts.emplace_back(&shape.mesh, body_pose(run.scene, pose.X_BA, shape.body));
   }
   return stl(parts);
 }

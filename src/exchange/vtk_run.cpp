@@ -27,11 +27,11 @@ std::string shape_vtp(const RunShape& shape, const RigidTransform& X) {
 
 /// The swept value at each step where it grows, as ParaView wants of time.
 std::vector<double> step_times(const Run& run, const std::vector<ShownPose>& shown) {
-  const ShownUnit unit = shown_unit(run.scene);
+  const SweptQuantity quantity = swept_quantity(run);
   std::vector<double> swept, times;
   bool grows = true;
   for (const ShownPose& pose : shown) {
-    swept.push_back(unit.per_inside * run.sweep.poses[pose.index].value);
+    swept.push_back(quantity.shown(run.sweep.poses[pose.index].value));
     times.push_back(pose.time);
     grows = grows && (swept.size() < 2 || swept.back() > swept[swept.size() - 2]);
   }

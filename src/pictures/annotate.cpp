@@ -10,7 +10,7 @@
 #include "pictures/label_layout.h"
 #include "pictures/ligament_labels.h"
 #include "pictures/page_scales.h"
-#include "pictures/swept_quantity.h"
+#include "results/run_view.h"
 
 namespace condyle {
 namespace {
@@ -131,7 +131,7 @@ std::array<std::string, 2> in_two_lines(const std::string& text) {
 }  // namespace
 
 std::string caption(const Scenery& scenery, bool with_value) {
-  const SweptQuantity swept = swept_quantity(scenery.run.scene);
+  const SweptQuantity swept = swept_quantity(scenery.run);
   std::string text = view_words(scenery);
   if (scenery.proximity) text += "  ·  gap between the surfaces";
   if (!with_value) return text;
@@ -139,9 +139,8 @@ std::string caption(const Scenery& scenery, bool with_value) {
     text +=
         fmt::format("  ·  flexion {:g}°",
                     std::round(scenery.pose.joint.flexion * 1800 / std::numbers::pi) / 10 + 0.0);
-  const bool varies = scenery.run.scene.sweep || scenery.run.scene.simulation;
-  if (!swept.flexion && varies)
-    text += "  ·  " + swept.inside_a_line() + " " + with_unit(swept, scenery.pose.value);
+  if (!swept.flexion && !swept.symbol.empty())
+    text += "  ·  " + swept.inside + " " + with_unit(swept, scenery.pose.value);
   return text;
 }
 

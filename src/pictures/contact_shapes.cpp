@@ -91,11 +91,11 @@ ShadedMesh contact_paths(const Run& run, int body, const PictureScales& scales) 
 }
 
 ShadedMesh reference_paths(const Run& run, int body, const PictureScales& scales) {
-  if (!run.comparison) return {};
-  return paths_of(run.scene, run.comparison->reference, body, kReferencePath * scales.size,
-                  [](const PoseResult&) {
-                    return Paint{kReferenceColor, 0.9};
-                  });
+  const SweepResult* reference = reference_poses(run);
+  if (reference == nullptr) return {};
+  return paths_of(run.scene, *reference, body, kReferencePath * scales.size, [](const PoseResult&) {
+    return Paint{kReferenceColor, 0.9};
+  });
 }
 
 ShadedMesh contact_points(const std::vector<ContactMark>& marks, double radius) {

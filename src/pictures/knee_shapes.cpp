@@ -12,28 +12,13 @@ namespace {
 
 constexpr Paint kBone = {{232, 222, 204}, 0};
 
-const RunPatch* patch_of(const Run& run, const std::string& surface) {
-  for (const RunPatch& patch : run.patches) {
-    if (patch.surface == surface) return &patch;
-  }
-  return nullptr;
-}
-
 }  // namespace
 
-int tibia_body(const Scene& scene) {
-  return scene.joint ? scene.joint->tibia.body : scene.moving_body();
-}
-int femur_body(const Scene& scene) {
-  return scene.joint ? scene.joint->femur.body : scene.fixed_body();
-}
-
 std::vector<RigidTransform> body_poses(const Scene& scene, const RigidTransform& X_BA) {
-  std::vector<RigidTransform> poses(scene.bodies.size());
-  const int moving = scene.moving_body(), tibia = tibia_body(scene);
-  if (moving >= 0) poses[static_cast<std::size_t>(moving)] = X_BA;
-  const RigidTransform X_PB = tibia == moving && moving >= 0 ? X_BA.inverse() : RigidTransform();
-  for (RigidTransform& pose : poses) pose = X_PB * pose;
+  const RigidTransform X_PB = body_pose(scene, X_BA, tibia_body(scene)).inverse();
+  std::vector<RigidTransform> poses;
+  for (int body = 0; body < static_cast<int>(scene.bodies.size()); ++body)
+    poses.push_back(X_PB * body_pose(scene, X_BA, body));
   return poses;
 }
 

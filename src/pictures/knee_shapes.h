@@ -13,10 +13,6 @@
 
 namespace condyle {
 
-/// Index of the tibia's and the femur's body; without [joint] the moving and the fixed body.
-[[nodiscard]] int tibia_body(const Scene& scene);
-[[nodiscard]] int femur_body(const Scene& scene);
-
 /// Pose of every body in P when the moving body has the pose X_BA in the ground frame.
 [[nodiscard]] std::vector<RigidTransform> body_poses(const Scene& scene,
                                                      const RigidTransform& X_BA);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "input_error.h"
+#include "results/run_view.h"
 
 namespace condyle {
 namespace {
@@ -62,8 +63,8 @@ void check(const std::vector<NamedRun>& runs) {
       throw InputError(named.name +
                        ": holds no poses, expected runs with poses to draw over each "
                        "other");
-    const std::string first = abscissa_of(runs.front().run->scene).label,
-                      other = abscissa_of(named.run->scene).label;
+    const std::string first = swept_quantity(*runs.front().run).axis,
+                      other = swept_quantity(*named.run).axis;
     if (first != other)
       throw InputError(named.name + ": goes over " + other + ", but " + runs.front().name +
                        " over " + first + ": expected runs over the same quantity");

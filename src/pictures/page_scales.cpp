@@ -10,7 +10,7 @@
 
 #include "pictures/color_bar.h"
 #include "pictures/gap_map.h"
-#include "pictures/swept_quantity.h"
+#include "results/run_view.h"
 #include "results/strain_scale.h"
 
 namespace condyle {
@@ -60,7 +60,7 @@ std::string overlap_words(double overlap) {
 
 void draw_bars(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
   const double left = page.width - 98 * pen.s, right = left + 16 * pen.s;
-  const SweptQuantity swept = swept_quantity(scenery.run.scene);
+  const SweptQuantity swept = swept_quantity(scenery.run);
   const PictureScales& scales = scenery.scales;
   double top = 150 * pen.s;
   if (!scenery.run.scene.ligaments.empty()) {
@@ -71,11 +71,11 @@ void draw_bars(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
   const Frame lower{left, top, right, top + kBarHeight * pen.s};
   if (scenery.proximity) return draw_gap_bar(pen, scenery.overlap, lower);
   if (scenery.run.scene.contacts.empty() || !(scales.sweep_high > scales.sweep_low)) return;
-  const std::string unit = swept.unit == "°" ? "[°]" : "[" + swept.unit + "]";
-  draw_color_bar(pen,
-                 {ColorMap::kFlexion, "Contact path", capitalized(swept.title) + " " + unit,
-                  swept.shown(scales.sweep_low), swept.shown(scales.sweep_high)},
-                 lower);
+  draw_color_bar(
+      pen,
+      {ColorMap::kFlexion, "Contact path", capitalized(swept.title) + " [" + swept.symbol + "]",
+       swept.shown(scales.sweep_low), swept.shown(scales.sweep_high)},
+      lower);
 }
 
 namespace {
@@ -182,7 +182,7 @@ void draw_keys(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
     pen.canvas.disc({left - 10 * pen.s, y}, 5.8 * pen.s, kHertzColor);
     y -= 24 * pen.s;
   }
-  if (!scenery.run.comparison || scenery.proximity) return;
+  if (!scenery.run.comparison() || scenery.proximity) return;
   const double left = words("contact path of Wismans' model");
   pen.canvas.line({left - 34 * pen.s, y}, {left, y}, 3 * pen.s, kReferenceColor);
   pen.canvas.disc({left - 17 * pen.s, y}, 3.4 * pen.s, kReferenceColor);

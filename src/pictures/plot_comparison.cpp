@@ -8,6 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "compare/laxity.h"
+#include "results/run_view.h"
+
 namespace condyle {
 namespace {
 
@@ -16,11 +19,11 @@ constexpr std::size_t kMostPerPanel = 8;  ///< curves of ours, each with one of 
 constexpr const char* kDashed = " (dashed: Wismans' model)";
 
 Chart chart_of(const Run& run, const std::string& what) {
-  return {run.scene.title, what, abscissa_of(run.scene).label, {}};
+  return {run.scene.title, what, swept_quantity(run).axis, {}};
 }
 
 std::vector<double> swept_values(const Run& run) {
-  const double per_value = abscissa_of(run.scene).per_value;
+  const double per_value = swept_quantity(run).axis_per_inside;
   std::vector<double> values;
   for (const PoseResult& pose : run.sweep.poses) values.push_back(per_value * pose.value);
   return values;
@@ -59,13 +62,13 @@ Panel both(const Run& run,
            const std::function<bool(const ComparedQuantity&)>& which) {
   Panel panel{label, {}};
   int color = 0;
-  for (const ComparedQuantity& quantity : run.comparison->quantities) {
+  for (const ComparedQuantity& quantity : run.comparison()->quantities) {
     if (!which(quantity) || !carries(quantity)) continue;
     Curve ours{short_title(quantity.name), swept_values(run), quantity.of(Variant::kOurs), color};
     Curve reference{"", swept_values(run), quantity.of(Variant::kReference), color, true};
     if (const auto contact = contact_of_place(run.scene, quantity)) {
       ours = broken_at_jumps(std::move(ours), run.sweep, *contact);
-      reference = broken_at_jumps(std::move(reference), run.comparison->reference, *contact);
+      reference = broken_at_jumps(std::move(reference), run.comparison()->reference, *contact);
     }
     panel.curves.push_back(std::move(ours));
     panel.curves.push_back(std::move(reference));
@@ -89,7 +92,7 @@ std::vector<Panel> divided(const Panel& panel) {
 /// What the engine does with one thing of the reference model at a time.
 Panel switched(const Run& run, const std::string& name) {
   Panel panel;
-  for (const ComparedQuantity& quantity : run.comparison->quantities) {
+  for (const ComparedQuantity& quantity : run.comparison()->quantities) {
     if (quantity.name != name) continue;
     panel.y_label = fmt::format("{} [{}]", name, quantity.units == "deg" ? "°" : quantity.units);
     const std::vector<std::pair<Variant, std::string>> curves = {
@@ -121,7 +124,7 @@ void add_chart(std::vector<NamedChart>& charts,
 
 std::vector<NamedChart> comparison_charts(const Run& run) {
   std::vector<NamedChart> charts;
-  if (!run.comparison) return charts;
+  if (!run.comparison()) return charts;
   const auto is_place = [](const ComparedQuantity& q) {
     return q.name.find(" contact, ") != std::string::npos;
   };
@@ -147,19 +150,18 @@ std::vector<NamedChart> comparison_charts(const Run& run) {
 }
 
 Chart laxity_chart(const Run& run) {
-  const LoadDescription& load = run.scene.loads[run.scene.sweep->index];
+  const SweptQuantity swept = swept_quantity(run);
+  const std::vector<LaxityCurve>& curves = run.laxity()->curves;
   const bool angle = loaded_coordinate(run.scene) < 3;
-  const bool both_models = !run.laxity->curves.empty() && run.laxity->curves[0].reference;
-  Chart chart{run.scene.title,
-              std::string("laxity") + (both_models ? kDashed : ""),
-              fmt::format("{} [{}]", load.name, load.moment ? "N mm" : "N"),
-              {}};
+  const bool both_models = !curves.empty() && curves[0].reference;
+  Chart chart{
+      run.scene.title, std::string("laxity") + (both_models ? kDashed : ""), swept.axis, {}};
   std::vector<double> loads;
-  for (const double scale : run.scene.sweep->values) loads.push_back(scale * load.vector.norm());
+  for (const double scale : run.scene.sweep->values) loads.push_back(swept.axis_per_inside * scale);
   for (const bool cut : {false, true}) {
     Panel panel{fmt::format("{} [{}]", cut ? "Ligaments cut" : "Intact", angle ? "°" : "mm"), {}};
     int color = 0;
-    for (const LaxityCurve& curve : run.laxity->curves) {
+    for (const LaxityCurve& curve : curves) {
       if (curve.cut != cut) continue;
       panel.curves.push_back(
           {fmt::format("{:g}°", std::round(1e4 * curve.flexion * kDegrees) / 1e4), loads,

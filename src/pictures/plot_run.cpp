@@ -24,7 +24,7 @@ std::vector<std::filesystem::path> plot_run(const Run& run,
                                             const std::vector<PlotFormat>& formats) {
   std::vector<NamedChart> charts = run_charts(run);
   for (NamedChart& chart : comparison_charts(run)) charts.push_back(std::move(chart));
-  if (run.laxity) charts.push_back({"laxity", laxity_chart(run)});
+  if (run.laxity()) charts.push_back({"laxity", laxity_chart(run)});
   return plot_charts(charts, folder, formats);
 }
 

@@ -12,8 +12,8 @@
 
 #include "pictures/knee_shapes.h"
 #include "pictures/ligament_groups.h"
-#include "pictures/swept_quantity.h"
 #include "results/contact_path.h"
+#include "results/motion_view.h"
 #include "results/run_view.h"
 
 namespace condyle {
@@ -29,10 +29,10 @@ using OfPose = std::function<double(const PoseResult&)>;
 
 /// y of each converged pose over the swept value; hollow where a pose has a place but is no result.
 Curve curve_of(const Run& run, const std::string& title, const OfPose& y) {
-  const Abscissa abscissa = abscissa_of(run.scene);
+  const double per_value = swept_quantity(run).axis_per_inside;
   Curve curve{title, {}, {}};
   for (const PoseResult& pose : run.sweep.poses) {
-    const double x = abscissa.per_value * pose.value;
+    const double x = per_value * pose.value;
     curve.x.push_back(x);
     curve.y.push_back(pose.converged() ? y(pose) : kUnknown);
     if (pose.converged() || !has_place(pose)) continue;
@@ -43,7 +43,7 @@ Curve curve_of(const Run& run, const std::string& title, const OfPose& y) {
 }
 
 Chart chart_of(const Run& run, const std::string& what) {
-  return {run.scene.title, what, abscissa_of(run.scene).label, {}};
+  return {run.scene.title, what, swept_quantity(run).axis, {}};
 }
 
 bool has_value(const Curve& curve) {
@@ -125,20 +125,6 @@ Curve broken_at_jumps(Curve curve, const SweepResult& sweep, std::size_t contact
   return curve;
 }
 
-Abscissa abscissa_of(const Scene& scene) {
-  const SweptQuantity swept = swept_quantity(scene);
-  const bool load = !scene.simulation && scene.sweep && scene.sweep->varies_load &&
-                    scene.sweep->index >= 0 &&
-                    static_cast<std::size_t>(scene.sweep->index) < scene.loads.size();
-  if (load) {
-    const LoadDescription& varied = scene.loads[static_cast<std::size_t>(scene.sweep->index)];
-    if (varied.vector.norm() > 0)
-      return {varied.name + (varied.moment ? " [N mm]" : " [N]"), varied.vector.norm()};
-  }
-  const std::string unit = swept.unit == "×" || swept.unit.empty() ? "" : " [" + swept.unit + "]";
-  return {swept.title + unit, swept.per_inside};
-}
-
 Chart joint_coordinate_chart(const Run& run) {
   Chart chart = chart_of(run, "joint coordinates");
   if (!run.scene.joint) return chart;
@@ -151,7 +137,7 @@ Chart joint_coordinate_chart(const Run& run) {
     lengths.curves.push_back(
         curve_of(run, title, [member](const PoseResult& pose) { return pose.joint.*member; }));
   };
-  if (!swept_quantity(run.scene).flexion) angle("flexion", &JointCoordinates::flexion);
+  if (!swept_quantity(run).flexion) angle("flexion", &JointCoordinates::flexion);
   angle("adduction", &JointCoordinates::adduction);
   angle("internal rotation", &JointCoordinates::internal_rotation);
   length("lateral shift", &JointCoordinates::lateral_shift);
@@ -216,7 +202,8 @@ Chart ligament_strain_chart(const Run& run) {
 
 Chart flexion_moment_chart(const Run& run) {
   Chart chart = chart_of(run, "flexion moment of the knee");
-  for (std::size_t i = 0; i < run.scene.conditions.size() && !run.scene.simulation; ++i) {
+  if (run.kind() == RunKind::kSimulation) return chart;
+  for (std::size_t i = 0; i < run.scene.conditions.size(); ++i) {
     if (run.scene.conditions[i].kind != ConditionKind::kFlexion) continue;
     keep(chart, {"Flexion moment [N mm]", {curve_of(run, "", [i](const PoseResult& pose) {
                    return i < pose.conditions.size() ? pose.conditions[i].multiplier : kUnknown;
@@ -235,25 +222,24 @@ Chart stability_chart(const Run& run) {
 
 Chart energy_chart(const Run& run) {
   Chart chart = chart_of(run, "energy");
-  if (!run.simulation || run.simulation->motion.frames.empty()) return chart;
+  const std::optional<MotionView> motion = motion_view(run);
+  if (!motion || motion->energies.empty()) return chart;
   constexpr double kJoule = 1e3;  // N mm
-  const std::vector<MotionFrame>& frames = run.simulation->motion.frames;
-  const auto curve = [&](const std::string& title,
-                         const std::function<double(const MotionFrame&)>& of) {
+  const auto curve = [&](const std::string& title, double MotionEnergies::*part) {
     Curve joules{title, {}, {}};
-    for (const MotionFrame& frame : frames) {
-      joules.x.push_back(frame.state.t);
-      joules.y.push_back((of(frame) - of(frames.front())) / kJoule);
+    for (const MotionEnergies& frame : motion->energies) {
+      joules.x.push_back(frame.time);
+      joules.y.push_back((frame.*part - motion->energies.front().*part) / kJoule);
     }
     return joules;
   };
   Panel parts{"Energy since the start [J]", {}};
-  parts.curves = {curve("kinetic", [](const auto& f) { return f.energy.kinetic; }),
-                  curve("gravity", [](const auto& f) { return f.energy.gravity; }),
-                  curve("ligaments", [](const auto& f) { return f.energy.elastic; }),
-                  curve("dissipated", [](const auto& f) { return f.dissipated; }),
-                  curve("work of loads", [](const auto& f) { return f.driver_work; })};
-  const Panel balance = balance_panel(curve("", [](const auto& f) { return f.balance(); }));
+  parts.curves = {curve("kinetic", &MotionEnergies::kinetic),
+                  curve("gravity", &MotionEnergies::gravity),
+                  curve("ligaments", &MotionEnergies::elastic),
+                  curve("dissipated", &MotionEnergies::dissipated),
+                  curve("work of loads", &MotionEnergies::work)};
+  const Panel balance = balance_panel(curve("", &MotionEnergies::balance));
   chart.panels = {parts, balance};
   return chart;
 }

@@ -16,13 +16,6 @@ struct NamedChart {
   Chart chart;
 };
 
-/// The abscissa of all charts of a run: what is swept, a swept load by its size.
-struct Abscissa {
-  std::string label;  ///< with unit
-  double per_value = 1;
-};
-[[nodiscard]] Abscissa abscissa_of(const Scene& scene);
-
 /// A curve with a value for each pose of a sweep, divided between following poses that do not
 /// belong to one piece of a contact's path.
 [[nodiscard]] Curve broken_at_jumps(Curve curve, const SweepResult& sweep, std::size_t contact);

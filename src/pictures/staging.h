@@ -6,6 +6,7 @@
 
 #include "pictures/camera.h"
 #include "pictures/knee_shapes.h"
+#include "results/run_view.h"
 
 namespace condyle {
 

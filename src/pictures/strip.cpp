@@ -8,7 +8,7 @@
 
 #include "pictures/annotate.h"
 #include "pictures/page_scales.h"
-#include "pictures/swept_quantity.h"
+#include "results/run_view.h"
 
 namespace condyle {
 namespace {
@@ -38,7 +38,7 @@ void draw_page_words(const Pen& pen, const PageLayout& page, const Scenery& scen
 void draw_value(const Pen& pen, const Eigen::Vector2d& at, const Scenery& scenery) {
   TextStyle value = pen.style(19, kInk, Align::kCenter);
   value.bold = true;
-  std::string words = with_unit(swept_quantity(scenery.run.scene), scenery.pose.value);
+  std::string words = with_unit(swept_quantity(scenery.run), scenery.pose.value);
   if (!scenery.pose.converged()) words += std::string("  ") + name(scenery.pose.status);
   pen.canvas.text(at, words, value);
   if (scenery.pose.converged()) return;

@@ -10,6 +10,7 @@
 #include "input_error.h"
 #include "mesh/mesh_measures.h"
 #include "scene/start_pose.h"
+#include "scene/swept_quantity.h"
 
 namespace condyle {
 namespace {
@@ -74,11 +75,11 @@ struct FlexionRange {
       low = std::min(low, value);
       high = std::max(high, value);
     };
+    const int swept = quantity_of_sweep(scene).condition;
     for (std::size_t i = 0; i < scene.conditions.size(); ++i) {
       if (scene.conditions[i].kind != ConditionKind::kFlexion) continue;
       include(scene.conditions[i].value);
-      if (!scene.sweep || scene.sweep->varies_load || scene.sweep->index != static_cast<int>(i))
-        continue;
+      if (swept != static_cast<int>(i)) continue;
       low = high = scene.sweep->values.front();
       for (const double value : scene.sweep->values) include(value);
     }

@@ -12,10 +12,6 @@ namespace {
 
 using Poses = std::vector<PoseResult>;
 
-std::string swept_head(const Swept& swept) {
-  return swept.units == "1" ? swept.name : fmt::format("{} [{}]", swept.name, swept.units);
-}
-
 std::vector<std::string> contact_row(const PoseResult& pose, std::size_t index, bool pressed) {
   const ContactResult& contact = pose.contacts[index];
   const ContactPointResult* point = strongest_point(contact);
@@ -50,11 +46,11 @@ bool has_pressure(const Poses& poses, std::size_t index) {
 }
 
 HtmlTable contact_table(const Run& run, std::size_t index) {
-  const Swept swept = swept_of(run.scene);
+  const SweptQuantity swept = swept_quantity(run);
   const bool pressed = has_pressure(run.sweep.poses, index);
   HtmlTable table{
       run.scene.contacts[index].name,
-      {swept_head(swept), "state", "force [N]", "points", "x [mm]", "y [mm]", "z [mm]", "gap [mm]"},
+      {swept.heading(), "state", "force [N]", "points", "x [mm]", "y [mm]", "z [mm]", "gap [mm]"},
       {},
       {1}};
   if (pressed) {
@@ -64,7 +60,7 @@ HtmlTable contact_table(const Run& run, std::size_t index) {
   for (const PoseResult& pose : run.sweep.poses) {
     if (!has_place(pose)) continue;
     std::vector<std::string> row = contact_row(pose, index, pressed);
-    row.insert(row.begin(), swept.at(pose.value));
+    row.insert(row.begin(), at_value(swept, pose.value));
     row[1] += beyond_words(pose, pose.contacts[index]);
     table.rows.push_back(std::move(row));
     table.row_classes.emplace_back(pose.converged() ? "" : "failed");
@@ -82,7 +78,9 @@ const PoseResult* hardest(const Poses& poses, std::size_t index) {
   return best;
 }
 
-std::vector<std::string> ligament_row(const Run& run, const Swept& swept, std::size_t index) {
+std::vector<std::string> ligament_row(const Run& run,
+                                      const SweptQuantity& swept,
+                                      std::size_t index) {
   const PoseResult* most = hardest(run.sweep.poses, index);
   std::vector<std::string> row = {run.scene.ligaments[index].name};
   if (most == nullptr) return {row[0], "-", "-", "-", "-", "-"};
@@ -98,7 +96,7 @@ std::vector<std::string> ligament_row(const Run& run, const Swept& swept, std::s
   }
   const double force = most->ligaments[index].force;
   row.push_back(number(force, 1));
-  row.push_back(force > 0 ? swept.at(most->value) : "-");
+  row.push_back(force > 0 ? at_value(swept, most->value) : "-");
   row.push_back(number(100 * low, 1));
   row.push_back(number(100 * high, 1));
   row.push_back(fmt::format("{} of {}", taut, all));
@@ -110,13 +108,13 @@ HtmlTable ligament_table(const Run& run,
                          double LigamentResult::*part,
                          double factor,
                          const char* caption) {
-  const Swept swept = swept_of(run.scene);
-  HtmlTable table{caption, {swept_head(swept)}, {}, {}};
+  const SweptQuantity swept = swept_quantity(run);
+  HtmlTable table{caption, {swept.heading()}, {}, {}};
   for (const LigamentDescription& ligament : run.scene.ligaments)
     table.columns.push_back(ligament.name);
   for (const PoseResult& pose : run.sweep.poses) {
     if (!has_place(pose)) continue;
-    std::vector<std::string> row = {swept.at(pose.value)};
+    std::vector<std::string> row = {at_value(swept, pose.value)};
     for (const LigamentResult& ligament : pose.ligaments)
       row.push_back(number(factor * ligament.*part, 1));
     table.rows.push_back(std::move(row));
@@ -140,9 +138,9 @@ std::string contact_section(const Run& run) {
 
 std::string ligament_section(const Run& run) {
   if (!any_place(run.sweep.poses) || run.scene.ligaments.empty()) return "";
-  const Swept swept = swept_of(run.scene);
+  const SweptQuantity swept = swept_quantity(run);
   HtmlTable table{"",
-                  {"ligament", "greatest force [N]", "at " + swept_head(swept), "least strain [%]",
+                  {"ligament", "greatest force [N]", "at " + swept.heading(), "least strain [%]",
                    "greatest strain [%]", "poses taut"},
                   {}};
   for (std::size_t i = 0; i < run.scene.ligaments.size(); ++i)

@@ -13,7 +13,6 @@
 #include "pictures/plot_run.h"
 #include "pictures/png_file.h"
 #include "pictures/strip.h"
-#include "pictures/swept_quantity.h"
 #include "report/html.h"
 #include "report/sections.h"
 #include "results/digest.h"
@@ -88,7 +87,7 @@ std::string figure(const Image& image, const std::string& caption, const char* k
 
 /// "flexion 0°, 40°, 80°, 120°"
 std::string angles(const Run& run, const std::vector<std::size_t>& poses) {
-  const SweptQuantity swept = swept_quantity(run.scene);
+  const SweptQuantity swept = swept_quantity(run);
   std::string text = swept.title;
   for (const std::size_t pose : poses)
     text += (pose == poses.front() ? " " : ", ") + with_unit(swept, run.sweep.poses[pose].value);
@@ -160,7 +159,7 @@ std::string picture_section(const Run& run) {
 }
 
 std::string plot_section(const Run& run) {
-  if (count_with_place(run.sweep) == 0 && !run.laxity) return "";
+  if (count_with_place(run.sweep) == 0 && !run.laxity()) return "";
   const PassingFolder folder;
   std::string body;
   int count = 0;

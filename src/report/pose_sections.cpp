@@ -4,23 +4,19 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/laxity.h"
 #include "input_error.h"
 #include "report/html.h"
 #include "report/sections.h"
 #include "report/summary_json.h"
 #include "results/run_layout.h"
 #include "results/run_view.h"
-#include "scene/sweep_range.h"
 #include "verify/verify.h"
 
 namespace condyle {
 namespace {
 
 using Poses = std::vector<PoseResult>;
-
-std::string swept_head(const Swept& swept) {
-  return swept.units == "1" ? swept.name : fmt::format("{} [{}]", swept.name, swept.units);
-}
 
 std::string list_of(const std::vector<std::string>& lines, const char* kind) {
   std::string out = fmt::format("<ul class=\"{}\">\n", kind);
@@ -35,12 +31,11 @@ std::string verdict(int converged, std::size_t all) {
 }
 
 /// Failed poses, each with its reason.
-std::string failed_poses(const Run& run, const Swept& swept) {
-  HtmlTable table{
-      "Poses that did not succeed", {swept_head(swept), "status", "reason"}, {}, {1, 2}};
+std::string failed_poses(const Run& run, const SweptQuantity& swept) {
+  HtmlTable table{"Poses that did not succeed", {swept.heading(), "status", "reason"}, {}, {1, 2}};
   for (const PoseResult& pose : run.sweep.poses) {
     if (!pose.converged())
-      table.rows.push_back({swept.at(pose.value), name(pose.status), pose.reason});
+      table.rows.push_back({at_value(swept, pose.value), name(pose.status), pose.reason});
   }
   return table.rows.empty() ? "" : html(table);
 }
@@ -74,26 +69,19 @@ std::string laxity_verdict(const LaxityResult& laxity) {
 
 }  // namespace
 
-std::string Swept::at(double value) const {
-  const double shown = value / unit;
+std::string at_value(const SweptQuantity& swept, double value) {
+  const double shown = swept.shown(value);
   return fmt::format("{:.6g}", std::abs(shown) < 1e-9 ? 0.0 : shown);
-}
-
-Swept swept_of(const Scene& scene) {
-  if (scene.simulation && !scene.sweep) return {"time", "s", 1};
-  if (!scene.sweep) return {"value", "1", 1};
-  const Unit unit = border_sweep_unit(scene);
-  return {scene.sweep->vary, unit.name, unit.factor};
 }
 
 std::string status_section(const Run& run) {
   std::string body;
   if (!run.sweep.poses.empty()) {
     body += verdict(run.sweep.count_converged(), run.sweep.poses.size());
-    body += failed_poses(run, swept_of(run.scene));
+    body += failed_poses(run, swept_quantity(run));
     body += verified(run);
   }
-  if (run.laxity) body += laxity_verdict(*run.laxity);
+  if (run.laxity()) body += laxity_verdict(*run.laxity());
   const std::vector<std::string> warnings = run_warnings(run);
   body += warnings.empty() ? "<p>No warnings.</p>\n" : list_of(warnings, "warnings");
   return section("status", "Status and warnings", body);
@@ -102,9 +90,9 @@ std::string status_section(const Run& run) {
 std::string pose_section(const Run& run) {
   const Poses& poses = run.sweep.poses;
   if (poses.empty()) return "";
-  const Swept swept = swept_of(run.scene);
+  const SweptQuantity swept = swept_quantity(run);
   HtmlTable table;
-  table.columns = {swept_head(swept)};
+  table.columns = {swept.heading()};
   const bool joint = run.scene.joint.has_value();
   if (joint) {
     for (const auto& column : kJointColumns) {
@@ -121,7 +109,7 @@ std::string pose_section(const Run& run) {
   const auto columns = static_cast<int>(table.columns.size());
   table.text_columns = {columns - 2, columns - 1};
   for (const PoseResult& pose : poses) {
-    std::vector<std::string> row = {swept.at(pose.value)};
+    std::vector<std::string> row = {at_value(swept, pose.value)};
     const double none = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t k = 0; k < (joint ? kJointColumns.size() : 3); ++k) {
       if (joint && swept.name == kJointColumns[k].name) continue;
@@ -141,27 +129,27 @@ std::string pose_section(const Run& run) {
 }
 
 std::string event_section(const Run& run) {
-  if (run.sweep.poses.size() < 2 || run.scene.simulation) return "";
+  if (run.sweep.poses.size() < 2 || run.kind() == RunKind::kSimulation) return "";
   if (run.sweep.events.empty())
     return section("events", "Events", "<p>No contact opened, closed or jumped.</p>\n");
-  const Swept swept = swept_of(run.scene);
-  HtmlTable table{"", {swept_head(swept), "event", "contact"}, {}, {1, 2}};
+  const SweptQuantity swept = swept_quantity(run);
+  HtmlTable table{"", {swept.heading(), "event", "contact"}, {}, {1, 2}};
   for (const Event& event : run.sweep.events) {
     const std::string contact =
         event.contact < 0 ? "-"
                           : run.scene.contacts.at(static_cast<std::size_t>(event.contact)).name;
-    table.rows.push_back({number(event.value / swept.unit, 4), name(event.kind), contact});
+    table.rows.push_back({number(swept.shown(event.value), 4), name(event.kind), contact});
   }
   return section("events", "Events", html(table));
 }
 
 std::string solver_section(const Run& run) {
   const Poses& poses = run.sweep.poses;
-  if (poses.empty()) return "";
-  const Swept swept = swept_of(run.scene);
+  if (poses.empty() || run.kind() == RunKind::kSimulation) return "";
+  const SweptQuantity swept = swept_quantity(run);
   HtmlTable table{
       "",
-      {swept_head(swept), "iterations", "residual [N]", "time [µs]", "lowest stiffness [N/mm]"},
+      {swept.heading(), "iterations", "residual [N]", "time [µs]", "lowest stiffness [N/mm]"},
       {},
       {}};
   int iterations = 0;
@@ -170,17 +158,16 @@ std::string solver_section(const Run& run) {
     iterations += pose.iterations;
     seconds += pose.seconds;
     if (pose.converged()) residual = std::max(residual, pose.residual);
-    table.rows.push_back({swept.at(pose.value), fmt::format("{}", pose.iterations),
+    table.rows.push_back({at_value(swept, pose.value), fmt::format("{}", pose.iterations),
                           fmt::format("{:.1e}", pose.residual), number(1e6 * pose.seconds, 0),
                           short_number(pose.lowest_stiffness)});
   }
   const double n = static_cast<double>(poses.size());
-  std::string body = fmt::format(
+  const std::string body = fmt::format(
       "<p>{:.3g} Newton iterations and {} a pose; largest out-of-balance force {:.1e} "
       "N.</p>\n",
       iterations / n, short_time(seconds / n, "µs"), residual);
-  if (run.scene.simulation) body.clear();  // a motion is no sequence of equilibria
-  return section("solver", "Solver", body.empty() ? "" : body + details("Each pose", html(table)));
+  return section("solver", "Solver", body + details("Each pose", html(table)));
 }
 
 }  // namespace condyle

@@ -20,12 +20,13 @@ constexpr const char* kPolicy =
 /// "25 poses, flexion from 0 to 120 deg"
 std::string what_was_done(const Run& run) {
   const std::vector<PoseResult>& poses = run.sweep.poses;
-  if (poses.empty()) return run.laxity ? "Test of laxity" : "Fit of the surfaces";
-  const Swept swept = swept_of(run.scene);
-  const std::string units = swept.units == "1" ? "" : " " + swept.units;
-  return fmt::format(
-      "{}{} poses, {} from {} to {}{}", run.comparison ? "Comparison with Wismans' model, " : "",
-      poses.size(), swept.name, swept.at(poses.front().value), swept.at(poses.back().value), units);
+  if (run.kind() == RunKind::kLaxity) return "Test of laxity";
+  if (poses.empty()) return "Fit of the surfaces";
+  const SweptQuantity swept = swept_quantity(run);
+  return fmt::format("{}{} poses, {} from {} to {}{}",
+                     run.comparison() ? "Comparison with Wismans' model, " : "", poses.size(),
+                     swept.name, at_value(swept, poses.front().value),
+                     at_value(swept, poses.back().value), swept.unit_after_number());
 }
 
 std::string head(const Run& run) {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "report/summary_json.h"
-#include "scene/sweep_range.h"
+#include "results/run_view.h"
 
 namespace condyle {
 namespace {
@@ -17,16 +17,15 @@ std::string bare(const std::string& line) { return line.substr(kWarning.size());
 /// The same remark over many poses is one warning: "flexion 10 to 35 deg: ...".
 void add_remarks(const Run& run, std::vector<std::string>& warnings) {
   const std::vector<PoseResult>& poses = run.sweep.poses;
-  const Unit unit =
-      run.scene.sweep ? border_sweep_unit(run.scene) : Unit{run.scene.simulation ? "s" : "1", 1};
+  const SweptQuantity swept = swept_quantity(run);
   for (std::size_t first = 0; first < poses.size();) {
     std::size_t end = first + 1;
     while (end < poses.size() && poses[end].remark == poses[first].remark) ++end;
     if (!poses[first].remark.empty()) {
-      const double a = in_unit(poses[first].value, unit), b = in_unit(poses[end - 1].value, unit);
+      const double a = swept.shown(poses[first].value), b = swept.shown(poses[end - 1].value);
       const std::string range =
           end == first + 1 ? fmt::format("{:.6g}", a) : fmt::format("{:.6g} to {:.6g}", a, b);
-      warnings.push_back(fmt::format("{} {}: {}", range, unit.name, poses[first].remark));
+      warnings.push_back(fmt::format("{} {}: {}", range, swept.unit.name, poses[first].remark));
     }
     first = end;
   }

@@ -5,17 +5,12 @@
 #include <string>
 
 #include "report/report_page.h"
-#include "results/run_file.h"
+#include "results/run_view.h"
 
 namespace condyle {
 
-/// What is swept, and its unit.
-struct Swept {
-  std::string name, units;
-  double unit = 1;                                   ///< factor to the unit used inside
-  [[nodiscard]] std::string at(double value) const;  ///< "35", in that unit, without the unit
-};
-[[nodiscard]] Swept swept_of(const Scene& scene);
+/// A swept value in its unit, without the unit: "35".
+[[nodiscard]] std::string at_value(const SweptQuantity& swept, double value);
 
 [[nodiscard]] std::string status_section(const Run& run);
 [[nodiscard]] std::string pose_section(const Run& run);

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/laxity.h"
 #include "report/html.h"
 #include "report/sections.h"
+#include "results/motion_view.h"
 #include "results/run_layout.h"
 
 namespace condyle {
@@ -21,8 +23,8 @@ std::string yes_of(const LaxityCurve& curve) {
 }  // namespace
 
 std::string comparison_section(const Run& run) {
-  if (!run.comparison) return "";
-  const Comparison& comparison = *run.comparison;
+  if (!run.comparison()) return "";
+  const Comparison& comparison = *run.comparison();
   HtmlTable table{"Ours and Wismans' model of the same specimen, over the sweep",
                   {"quantity", "units", "rms difference", "largest difference"},
                   {},
@@ -42,15 +44,15 @@ std::string comparison_section(const Run& run) {
 }
 
 std::string laxity_section(const Run& run) {
-  if (!run.laxity || !run.scene.sweep || !run.scene.joint) return "";
+  if (!run.laxity() || !run.scene.joint) return "";
   const std::size_t k = loaded_coordinate(run.scene);
   std::string name = kJointColumns[k].name;
   std::replace(name.begin(), name.end(), '_', ' ');
   HtmlTable table{fmt::format("Change of {} [{}] from the first to the last load ({})", name,
-                              kJointColumns[k].units, run.scene.sweep->vary),
+                              kJointColumns[k].units, swept_quantity(run).name),
                   {"knee", "flexion [deg]", "laxity", "Wismans' model", "poses converged"},
                   {}};
-  for (const LaxityCurve& curve : run.laxity->curves) {
+  for (const LaxityCurve& curve : run.laxity()->curves) {
     table.rows.push_back(
         {curve.cut ? "cut" : "intact", fmt::format("{:.6g}", curve.flexion / kDegree),
          number(laxity_of(run.scene, curve.ours), 2),
@@ -60,28 +62,25 @@ std::string laxity_section(const Run& run) {
 }
 
 std::string motion_section(const Run& run) {
-  if (!run.simulation || run.simulation->motion.frames.empty()) return "";
-  const Motion& motion = run.simulation->motion;
+  const std::optional<MotionView> motion = motion_view(run);
+  if (!motion || motion->energies.empty()) return "";
   constexpr double kJoule = 1e3;  // N mm
-  const EnergySum &first = motion.frames.front().energy, &last = motion.frames.back().energy;
   HtmlTable energies{"Energy", {"", "change [J]"}, {}};
-  const auto add = [&](const char* what, double energy) {
-    energies.rows.push_back({what, fmt::format("{:+.4g}", energy / kJoule)});
+  const auto add = [&](const char* what, double MotionEnergies::*part) {
+    energies.rows.push_back({what, fmt::format("{:+.4g}", motion->change(part) / kJoule)});
   };
-  add("kinetic", last.kinetic - first.kinetic);
-  add("gravity", last.gravity - first.gravity);
-  add("ligaments", last.elastic - first.elastic);
-  add("dissipated", motion.frames.back().dissipated);
-  add("work of the loads", motion.frames.back().driver_work);
+  add("kinetic", &MotionEnergies::kinetic);
+  add("gravity", &MotionEnergies::gravity);
+  add("ligaments", &MotionEnergies::elastic);
+  add("dissipated", &MotionEnergies::dissipated);
+  add("work of the loads", &MotionEnergies::work);
   HtmlTable events{"Contacts", {"time [s]", "contact", "event", "speed [mm/s]"}, {}, {1, 2}};
-  for (const ContactEvent& event : motion.events) {
-    const int contact = run.simulation->contact_of.at(static_cast<std::size_t>(event.contact));
-    events.rows.push_back(
-        {number(event.t, 5), run.scene.contacts.at(static_cast<std::size_t>(contact)).name,
-         event.closing ? "closes" : "opens", event.closing ? short_number(event.speed) : "-"});
+  for (const MotionEvent& event : motion->events) {
+    events.rows.push_back({number(event.time, 5), event.contact, event.closing ? "closes" : "opens",
+                           event.closing ? short_number(event.speed) : "-"});
   }
   const std::string verdict =
-      motion.completed ? "" : "<p>Stopped " + escaped(motion.reason) + "</p>\n";
+      motion->completed ? "" : "<p>Stopped " + escaped(motion->reason) + "</p>\n";
   return section("motion", "Motion",
                  verdict + html(energies) + (events.rows.empty() ? "" : html(events)));
 }

@@ -4,8 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "compare/laxity.h"
+#include "results/motion_view.h"
 #include "results/run_layout.h"
-#include "scene/sweep_range.h"
+#include "results/run_view.h"
 
 namespace condyle {
 namespace {
@@ -14,11 +16,6 @@ using Json = nlohmann::ordered_json;
 
 std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
-}
-
-Unit swept_unit(const Scene& scene) {
-  if (scene.sweep) return border_sweep_unit(scene);
-  return {scene.simulation ? "s" : "1", 1};
 }
 
 Json counts_of(const SweepResult& sweep) {
@@ -38,11 +35,10 @@ Json joint_of(const PoseResult& pose) {
   return joint;
 }
 
-Json poses_of(const Scene& scene, const SweepResult& sweep) {
-  const Unit unit = swept_unit(scene);
+Json poses_of(const Run& run, const SweptQuantity& swept, const SweepResult& sweep) {
   Json poses = Json::array();
   for (const PoseResult& pose : sweep.poses) {
-    Json row = {{"value", in_unit(pose.value, unit)},
+    Json row = {{"value", swept.shown(pose.value)},
                 {"status", name(pose.status)},
                 {"reason", pose.reason},
                 {"remark", pose.remark},
@@ -50,20 +46,19 @@ Json poses_of(const Scene& scene, const SweepResult& sweep) {
                 {"residual", pose.residual},
                 {"seconds", pose.seconds},
                 {"event_seconds", pose.event_seconds}};
-    if (scene.joint && pose.solved()) row["joint"] = joint_of(pose);
+    if (run.scene.joint && pose.solved()) row["joint"] = joint_of(pose);
     poses.push_back(std::move(row));
   }
   return poses;
 }
 
-Json events_of(const Scene& scene, const SweepResult& sweep) {
-  const Unit unit = swept_unit(scene);
+Json events_of(const Run& run, const SweptQuantity& swept) {
   Json events = Json::array();
-  for (const Event& event : sweep.events) {
-    Json row = {{"value", in_unit(event.value, unit)}, {"kind", name(event.kind)}};
+  for (const Event& event : run.sweep.events) {
+    Json row = {{"value", swept.shown(event.value)}, {"kind", name(event.kind)}};
     row["contact"] = event.contact < 0
                          ? Json()
-                         : Json(scene.contacts[static_cast<std::size_t>(event.contact)].name);
+                         : Json(run.scene.contacts[static_cast<std::size_t>(event.contact)].name);
     events.push_back(std::move(row));
   }
   return events;
@@ -82,7 +77,7 @@ Json patches_of(const Run& run) {
 
 Json laxity_of_run(const Run& run) {
   Json curves = Json::array();
-  for (const LaxityCurve& curve : run.laxity->curves) {
+  for (const LaxityCurve& curve : run.laxity()->curves) {
     Json row = {{"flexion_deg", in_unit(curve.flexion, {"deg", kDegree})},
                 {"knee", curve.cut ? "cut" : "intact"},
                 {"laxity", laxity_of(run.scene, curve.ours)},
@@ -96,41 +91,35 @@ Json laxity_of_run(const Run& run) {
   return curves;
 }
 
-Json simulation_of(const Scene& scene, const Simulation& simulation) {
-  const Motion& motion = simulation.motion;
+Json simulation_of(const MotionView& motion) {
   Json events = Json::array();
-  for (const ContactEvent& event : motion.events) {
-    const int contact = simulation.contact_of[static_cast<std::size_t>(event.contact)];
-    events.push_back({{"time", event.t},
-                      {"contact", scene.contacts[static_cast<std::size_t>(contact)].name},
+  for (const MotionEvent& event : motion.events) {
+    events.push_back({{"time", event.time},
+                      {"contact", event.contact},
                       {"kind", event.closing ? "closing" : "opening"},
                       {"speed_mm_s", event.speed}});
   }
-  return {{"completed", motion.completed},
-          {"reason", motion.reason},
-          {"steps", motion.steps},
-          {"seconds", simulation.seconds},
-          {"imbalance", motion.largest_imbalance / std::max(motion.energy_scale, 1e-300)},
-          {"events", std::move(events)}};
+  return {{"completed", motion.completed}, {"reason", motion.reason},
+          {"steps", motion.steps},         {"seconds", motion.seconds},
+          {"imbalance", motion.imbalance}, {"events", std::move(events)}};
 }
 
 void add_run(Json& json, const Run& run) {
   json["scene"] = run.scene.file.string();
   json["title"] = run.scene.title;
   if (!run.patches.empty()) json["patches"] = patches_of(run);
+  const SweptQuantity swept = swept_quantity(run);
   if (!run.sweep.poses.empty()) {
-    const char* swept = run.scene.simulation ? "time" : "value";
-    json["swept"] = {{"name", run.scene.sweep ? run.scene.sweep->vary : swept},
-                     {"units", swept_unit(run.scene).name}};
+    json["swept"] = {{"name", swept.name}, {"units", swept.unit.name}};
     json["counts"] = counts_of(run.sweep);
-    json["poses"] = poses_of(run.scene, run.sweep);
-    json["events"] = events_of(run.scene, run.sweep);
+    json["poses"] = poses_of(run, swept, run.sweep);
+    json["events"] = events_of(run, swept);
   }
-  if (run.comparison)
-    json["reference"] = {{"counts", counts_of(run.comparison->reference)},
-                         {"poses", poses_of(run.scene, run.comparison->reference)}};
-  if (run.laxity) json["laxity"] = laxity_of_run(run);
-  if (run.simulation) json["simulation"] = simulation_of(run.scene, *run.simulation);
+  if (const SweepResult* reference = reference_poses(run))
+    json["reference"] = {{"counts", counts_of(*reference)},
+                         {"poses", poses_of(run, swept, *reference)}};
+  if (run.laxity()) json["laxity"] = laxity_of_run(run);
+  if (const auto motion = motion_view(run)) json["simulation"] = simulation_of(*motion);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/summary_json.h"
-#include "scene/sweep_range.h"
+#include "results/run_view.h"
 
 namespace condyle {
 
@@ -27,11 +27,11 @@ std::string json_verification(const CommandSummary& summary,
                               {"wrong", check.failed},
                               {"where", check.where}});
   }
-  const double unit = run.scene.sweep ? border_sweep_unit(run.scene).factor : 1;
+  const SweptQuantity swept = swept_quantity(run);
   json["false_poses"] = Json::array();
   for (const Fault& fault : verification.faults)
     json["false_poses"].push_back(
-        {{"value", run.sweep.poses[fault.pose].value / unit},
+        {{"value", swept.shown(run.sweep.poses[fault.pose].value)},
          {"check", verification.checks[static_cast<std::size_t>(fault.check)].name},
          {"text", fault.text}});
   json["warnings"] = verification.warnings;

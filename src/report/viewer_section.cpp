@@ -42,13 +42,13 @@ class ViewerData {
   [[nodiscard]] std::string text() const {
     Json json = {{"title", scene_.title}};
     for (const ShownPose& shown : shown_) json["times"].push_back(shown.time);
-    const Swept swept = swept_of(scene_);
+    const SweptQuantity swept = swept_quantity(run_);
     json["swept"] = {{"name", swept.name},
-                     {"units", swept.units == "1" ? "" : swept.units},
-                     {"digits", swept.units == "s"   ? 3
-                                : swept.units == "1" ? 2
-                                                     : 1},
-                     {"values", series([&](const PoseResult& p) { return p.value / swept.unit; })}};
+                     {"units", swept.unit.name == "1" ? "" : swept.unit.name},
+                     {"digits", swept.unit.name == "s"   ? 3
+                                : swept.unit.name == "1" ? 2
+                                                         : 1},
+                     {"values", series([&](const PoseResult& p) { return swept.shown(p.value); })}};
     json["coordinates"] = coordinates(swept);
     json["alarms"] = alarms();
     json["missing"] = missing();
@@ -68,7 +68,7 @@ class ViewerData {
     return values;
   }
 
-  [[nodiscard]] Json coordinates(const Swept& swept) const {
+  [[nodiscard]] Json coordinates(const SweptQuantity& swept) const {
     Json rows = Json::array();
     if (!scene_.joint) return rows;
     for (const auto& column : kJointColumns) {

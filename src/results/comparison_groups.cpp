@@ -7,6 +7,7 @@
 
 #include "results/run_layout.h"
 #include "results/sweep_group.h"
+#include "scene/swept_quantity.h"
 
 namespace condyle {
 namespace {
@@ -109,7 +110,8 @@ void write_comparison(const Hdf5Group& root, const Scene& scene, const Compariso
   const Hdf5Group reference = root.create("reference");
   reference.write("degree", std::vector<int>{comparison.options.degree}, {}, "1");
   write_number(reference, "matched_strain", comparison.options.strain, "1");
-  write_sweep(reference.create("sweep"), scene, comparison.reference.poses);
+  write_sweep(reference.create("sweep"), scene, quantity_of_sweep(scene).unit,
+              comparison.reference.poses);
   const Hdf5Group surfaces = reference.create("surfaces");
   for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
     if (is_of_contact(scene, i))
@@ -146,7 +148,8 @@ Comparison read_comparison(const Hdf5Group& root, const Scene& scene) {
   const Hdf5Group reference = root.open("reference"), compare = root.open("compare");
   comparison.options.degree = reference.read_integers("degree", {})[0];
   comparison.options.strain = reference.read("matched_strain", {})[0];
-  comparison.reference.poses = read_sweep(reference.open("sweep"), scene);
+  comparison.reference.poses =
+      read_sweep(reference.open("sweep"), scene, quantity_of_sweep(scene).unit);
   comparison.heights.resize(scene.surfaces.size());
   const Hdf5Group surfaces = reference.open("surfaces");
   for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {

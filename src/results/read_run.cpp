@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
+#include <utility>
 
 #include "results/comparison_groups.h"
 #include "results/estimates.h"
 #include "results/hdf5_file.h"
-#include "results/run_file.h"
 #include "results/run_layout.h"
+#include "results/run_view.h"
 #include "results/simulation_group.h"
 #include "results/sweep_group.h"
 #include "scene/read_scene.h"
-#include "scene/sweep_range.h"
 #include "surface/bspline_basis.h"
 
 namespace condyle {
@@ -43,19 +44,13 @@ Scene read_head(const Hdf5Group& root) {
   const std::string format = root.read_attribute("format");
   if (format != kRunFormat)
     root.fail(fmt::format("format = \"{}\", expected \"{}\"", format, kRunFormat));
-  Scene scene = parse_scene(root.read_attribute("scene"), root.read_attribute("scene_file"));
-  // A scene may have both; a run is of one of them.
-  if (root.has("simulate"))
-    scene.sweep.reset();
-  else if (scene.sweep)
-    scene.simulation.reset();
-  return scene;
+  return parse_scene(root.read_attribute("scene"), root.read_attribute("scene_file"));
 }
 
-void read_status(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
-  const double unit = scene.sweep ? border_sweep_unit(scene).factor : 1;
+void read_status(const Hdf5Group& sweep, const Unit& unit, Poses& poses) {
   const Shape n = {poses.size()};
-  take(sweep, "value", n, poses, [&](PoseResult& p, const double* row) { p.value = *row * unit; });
+  take(sweep, "value", n, poses,
+       [&](PoseResult& p, const double* row) { p.value = *row * unit.factor; });
   take(sweep, "status", n, poses, [&](PoseResult& p, const double* row) {
     if (!(*row >= 0 && *row < kPoseStatusCount))
       sweep.fail(fmt::format("status = {}, which has no meaning", *row));
@@ -162,15 +157,18 @@ void read_solver(const Hdf5Group& sweep, Poses& poses) {
        [](PoseResult& p, const double* row) { p.event_seconds = *row; });
 }
 
-void read_poses(const Hdf5Group& sweep, Run& run) {
-  run.sweep.poses = read_sweep(sweep, run.scene);
-  if (!run.scene.sweep) return;
-  run.scene.sweep->values.clear();  // the command line may have had its own
-  for (const PoseResult& pose : run.sweep.poses) run.scene.sweep->values.push_back(pose.value);
+RunStudy read_study(const Hdf5Group& root, const Scene& scene) {
+  const auto held = [](auto study) {
+    return std::make_shared<const decltype(study)>(std::move(study));
+  };
+  if (root.has("simulate")) return held(read_simulation(root.open("simulate"), scene));
+  if (root.has("reference")) return held(read_comparison(root, scene));
+  if (root.has("laxity")) return held(read_laxity(root.open("laxity"), scene));
+  if (root.has("sweep")) return SweepStudy{};
+  return FitStudy{};
 }
 
-void read_events(const Hdf5Group& group, Run& run) {
-  const double unit = run.scene.sweep ? border_sweep_unit(run.scene).factor : 1;
+void read_events(const Hdf5Group& group, const Unit& unit, Run& run) {
   const std::vector<double> values = group.read("value").values;
   const Shape n = {values.size()};
   const std::vector<int> kinds = group.read_integers("kind", n);
@@ -179,7 +177,8 @@ void read_events(const Hdf5Group& group, Run& run) {
     if (kinds[i] < 0 || kinds[i] >= kEventKindCount || contacts[i] < -1 ||
         contacts[i] >= static_cast<int>(run.scene.contacts.size()))
       group.fail("holds an event of no known kind or contact");
-    run.sweep.events.push_back({values[i] * unit, static_cast<EventKind>(kinds[i]), contacts[i]});
+    run.sweep.events.push_back(
+        {values[i] * unit.factor, static_cast<EventKind>(kinds[i]), contacts[i]});
   }
 }
 
@@ -216,10 +215,7 @@ FitReport read_fit(const Hdf5Group& patch, const std::string& surface, const Pat
 RunPatch read_patch(const Hdf5Group& group, const std::string& surface, const Scene& scene) {
   RunPatch patch;
   patch.surface = surface;
-  const std::string body = group.read_attribute("body");
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (scene.bodies[i].name == body) patch.body = static_cast<int>(i);
-  }
+  patch.body = body_named(scene, group.read_attribute("body"));
   PatchData& data = patch.data;
   const std::vector<int> degree = group.read_integers("degree", {2});
   data.degree = {degree[0], degree[1]};
@@ -274,10 +270,10 @@ BodyMesh read_body(const Hdf5Group& group, const std::string& name) {
 
 }  // namespace
 
-Poses read_sweep(const Hdf5Group& sweep, const Scene& scene) {
+Poses read_sweep(const Hdf5Group& sweep, const Scene& scene, const Unit& unit) {
   Poses poses(sweep.read("value").values.size());
   if (poses.empty()) sweep.fail("dataset value is empty");
-  read_status(sweep, scene, poses);
+  read_status(sweep, unit, poses);
   read_pose(sweep, scene, poses);
   read_elements(sweep, scene, poses);
   read_solver(sweep, poses);
@@ -292,8 +288,10 @@ Run read_run(const std::filesystem::path& path) {
   if (root.has_attribute("program")) run.program = root.read_attribute("program");
   if (root.has_attribute("created")) run.created = root.read_attribute("created");
   if (root.has("inputs")) run.inputs = read_inputs(root.open("inputs"));
-  if (root.has("sweep")) read_poses(root.open("sweep"), run);
-  if (root.has("events")) read_events(root.open("events"), run);
+  run.study = read_study(root, run.scene);
+  const Unit unit = swept_quantity(run).unit;
+  if (root.has("sweep")) run.sweep.poses = read_sweep(root.open("sweep"), run.scene, unit);
+  if (root.has("events")) read_events(root.open("events"), unit, run);
   if (root.has("fit")) run.start = root.open("fit").read_texts("start");
   const Hdf5Group patches = root.open("patches");
   for (const std::string& name : patches.names())
@@ -301,9 +299,6 @@ Run read_run(const std::filesystem::path& path) {
   const Hdf5Group bodies = root.open("bodies");
   for (const std::string& name : bodies.names())
     run.bodies.push_back(read_body(bodies.open(name), name));
-  if (root.has("simulate")) run.simulation = read_simulation(root.open("simulate"), run.scene);
-  if (root.has("reference")) run.comparison = read_comparison(root, run.scene);
-  if (root.has("laxity")) run.laxity = read_laxity(root.open("laxity"), run.scene);
   return run;
 }
 

@@ -4,14 +4,13 @@
 /// needs is inside: the scene text, poses, patches, and the bodies' meshes.
 
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
-#include "compare/laxity.h"
 #include "equilibrium/pose_result.h"
 #include "mesh/triangle_mesh.h"
-#include "network/simulate.h"
 #include "scene/fit_surfaces.h"
 #include "scene/scene.h"
 #include "surface/patch.h"
@@ -36,17 +35,49 @@ struct InputFile {
   std::string sha256;  ///< of its bytes, in hexadecimal digits
 };
 
+// What a study has beside poses: who asks for it includes compare/compare.h, compare/laxity.h or
+// network/simulate.h.
+struct Comparison;
+struct LaxityResult;
+struct Simulation;
+
+/// Which command a run is of. Its scene, which may hold the tables of several, does not say.
+enum class RunKind { kSweep, kFit, kComparison, kLaxity, kSimulation };
+
+struct SweepStudy {};  ///< all there is to know are the poses
+struct FitStudy {};    ///< and here there are none
+
+/// In the order of RunKind.
+using RunStudy = std::variant<SweepStudy,
+                              FitStudy,
+                              std::shared_ptr<const Comparison>,
+                              std::shared_ptr<const LaxityResult>,
+                              std::shared_ptr<const Simulation>>;
+
 struct Run {
-  Scene scene;
-  SweepResult sweep;
+  Scene scene;        ///< as it was read
+  SweepResult sweep;  ///< of a comparison our poses, of a motion its frames; of others none
   std::vector<RunPatch> patches;
   std::vector<BodyMesh> bodies;
-  std::optional<Comparison> comparison = {};  ///< of `condyle compare`
-  std::optional<LaxityResult> laxity = {};    ///< of `condyle laxity`
-  std::vector<std::string> start = {};        ///< of a fit: what start_warnings found
-  std::optional<Simulation> simulation = {};  ///< of `condyle simulate`; read back without poses
-  std::vector<InputFile> inputs = {};         ///< the meshes; none in files of version 0.1.0
+  RunStudy study = SweepStudy{};
+  std::vector<std::string> start = {};     ///< what start_warnings found
+  std::vector<InputFile> inputs = {};      ///< the meshes; none in files of version 0.1.0
   std::string program = {}, created = {};  ///< read back only: who wrote the file, and when (UTC)
+
+  [[nodiscard]] RunKind kind() const { return static_cast<RunKind>(study.index()); }
+  /// Null for runs of another kind.
+  [[nodiscard]] const Comparison* comparison() const { return held<Comparison>(); }
+  [[nodiscard]] const LaxityResult* laxity() const { return held<LaxityResult>(); }
+  [[nodiscard]] const Simulation* simulation() const {
+    return held<Simulation>();
+  }  ///< read back
+     ///< no poses
+ private:
+  template <typename T>
+  [[nodiscard]] const T* held() const {
+    const auto* pointer = std::get_if<std::shared_ptr<const T>>(&study);
+    return pointer != nullptr ? pointer->get() : nullptr;
+  }
 };
 
 /// Writes to a temporary file beside `path` and renames it: never a half-written file. Throws

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "input_error.h"
+#include "results/run_view.h"
 
 namespace condyle {
 namespace {
@@ -90,9 +91,8 @@ void expect_same_scene(const std::string& file,
     const auto* patch = dynamic_cast<const Patch*>(surfaces[i].surface.get());
     if (patch == nullptr) continue;
     const std::string& name = scene.surfaces[i].name;
-    const auto there = std::find_if(run.patches.begin(), run.patches.end(),
-                                    [&](const RunPatch& p) { return p.surface == name; });
-    if (there == run.patches.end() || !close(there->data, patch->data())) {
+    const RunPatch* there = patch_of(run, name);
+    if (there == nullptr || !close(there->data, patch->data())) {
       throw InputError(fmt::format(
           "{}: was computed from another patch \"{}\", expected the one fitted now (the mesh has "
           "changed, or the program)",

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/compare.h"
 #include "input_error.h"
-#include "scene/sweep_range.h"
 
 namespace condyle {
 namespace {
@@ -51,31 +51,34 @@ std::string short_time(double seconds, const std::string& micro) {
   return fmt::format("{:.{}f} s", seconds, seconds < 9.995 ? 2 : seconds < 99.95 ? 1 : 0);
 }
 
-ShownUnit shown_unit(const Scene& scene) {
-  if (scene.simulation) return {"s", 1};
-  if (!scene.sweep) return {"1", 1};
-  const Unit unit = border_sweep_unit(scene);
-  return {unit.name, 1 / unit.factor};
+SweptQuantity swept_quantity(const Run& run) {
+  if (run.kind() == RunKind::kSimulation) return quantity_of_motion();
+  return run.kind() == RunKind::kFit ? SweptQuantity{} : quantity_of_sweep(run.scene);
+}
+
+const SweepResult* reference_poses(const Run& run) {
+  const Comparison* comparison = run.comparison();
+  return comparison == nullptr ? nullptr : &comparison->reference;
 }
 
 std::size_t nearest_pose_of(const Run& run, const std::string& file, double value) {
   const std::vector<PoseResult>& poses = run.sweep.poses;
-  const ShownUnit unit = shown_unit(run.scene);
+  const SweptQuantity swept = swept_quantity(run);
   double low = std::numeric_limits<double>::infinity(), high = -low, least = low;
   std::size_t nearest = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const double shown = unit.per_inside * poses[i].value;
+    const double shown = swept.shown(poses[i].value);
     low = std::min(low, shown);
     high = std::max(high, shown);
     if (!(std::abs(shown - value) < least)) continue;
     least = std::abs(shown - value);
     nearest = i;
   }
-  const bool rounded = unit.name == "deg" || unit.name == "mm";
+  const bool rounded = swept.unit.name == "deg" || swept.unit.name == "mm";
   const double margin = 0.02 * (high - low) + (rounded ? kRounding : 1e-9 * std::abs(high));
   if (value >= low - margin && value <= high + margin) return nearest;
   throw InputError(
-      fmt::format("--at {:g}: {} holds {:g} to {:g} {}", value, file, low, high, unit.name));
+      fmt::format("--at {:g}: {} holds {:g} to {:g} {}", value, file, low, high, swept.unit.name));
 }
 
 const ContactPointResult* strongest_point(const ContactResult& contact) {
@@ -101,6 +104,24 @@ int body_named(const Scene& scene, const std::string& name) {
     if (scene.bodies[i].name == name) return static_cast<int>(i);
   }
   return -1;
+}
+
+const RunPatch* patch_of(const Run& run, const std::string& surface) {
+  const auto patch = std::find_if(run.patches.begin(), run.patches.end(),
+                                  [&](const RunPatch& p) { return p.surface == surface; });
+  return patch == run.patches.end() ? nullptr : &*patch;
+}
+
+RigidTransform body_pose(const Scene& scene, const RigidTransform& X_BA, int body) {
+  return body == scene.moving_body() ? X_BA : RigidTransform();
+}
+
+int tibia_body(const Scene& scene) {
+  return scene.joint ? scene.joint->tibia.body : scene.moving_body();
+}
+
+int femur_body(const Scene& scene) {
+  return scene.joint ? scene.joint->femur.body : scene.fixed_body();
 }
 
 }  // namespace condyle

@@ -1,12 +1,13 @@
 #pragma once
 
 /// What all who show a run or pass it on ask of it: which poses have a place, which of them is the
-/// nearest to a value, in which unit, and what of the scene is worth seeing.
+/// nearest to a value, what is swept, where bodies are, and what of the scene is worth seeing.
 
 #include <cstddef>
 #include <string>
 
 #include "results/run_file.h"
+#include "scene/swept_quantity.h"
 
 namespace condyle {
 
@@ -21,17 +22,15 @@ namespace condyle {
 [[nodiscard]] double beyond_edge(const ContactResult& contact);
 [[nodiscard]] double beyond_edge(const PoseResult& pose);
 
-/// Of a sweep over an angle [deg], over a length [mm], over a load's factor [1], or of a motion
-/// [s]: the factor from the value inside, and the unit's name.
-struct ShownUnit {
-  std::string name;
-  double per_inside = 1;
-};
-[[nodiscard]] ShownUnit shown_unit(const Scene& scene);
+/// What goes from pose to pose of the run, whatever else its scene could vary.
+[[nodiscard]] SweptQuantity swept_quantity(const Run& run);
 
-/// The pose nearest to a value in the shown unit, whatever its status; the first of equals. Throws
-/// InputError, naming `file`, where the value lies beyond the run by more than 2 % of its range
-/// and, of angles and lengths, 0.5 deg or mm.
+/// Of a comparison the poses of the reference model; null for other runs.
+[[nodiscard]] const SweepResult* reference_poses(const Run& run);
+
+/// The pose nearest to a value in the unit of result files, whatever its status; the first of
+/// equals. Throws InputError, naming `file`, where the value lies beyond the run by more than 2 %
+/// of its range and, of angles and lengths, 0.5 deg or mm.
 [[nodiscard]] std::size_t nearest_pose_of(const Run& run, const std::string& file, double value);
 
 /// The point of a contact that carries most; of an open contact the nearest one. Null where the
@@ -48,5 +47,13 @@ struct ShownUnit {
 
 /// Index of the body of that name, or -1.
 [[nodiscard]] int body_named(const Scene& scene, const std::string& name);
+/// The patch of a surface; null where the run holds none.
+[[nodiscard]] const RunPatch* patch_of(const Run& run, const std::string& surface);
+
+/// Pose of a body in the ground frame, where the moving body has the pose X_BA.
+[[nodiscard]] RigidTransform body_pose(const Scene& scene, const RigidTransform& X_BA, int body);
+/// Index of the tibia's and the femur's body; without [joint] the moving and the fixed body.
+[[nodiscard]] int tibia_body(const Scene& scene);
+[[nodiscard]] int femur_body(const Scene& scene);
 
 }  // namespace condyle

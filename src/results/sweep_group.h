@@ -5,11 +5,17 @@
 #include "equilibrium/pose_result.h"
 #include "results/hdf5_file.h"
 #include "scene/scene.h"
+#include "scene/sweep_range.h"
 
 namespace condyle {
 
-/// All of /sweep but the events.
-void write_sweep(const Hdf5Group& sweep, const Scene& scene, const std::vector<PoseResult>& poses);
-[[nodiscard]] std::vector<PoseResult> read_sweep(const Hdf5Group& sweep, const Scene& scene);
+/// All of /sweep but the events; its values in `unit`.
+void write_sweep(const Hdf5Group& sweep,
+                 const Scene& scene,
+                 const Unit& unit,
+                 const std::vector<PoseResult>& poses);
+[[nodiscard]] std::vector<PoseResult> read_sweep(const Hdf5Group& sweep,
+                                                 const Scene& scene,
+                                                 const Unit& unit);
 
 }  // namespace condyle

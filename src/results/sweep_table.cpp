@@ -8,7 +8,6 @@
 #include "math/rotation.h"
 #include "results/run_layout.h"
 #include "results/run_view.h"
-#include "scene/sweep_range.h"
 
 namespace condyle {
 namespace {
@@ -28,26 +27,12 @@ double largest_gap(const SweepResult& sweep) {
 
 }  // namespace
 
-SweepTable::SweepTable(const Scene& scene) {
-  std::string swept_name = "value";
-  Unit unit{"1", 1};
-  bool flexion_is_swept = false;
-  if (scene.sweep) {
-    unit = border_sweep_unit(scene);
-    swept_name = scene.sweep->vary;
-    flexion_is_swept = !scene.sweep->varies_load &&
-                       scene.conditions[static_cast<std::size_t>(scene.sweep->index)].kind ==
-                           ConditionKind::kFlexion;
-  } else if (scene.simulation) {
-    unit = {"s", 1};
-    swept_name = "time";
-  }
-  swept_unit_ = unit.factor;
+SweepTable::SweepTable(const Scene& scene, const SweptQuantity& swept) : unit_(swept.unit) {
   cells_.push_back(
-      {swept_name, unit.name, 2, [](const SweepTable& t, const PoseResult& p, std::size_t) {
-         return p.value / t.swept_unit_;
+      {swept.name, unit_.name, 2, [](const SweepTable& t, const PoseResult& p, std::size_t) {
+         return p.value / t.unit_.factor;
        }});
-  add_coordinates(scene.joint.has_value(), flexion_is_swept);
+  add_coordinates(scene.joint.has_value(), swept.flexion);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     cells_.push_back({scene.contacts[i].name, "N", 1,
                       [](const SweepTable&, const PoseResult& p, std::size_t k) {
@@ -143,27 +128,27 @@ std::string summary(const SweepResult& sweep) {
       on_events > 0 ? fmt::format(" and {} for events", short_time(on_events, "us")) : "");
 }
 
-std::vector<std::string> event_lines(const Scene& scene, const SweepResult& sweep) {
-  const Unit unit = scene.sweep ? border_sweep_unit(scene) : Unit{"1", 1};
+std::vector<std::string> event_lines(const Scene& scene,
+                                     const SweptQuantity& swept,
+                                     const SweepResult& sweep) {
   std::vector<std::string> lines;
   for (const Event& event : sweep.events) {
     const std::string contact =
         event.contact < 0 ? ""
                           : scene.contacts.at(static_cast<std::size_t>(event.contact)).name + ": ";
     lines.push_back(fmt::format("{}{} at {:.6f} {}", contact, name(event.kind),
-                                event.value / unit.factor, unit.name));
+                                swept.shown(event.value), swept.unit.name));
   }
   return lines;
 }
 
-std::vector<std::string> failures(const Scene& scene, const SweepResult& sweep) {
+std::vector<std::string> failures(const SweptQuantity& swept, const SweepResult& sweep) {
   std::vector<std::string> lines;
-  const Unit unit = scene.sweep ? border_sweep_unit(scene) : Unit{"1", 1};
   for (const PoseResult& pose : sweep.poses) {
     if (pose.converged()) continue;
-    lines.push_back(fmt::format("{} = {:.6g}{}: {}{}", scene.sweep ? scene.sweep->vary : "value",
-                                pose.value / unit.factor, unit.name == "1" ? "" : " " + unit.name,
-                                name(pose.status), pose.reason.empty() ? "" : ": " + pose.reason));
+    lines.push_back(fmt::format("{} = {:.6g}{}: {}{}", swept.name, swept.shown(pose.value),
+                                swept.unit_after_number(), name(pose.status),
+                                pose.reason.empty() ? "" : ": " + pose.reason));
   }
   return lines;
 }

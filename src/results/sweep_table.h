@@ -8,13 +8,13 @@
 
 #include "equilibrium/pose_result.h"
 #include "scene/ligament_bundles.h"
-#include "scene/scene.h"
+#include "scene/swept_quantity.h"
 
 namespace condyle {
 
 class SweepTable {
  public:
-  explicit SweepTable(const Scene& scene);
+  SweepTable(const Scene& scene, const SweptQuantity& swept);
   /// Two lines: names and units.
   [[nodiscard]] std::string head() const;
   [[nodiscard]] std::string row(const PoseResult& pose) const;
@@ -29,7 +29,7 @@ class SweepTable {
   void add_coordinates(bool joint, bool flexion_is_swept);
   [[nodiscard]] static int width(const Cell& cell);
 
-  double swept_unit_ = 1;
+  Unit unit_;  ///< of the swept values
   std::vector<LigamentBundle> ligaments_;
   std::vector<Cell> cells_;
 };
@@ -39,9 +39,12 @@ class SweepTable {
 [[nodiscard]] std::string summary(const SweepResult& sweep);
 
 /// One line for each event: "lateral: opening at 93.271845 deg", "limit point at 12.5 deg".
-[[nodiscard]] std::vector<std::string> event_lines(const Scene& scene, const SweepResult& sweep);
+[[nodiscard]] std::vector<std::string> event_lines(const Scene& scene,
+                                                   const SweptQuantity& swept,
+                                                   const SweepResult& sweep);
 
 /// One line for each pose that did not converge, saying which and why.
-[[nodiscard]] std::vector<std::string> failures(const Scene& scene, const SweepResult& sweep);
+[[nodiscard]] std::vector<std::string> failures(const SweptQuantity& swept,
+                                                const SweepResult& sweep);
 
 }  // namespace condyle

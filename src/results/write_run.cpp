@@ -9,11 +9,10 @@
 #include "results/estimates.h"
 #include "results/hdf5_file.h"
 #include "results/output_file.h"
-#include "results/run_file.h"
 #include "results/run_layout.h"
+#include "results/run_view.h"
 #include "results/simulation_group.h"
 #include "results/sweep_group.h"
-#include "scene/sweep_range.h"
 
 namespace condyle {
 namespace {
@@ -62,9 +61,8 @@ void write_head(const Hdf5Group& root, const Scene& scene) {
   root.write_attribute("scene_file", scene.file.string());
 }
 
-void write_status(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) {
+void write_status(const Hdf5Group& sweep, const Unit& unit, const Poses& poses) {
   const std::size_t n = poses.size();
-  const Unit unit = scene.sweep ? border_sweep_unit(scene) : Unit{scene.simulation ? "s" : "1", 1};
   sweep.write("value", numbers(poses, [&](const PoseResult& p) { return in_unit(p.value, unit); }),
               {n}, unit.name);
   sweep.write("status",
@@ -241,8 +239,8 @@ void write_solver(const Hdf5Group& sweep, const Poses& poses) {
                n, "s");
 }
 
-void write_events(const Hdf5Group& group, const Scene& scene, const std::vector<Event>& events) {
-  const Unit unit = scene.sweep ? border_sweep_unit(scene) : Unit{"1", 1};
+void write_events(const Hdf5Group& group, const Run& run, const Unit& unit) {
+  const std::vector<Event>& events = run.sweep.events;
   std::vector<double> values;
   std::vector<int> kinds, contacts;
   for (const Event& event : events) {
@@ -256,7 +254,7 @@ void write_events(const Hdf5Group& group, const Scene& scene, const std::vector<
   group.write("contact", contacts, n, "1");
   std::vector<std::string> meanings, names;
   for (int i = 0; i < kEventKindCount; ++i) meanings.emplace_back(name(static_cast<EventKind>(i)));
-  for (const ContactDescription& contact : scene.contacts) names.push_back(contact.name);
+  for (const ContactDescription& contact : run.scene.contacts) names.push_back(contact.name);
   group.write_attribute("kind", "meaning", meanings);
   group.write_attribute("contact", "meaning", names);
 }
@@ -326,8 +324,9 @@ void write_inputs(const Hdf5Group& root, const std::vector<InputFile>& inputs) {
 void write_all(const Hdf5Group& root, const Run& run) {
   write_head(root, run.scene);
   if (!run.sweep.poses.empty()) {
-    write_sweep(root.create("sweep"), run.scene, run.sweep.poses);
-    write_events(root.create("events"), run.scene, run.sweep.events);
+    const Unit unit = swept_quantity(run).unit;
+    write_sweep(root.create("sweep"), run.scene, unit, run.sweep.poses);
+    write_events(root.create("events"), run, unit);
   }
   const Hdf5Group patches = root.create("patches");
   for (const RunPatch& patch : run.patches)
@@ -336,15 +335,15 @@ void write_all(const Hdf5Group& root, const Run& run) {
   if (!run.start.empty()) root.create("fit").write("start", run.start);
   const Hdf5Group bodies = root.create("bodies");
   for (const BodyMesh& body : run.bodies) write_body(bodies.create(body.name), body.mesh);
-  if (run.comparison) write_comparison(root, run.scene, *run.comparison);
-  if (run.simulation) write_simulation(root.create("simulate"), run.scene, *run.simulation);
-  if (run.laxity) write_laxity(root.create("laxity"), run.scene, *run.laxity);
+  if (run.comparison()) write_comparison(root, run.scene, *run.comparison());
+  if (run.simulation()) write_simulation(root.create("simulate"), run.scene, *run.simulation());
+  if (run.laxity()) write_laxity(root.create("laxity"), run.scene, *run.laxity());
 }
 
 }  // namespace
 
-void write_sweep(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) {
-  write_status(sweep, scene, poses);
+void write_sweep(const Hdf5Group& sweep, const Scene& scene, const Unit& unit, const Poses& poses) {
+  write_status(sweep, unit, poses);
   write_pose(sweep, scene, poses);
   write_elements(sweep, scene, poses);
   write_solver(sweep, poses);

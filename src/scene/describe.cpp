@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "scene/start_pose.h"
-#include "scene/sweep_range.h"
+#include "scene/swept_quantity.h"
 
 namespace condyle {
 namespace {
@@ -140,10 +140,10 @@ void describe_motion(const Scene& scene, Out out) {
                    load.follows_body ? "follows the body" : "keeps its direction");
   }
   if (scene.sweep) {
-    const Unit unit = border_sweep_unit(scene);
+    const SweptQuantity swept = quantity_of_sweep(scene);
     const std::vector<double>& values = scene.sweep->values;
-    fmt::format_to(out, "sweep      {} from {:.6g} to {:.6g} {}, {} poses\n", scene.sweep->vary,
-                   values.front() / unit.factor, values.back() / unit.factor, unit.name,
+    fmt::format_to(out, "sweep      {} from {:.6g} to {:.6g} {}, {} poses\n", swept.name,
+                   swept.shown(values.front()), swept.shown(values.back()), swept.unit.name,
                    values.size());
   }
   if (scene.simulation) {

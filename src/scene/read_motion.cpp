@@ -6,7 +6,7 @@
 #include "input_error.h"
 #include "scene/read_sections.h"
 #include "scene/start_pose.h"
-#include "scene/sweep_range.h"
+#include "scene/swept_quantity.h"
 
 namespace condyle {
 namespace {
@@ -131,7 +131,7 @@ void read_sweep(const Section& root, Scene& scene) {
                  "\"steps\": a path that is followed by its arc length needs two values or more");
   section.finish();
   scene.sweep = sweep;
-  const double factor = declared_sweep_unit(scene).factor;
+  const double factor = quantity_of_sweep(scene).declared.factor;
   for (double& value : scene.sweep->values) value *= factor;
   const bool length_needed =
       !sweep.varies_load &&

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -10,16 +9,6 @@
 #include "input_error.h"
 
 namespace condyle {
-namespace {
-
-Unit sweep_unit(const Scene& scene, const Unit& angle, const Unit& length) {
-  assert(scene.sweep.has_value());
-  if (scene.sweep->varies_load) return {"1", 1};
-  return is_angle(scene.conditions[static_cast<std::size_t>(scene.sweep->index)].kind) ? angle
-                                                                                       : length;
-}
-
-}  // namespace
 
 double in_unit(double inside, const Unit& unit) {
   if (unit.factor == 1) return inside;
@@ -27,16 +16,6 @@ double in_unit(double inside, const Unit& unit) {
   const double exact = inside / unit.factor;
   const double shorter = std::strtod(fmt::format("{:.14g}", exact).c_str(), nullptr);
   return std::abs(shorter - exact) <= kTwoConversions * std::abs(exact) ? shorter : exact;
-}
-
-Unit declared_sweep_unit(const Scene& scene) {
-  const std::string length = scene.length_to_mm == 1 ? "mm" : scene.length_to_mm == 10 ? "cm" : "m";
-  return sweep_unit(scene, {scene.angle_to_rad == 1 ? "rad" : "deg", scene.angle_to_rad},
-                    {length, scene.length_to_mm});
-}
-
-Unit border_sweep_unit(const Scene& scene) {
-  return sweep_unit(scene, {"deg", M_PI / 180}, {"mm", 1});
 }
 
 std::vector<double> range_values(double from, double to, double step) {

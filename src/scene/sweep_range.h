@@ -1,11 +1,9 @@
 #pragma once
 
-/// What a sweep varies, in which unit, and the values it visits.
+/// Units at the border, and the values that a range visits.
 
 #include <string>
 #include <vector>
-
-#include "scene/scene.h"
 
 namespace condyle {
 
@@ -17,12 +15,6 @@ struct Unit {
 /// A value that is used inside, in a unit: as a user wrote it, where it came from that unit (15 and
 /// not 14.999999999999998: the conversions to and fro may cost the last digit).
 [[nodiscard]] double in_unit(double inside, const Unit& unit);
-
-/// The unit of the swept values as the scene declares it; needs scene.sweep.
-[[nodiscard]] Unit declared_sweep_unit(const Scene& scene);
-
-/// The unit in result files and tables: deg, mm or 1.
-[[nodiscard]] Unit border_sweep_unit(const Scene& scene);
 
 /// from, from + step, ... up to `to`, which is met where it is a whole number of steps away. Throws
 /// InputError ("step = -5, expected ...") for a range that leads nowhere or holds more than a

@@ -57,10 +57,11 @@ void add_ligaments(const Scene& scene, const PoseResult& pose, Sums& sums) {
   }
 }
 
-void add_loads(const Scene& scene, const PoseResult& pose, Sums& sums) {
+void add_loads(const Subject& subject, const PoseResult& pose, Sums& sums) {
+  const Scene& scene = subject.run.scene;
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     const LoadDescription& load = scene.loads[i];
-    Vector3d vector = load_scale(scene, i, pose) * load.vector;
+    Vector3d vector = load_scale(subject, i, pose) * load.vector;
     if (load.follows_body) vector = pose.X_BA.R * vector;
     if (load.moment)
       sums.twist(vector, vector.norm());
@@ -88,10 +89,11 @@ void add_reactions(const Scene& scene, const PoseResult& pose, Sums& sums) {
   }
 }
 
-Sums everything(const Scene& scene, const PoseResult& pose) {
+Sums everything(const Subject& subject, const PoseResult& pose) {
+  const Scene& scene = subject.run.scene;
   Sums sums{.about = middle_of(scene, pose)};
   add_ligaments(scene, pose, sums);
-  add_loads(scene, pose, sums);
+  add_loads(subject, pose, sums);
   add_contacts(pose, sums);
   add_reactions(scene, pose, sums);
   return sums;
@@ -152,7 +154,7 @@ void check_point(const PairOfSides& pair,
 
 void check_contacts(const Subject& subject, const PoseResult& pose, Ledger& ledger) {
   const Scene& scene = subject.run.scene;
-  double scale = everything(scene, pose).forces;
+  double scale = everything(subject, pose).forces;
   if (!(scale > 0)) scale = 1;
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const ContactResult& contact = pose.contacts[i];
@@ -177,7 +179,7 @@ void check_contacts(const Subject& subject, const PoseResult& pose, Ledger& ledg
 }
 
 void check_balance(const Subject& subject, const PoseResult& pose, Ledger& ledger) {
-  const Sums sums = everything(subject.run.scene, pose);
+  const Sums sums = everything(subject, pose);
   const double force = sums.force.norm(), moment = sums.moment.norm();
   // Where only the one acts, the other is compared with it by way of an arm: 1 m, and 1 um.
   const double forces = sums.forces + 1e-3 * sums.moments,

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "input_error.h"
+#include "results/run_view.h"
 #include "verify/side.h"
 
 namespace condyle::verification {
@@ -341,9 +342,8 @@ std::unique_ptr<SurfaceSide> make_exact_side(const SurfaceDescription& s) {
 std::vector<std::unique_ptr<SurfaceSide>> make_sides(const Run& run) {
   std::vector<std::unique_ptr<SurfaceSide>> sides;
   for (const SurfaceDescription& surface : run.scene.surfaces) {
-    const auto patch = std::find_if(run.patches.begin(), run.patches.end(),
-                                    [&](const RunPatch& p) { return p.surface == surface.name; });
-    sides.push_back(patch != run.patches.end() && surface.kind == SurfaceKind::kPatch
+    const RunPatch* patch = patch_of(run, surface.name);
+    sides.push_back(patch != nullptr && surface.kind == SurfaceKind::kPatch
                         ? make_spline_side(patch->data)
                         : make_exact_side(surface));
   }

@@ -6,8 +6,6 @@
 #include <limits>
 #include <set>
 
-#include "scene/sweep_range.h"
-
 namespace condyle::verification {
 namespace {
 
@@ -40,16 +38,7 @@ constexpr std::array<Kind, kCheckCount> kKinds = {{
 
 }  // namespace
 
-Ledger::Ledger(const Scene& scene) {
-  if (scene.sweep) {
-    const Unit unit = border_sweep_unit(scene);
-    swept_ = scene.sweep->vary;
-    units_ = unit.name == "1" ? "" : " " + unit.name;
-    unit_ = unit.factor;
-  } else {
-    swept_ = scene.simulation ? "time" : "pose";
-    units_ = scene.simulation ? " s" : "";
-  }
+Ledger::Ledger(const SweptQuantity& swept) : swept_(swept) {
   for (std::size_t i = 0; i < kKinds.size(); ++i) {
     checks_[i].name = kKinds[i].name;
     checks_[i].units = kKinds[i].units;
@@ -59,8 +48,9 @@ Ledger::Ledger(const Scene& scene) {
 
 void Ledger::at_pose(std::size_t index, double value) {
   pose_ = index;
-  const double shown = value / unit_;
-  pose_name_ = fmt::format("{} = {:.10g}{}", swept_, std::abs(shown) < 1e-12 ? 0.0 : shown, units_);
+  const double shown = swept_.shown(value);
+  pose_name_ = fmt::format("{} = {:.10g}{}", swept_.name, std::abs(shown) < 1e-12 ? 0.0 : shown,
+                           swept_.unit_after_number());
 }
 
 void Ledger::note(Check check,

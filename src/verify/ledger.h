@@ -6,13 +6,14 @@
 #include <map>
 #include <string>
 
+#include "scene/swept_quantity.h"
 #include "verify/verify.h"
 
 namespace condyle::verification {
 
 class Ledger {
  public:
-  explicit Ledger(const Scene& scene);
+  explicit Ledger(const SweptQuantity& swept);
 
   /// The checks that follow are of this pose.
   void at_pose(std::size_t index, double value);
@@ -41,8 +42,7 @@ class Ledger {
     std::string text;
     int count = 0;
   };
-  std::string swept_, units_;
-  double unit_ = 1;
+  SweptQuantity swept_;
   std::size_t pose_ = 0;
   std::string pose_name_;
   std::array<CheckSummary, kCheckCount> checks_;

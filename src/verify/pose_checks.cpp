@@ -41,16 +41,13 @@ PairOfSides pair_of(const Subject& subject, std::size_t contact) {
           subject.sides[static_cast<std::size_t>(b)].get()};
 }
 
-double prescribed(const Scene& scene, std::size_t condition, const PoseResult& pose) {
-  const bool swept =
-      scene.sweep && !scene.sweep->varies_load && scene.sweep->index == static_cast<int>(condition);
-  return swept ? pose.value : scene.conditions[condition].value;
+double prescribed(const Subject& subject, std::size_t condition, const PoseResult& pose) {
+  const bool swept = subject.swept.condition == static_cast<int>(condition);
+  return swept ? pose.value : subject.run.scene.conditions[condition].value;
 }
 
-double load_scale(const Scene& scene, std::size_t load, const PoseResult& pose) {
-  const bool swept =
-      scene.sweep && scene.sweep->varies_load && scene.sweep->index == static_cast<int>(load);
-  return swept ? pose.value : 1;
+double load_scale(const Subject& subject, std::size_t load, const PoseResult& pose) {
+  return subject.swept.load == static_cast<int>(load) ? pose.value : 1;
 }
 
 void check_slack_lengths(const Scene& scene, Ledger& ledger) {
@@ -90,7 +87,7 @@ bool check_motion(const Subject& subject, const PoseResult& pose, Ledger& ledger
 
 void check_ligaments(const Subject& subject, const PoseResult& pose, Ledger& ledger) {
   const Scene& scene = subject.run.scene;
-  const bool viscous = scene.simulation && !scene.sweep && scene.simulation->viscous_time > 0;
+  const bool viscous = subject.moving() && scene.simulation && scene.simulation->viscous_time > 0;
   double greatest = 0;
   for (const LigamentResult& ligament : pose.ligaments)
     greatest = std::max(greatest, std::abs(ligament.force));
@@ -126,14 +123,14 @@ void check_conditions(const Subject& subject, const PoseResult& pose, Ledger& le
   const Scene& scene = subject.run.scene;
   for (std::size_t i = 0; i < scene.conditions.size(); ++i) {
     const ConditionDescription& condition = scene.conditions[i];
-    if (scene.simulation && !scene.sweep) {
+    if (subject.moving() && scene.simulation) {
       const std::vector<int>& hold = scene.simulation->hold;
       if (std::find(hold.begin(), hold.end(), static_cast<int>(i)) == hold.end()) continue;
     }
     const double unit = is_angle(condition.kind) ? kDegrees : 1;
     const double now = coordinate(scene, condition, pose.X_BA);
     const double wanted =
-        scene.simulation && !scene.sweep ? pose.conditions[i].value : prescribed(scene, i, pose);
+        subject.moving() ? pose.conditions[i].value : prescribed(subject, i, pose);
     const double off = unit * std::abs(difference(condition, now, wanted));
     const double allowed = 1e-8 + unit * 1e-13 * pose.X_BA.p.norm();
     ledger.note(Check::kCondition, off, named("condition", condition.name),

@@ -13,6 +13,8 @@ namespace condyle::verification {
 struct Subject {
   const Run& run;
   const std::vector<std::unique_ptr<SurfaceSide>>& sides;  ///< as Scene::surfaces
+  SweptQuantity swept;
+  [[nodiscard]] bool moving() const { return run.kind() == RunKind::kSimulation; }
 };
 
 /// The two surfaces of a contact, the fixed body's first.
@@ -23,9 +25,11 @@ struct PairOfSides {
 [[nodiscard]] PairOfSides pair_of(const Subject& subject, std::size_t contact);
 
 /// The value that a condition has to have at a pose [rad] or [mm].
-[[nodiscard]] double prescribed(const Scene& scene, std::size_t condition, const PoseResult& pose);
+[[nodiscard]] double prescribed(const Subject& subject,
+                                std::size_t condition,
+                                const PoseResult& pose);
 /// The factor on a load at a pose.
-[[nodiscard]] double load_scale(const Scene& scene, std::size_t load, const PoseResult& pose);
+[[nodiscard]] double load_scale(const Subject& subject, std::size_t load, const PoseResult& pose);
 
 /// Once for a run.
 void check_slack_lengths(const Scene& scene, Ledger& ledger);

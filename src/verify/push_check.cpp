@@ -75,7 +75,7 @@ std::vector<PushCheck::Constraint> PushCheck::constraints(const PoseResult& pose
   for (std::size_t i = 0; i < scene.conditions.size(); ++i) {
     const ConditionDescription& condition = scene.conditions[i];
     list.push_back(
-        {difference(condition, coordinate(scene, condition, X), prescribed(scene, i, pose)),
+        {difference(condition, coordinate(scene, condition, X), prescribed(subject_, i, pose)),
          gradient(scene, condition, X, X.p)});
   }
   return list;
@@ -98,7 +98,7 @@ double PushCheck::work(const PoseResult& pose,
   const Eigen::Matrix3d half = turn(theta / 2) * from.R;
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     const LoadDescription& load = scene.loads[i];
-    Vector3d vector = load_scale(scene, i, pose) * load.vector;
+    Vector3d vector = load_scale(subject_, i, pose) * load.vector;
     if (load.follows_body) vector = half * vector;
     sum -= vector.dot(load.moment ? theta : Vector3d(to * load.at - from * load.at));
   }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "input_error.h"
+#include "results/run_view.h"
 #include "verify/gap_checks.h"
 #include "verify/ledger.h"
 #include "verify/mesh_checks.h"
@@ -20,7 +21,7 @@ using namespace verification;
 void check_kind(const Run& run, std::vector<std::string>& not_checked) {
   if (run.sweep.poses.empty())
     throw InputError(fmt::format("holds no poses{}, expected a run of sweep, compare or simulate",
-                                 run.laxity ? " (a test of laxity stores none)" : ""));
+                                 run.laxity() ? " (a test of laxity stores none)" : ""));
   const Scene& scene = run.scene;
   for (const ContactDescription& contact : scene.contacts)
     for (const int surface : contact.surfaces)
@@ -32,9 +33,10 @@ void check_kind(const Run& run, std::vector<std::string>& not_checked) {
                              pose.ligaments.size() != scene.ligaments.size() ||
                              pose.conditions.size() != scene.conditions.size()))
       throw InputError("a pose has not one result for each element of the scene");
-  if (run.simulation || (run.scene.simulation && !run.scene.sweep))
+  if (run.kind() == RunKind::kSimulation)
     not_checked.emplace_back("a motion is no series of equilibria: forces do not have to balance");
-  if (run.comparison) not_checked.emplace_back("the poses of the reference model");
+  if (run.kind() == RunKind::kComparison)
+    not_checked.emplace_back("the poses of the reference model");
 }
 
 void check_pose(const Subject& subject,
@@ -47,7 +49,7 @@ void check_pose(const Subject& subject,
   check_ligaments(subject, pose, ledger);
   check_conditions(subject, pose, ledger);
   check_contacts(subject, pose, ledger);
-  if (subject.run.scene.sweep) check_balance(subject, pose, ledger);
+  if (!subject.moving()) check_balance(subject, pose, ledger);
   gaps.check(pose, ledger);
   if (meshes != nullptr) meshes->check(pose, ledger);
   if (pushes != nullptr) pushes->check(pose, ledger);
@@ -60,13 +62,13 @@ Verification verify_run(const Run& run, const VerifyOptions& options) {
   Verification result;
   check_kind(run, result.not_checked);
   const std::vector<std::unique_ptr<SurfaceSide>> sides = make_sides(run);
-  const Subject subject{run, sides};
+  const Subject subject{run, sides, swept_quantity(run)};
   const GapCheck gaps(subject, result.not_checked);
   std::optional<MeshCheck> meshes;
   if (options.meshes) meshes.emplace(run, result.not_checked);
   std::optional<PushCheck> pushes;
-  if (options.pushes && run.scene.sweep) pushes.emplace(subject);
-  Ledger ledger(run.scene);
+  if (options.pushes && !subject.moving()) pushes.emplace(subject);
+  Ledger ledger(subject.swept);
   check_slack_lengths(run.scene, ledger);
   const std::vector<PoseResult>& poses = run.sweep.poses;
   result.poses = poses.size();

@@ -98,11 +98,11 @@ TEST(Compare, GoesThroughAFileUnchanged) {
   Compared all = compare_scene(kKnee);
   const std::filesystem::path file = test::fresh_folder("condyle_compare") / "cmp.h5";
   condyle::Run run{all.scene, all.ours, {}, {}};
-  run.comparison = all.comparison;
+  run.study = std::make_shared<const Comparison>(all.comparison);
   write_run(file, run);
   const condyle::Run back = read_run(file);
-  ASSERT_TRUE(back.comparison.has_value());
-  const Comparison &a = all.comparison, &b = *back.comparison;
+  ASSERT_TRUE(back.comparison() != nullptr);
+  const Comparison &a = all.comparison, &b = *back.comparison();
   EXPECT_EQ(b.options.degree, 4);
   EXPECT_EQ(b.options.strain, 0.06);
   ASSERT_EQ(b.reference.poses.size(), a.reference.poses.size());

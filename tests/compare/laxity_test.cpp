@@ -62,20 +62,20 @@ TEST(Laxity, GoesThroughAFileUnchanged) {
   result.curves[5].ours.poses[3].status = PoseStatus::kNoEquilibrium;
   const std::filesystem::path file = test::fresh_folder("condyle_laxity") / "lax.h5";
   condyle::Run run{scene, {}, {}, {}};
-  run.laxity = result;
+  run.study = std::make_shared<const LaxityResult>(result);
   write_run(file, run);
   const condyle::Run back = read_run(file);
-  ASSERT_TRUE(back.laxity.has_value());
-  ASSERT_EQ(back.laxity->curves.size(), 8U);
+  ASSERT_TRUE(back.laxity() != nullptr);
+  ASSERT_EQ(back.laxity()->curves.size(), 8U);
   for (std::size_t c = 0; c < 8; ++c) {
-    const LaxityCurve &a = result.curves[c], &b = back.laxity->curves[c];
+    const LaxityCurve &a = result.curves[c], &b = back.laxity()->curves[c];
     EXPECT_EQ(b.cut, a.cut);
     EXPECT_EQ(b.flexion, a.flexion);
     EXPECT_EQ(b.ours.poses[20].joint.anterior_drawer, a.ours.poses[20].joint.anterior_drawer);
     EXPECT_NEAR(laxity_of(scene, *b.reference), laxity_of(scene, *a.reference), 1e-12);
   }
-  EXPECT_EQ(back.laxity->curves[5].ours.poses[3].status, PoseStatus::kNoEquilibrium);
-  EXPECT_TRUE(std::isnan(displacements(scene, back.laxity->curves[5].ours)[3]));
+  EXPECT_EQ(back.laxity()->curves[5].ours.poses[3].status, PoseStatus::kNoEquilibrium);
+  EXPECT_TRUE(std::isnan(displacements(scene, back.laxity()->curves[5].ours)[3]));
 }
 
 std::string message_of(const std::string& laxity) {

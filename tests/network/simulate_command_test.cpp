@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "results/hdf5_file.h"
-#include "results/run_file.h"
+#include "results/run_view.h"
 #include "scene/read_scene.h"
 
 namespace condyle::test {
@@ -123,10 +123,13 @@ TEST_F(SimulateCommand, ASceneMayBeSweptAndSimulated) {
   const Outcome sweep = run("sweep both.toml -o sweep.h5");
   ASSERT_EQ(sweep.code, 0) << sweep.err;
   const condyle::Run moved = read_run(at("motion.h5")), swept = read_run(at("sweep.h5"));
-  EXPECT_TRUE(moved.scene.simulation && !moved.scene.sweep);
-  EXPECT_TRUE(swept.scene.sweep && !swept.scene.simulation);
+  EXPECT_EQ(moved.scene.text, swept.scene.text);
+  EXPECT_EQ(moved.kind(), RunKind::kSimulation);
+  EXPECT_EQ(swept.kind(), RunKind::kSweep);
+  EXPECT_EQ(swept_quantity(moved).name, "time");
+  EXPECT_EQ(swept_quantity(swept).name, "bend");
   EXPECT_NEAR(moved.sweep.poses.back().value, 0.02, 1e-12);
-  EXPECT_FALSE(swept.simulation);
+  EXPECT_EQ(swept.simulation(), nullptr);
 }
 
 // The numbers that the scene gives: a leg of 4 kg.

@@ -5,6 +5,7 @@
 #include "pictures/block_knee.h"
 #include "pictures/ligament_groups.h"
 #include "pictures/seen_insertions.h"
+#include "results/run_view.h"
 
 namespace condyle {
 namespace {

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "input_error.h"
+#include "network/simulate.h"
 #include "pictures/block_knee.h"
 #include "pictures/png_file.h"
 #include "pictures/run_program.h"
@@ -116,9 +117,10 @@ TEST(PlotRun, ASweptLoadIsShownByItsSize) {
 TEST(PlotRun, EnergiesAreThoseSinceTheStart) {
   auto run = block_run();
   EXPECT_TRUE(energy_chart(run).panels.empty());
-  run.simulation.emplace();
-  run.simulation->motion.frames.resize(2);
-  MotionFrame &first = run.simulation->motion.frames[0], &last = run.simulation->motion.frames[1];
+  const auto simulation = std::make_shared<Simulation>();
+  run.study = std::shared_ptr<const Simulation>(simulation);
+  simulation->motion.frames.resize(2);
+  MotionFrame &first = simulation->motion.frames[0], &last = simulation->motion.frames[1];
   first.energy.gravity = 5000;
   last.state.t = 0.1;
   last.energy.gravity = 3000;

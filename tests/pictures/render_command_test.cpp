@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/run_program.h"
+#include "network/simulate.h"
 #include "pictures/png_file.h"
 #include "results/run_file.h"
 
@@ -82,11 +83,11 @@ TEST_F(CommandLine, AMotionIsDrawnAndPlottedOverTime) {
   EXPECT_NE(test::contents(at("out/energy.svg")).find("dissipated"), std::string::npos);
 
   const auto read = read_run(at("dyn.h5"));
-  ASSERT_TRUE(read.simulation);
-  const std::vector<MotionFrame>& frames = read.simulation->motion.frames;
+  ASSERT_TRUE(read.simulation());
+  const std::vector<MotionFrame>& frames = read.simulation()->motion.frames;
   ASSERT_EQ(frames.size(), read.sweep.poses.size());
-  EXPECT_TRUE(read.simulation->motion.completed);
-  EXPECT_NEAR(read.simulation->mass.mass, 4e-3, 1e-12);  // 4 kg in tonne
+  EXPECT_TRUE(read.simulation()->motion.completed);
+  EXPECT_NEAR(read.simulation()->mass.mass, 4e-3, 1e-12);  // 4 kg in tonne
   // The program says that the balance is kept to some 1e-8 of a joule.
   EXPECT_NEAR(frames.back().balance(), frames.front().balance(), 1e-3);  // N mm
   EXPECT_GT(frames.back().energy.kinetic, 100);

@@ -6,7 +6,9 @@
 
 #include <limits>
 
+#include "compare/laxity.h"
 #include "input_error.h"
+#include "network/simulate.h"
 #include "results/made_up_run.h"
 #include "results/strain_scale.h"
 
@@ -46,8 +48,7 @@ TEST(RunView, TheNearestPoseMayLieABitBeyondTheRun) {
   EXPECT_EQ(nearest_pose_of(run, "run.h5", 12), 2U);
   EXPECT_THROW((void)nearest_pose_of(run, "run.h5", 12.3), InputError);
   // Seconds are not rounded to the half: a motion of 0.2 s has nothing at 0.6 s.
-  run.scene.sweep.reset();
-  run.scene.simulation.emplace();
+  run.study = std::make_shared<const Simulation>();
   EXPECT_EQ(nearest_pose_of(run, "run.h5", 0.2), 2U);
   EXPECT_THROW((void)nearest_pose_of(run, "run.h5", 0.6), InputError);
 }
@@ -58,6 +59,38 @@ TEST(RunView, TimesHaveAUnitThatSuitsThem) {
   EXPECT_EQ(short_time(0.0009996, "us"), "1 ms");
   EXPECT_EQ(short_time(1.7017, "us"), "1.70 s");
   EXPECT_EQ(short_time(1234.4, "us"), "1234 s");
+}
+
+// A scene may hold the tables of several commands.
+TEST(RunView, TheKindOfARunSaysWhatIsSweptAndNotItsScene) {
+  condyle::Run run = made_up_run();
+  run.scene.simulation.emplace();
+  EXPECT_EQ(run.kind(), RunKind::kSweep);
+  EXPECT_EQ(swept_quantity(run).heading(), "bend [deg]");
+  run.study = std::make_shared<const Comparison>();
+  EXPECT_EQ(run.kind(), RunKind::kComparison);
+  EXPECT_EQ(swept_quantity(run).name, "bend");
+  run.study = std::make_shared<const LaxityResult>();
+  EXPECT_EQ(run.kind(), RunKind::kLaxity);
+  EXPECT_EQ(run.comparison(), nullptr);
+  EXPECT_NE(run.laxity(), nullptr);
+  run.study = std::make_shared<const Simulation>();
+  EXPECT_EQ(run.kind(), RunKind::kSimulation);
+  EXPECT_EQ(swept_quantity(run).heading(), "time [s]");
+  run.study = FitStudy{};
+  EXPECT_EQ(run.kind(), RunKind::kFit);
+  EXPECT_EQ(swept_quantity(run).unit.name, "1");
+}
+
+TEST(RunView, TheMovingBodyStandsWhereThePoseSaysAndTheFixedOneInTheGround) {
+  const condyle::Run run = made_up_run();
+  const RigidTransform X_BA = run.sweep.poses[2].X_BA;
+  EXPECT_EQ(body_pose(run.scene, X_BA, run.scene.moving_body()).p, X_BA.p);
+  EXPECT_EQ(body_pose(run.scene, X_BA, run.scene.fixed_body()).p, Eigen::Vector3d::Zero());
+  EXPECT_EQ(tibia_body(run.scene), run.scene.moving_body());
+  ASSERT_NE(patch_of(run, "ball"), nullptr);
+  EXPECT_EQ(patch_of(run, "ball")->data.nu, 5);
+  EXPECT_EQ(patch_of(run, "plateau"), nullptr);
 }
 
 TEST(RunView, ThePlaceOfInterestIsWhereMostIsCarried) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "results/made_up_run.h"
+#include "results/run_view.h"
 
 namespace condyle {
 namespace {
@@ -13,10 +14,10 @@ TEST(SweepTable, HasAColumnForEverythingInItsUnit) {
   const condyle::Run run = made_up_run();
   // The swept flexion, the five other coordinates, one contact, one ligament; numbers of
   // made_up_pose(2).
-  EXPECT_EQ(SweepTable(run.scene).head(),
+  EXPECT_EQ(SweepTable(run.scene, swept_quantity(run)).head(),
             "    bend  adduct int.rot  lat.sh  ant.dr   distr  medial    aACL  iter  time\n"
             "     deg     deg     deg      mm      mm      mm       N       N          us\n");
-  EXPECT_EQ(SweepTable(run.scene).row(run.sweep.poses[2]),
+  EXPECT_EQ(SweepTable(run.scene, swept_quantity(run)).row(run.sweep.poses[2]),
             "   11.46   11.46   17.19    4.00    5.00    6.00    70.0    14.0     3     5\n");
 }
 
@@ -24,25 +25,25 @@ TEST(SweepTable, NumbersThatFillTheirColumnsStandApart) {
   condyle::Run run = made_up_run();
   run.sweep.poses[2].iterations = 90;
   run.sweep.poses[2].seconds = 0.208292;
-  const std::string row = SweepTable(run.scene).row(run.sweep.poses[2]);
+  const std::string row = SweepTable(run.scene, swept_quantity(run)).row(run.sweep.poses[2]);
   EXPECT_NE(row.find(" 90 208292"), std::string::npos) << row;
 }
 
 TEST(SweepTable, SaysWhyAPoseFailed) {
   const condyle::Run run = made_up_run();
-  EXPECT_EQ(SweepTable(run.scene).row(run.sweep.poses[1]),
+  EXPECT_EQ(SweepTable(run.scene, swept_quantity(run)).row(run.sweep.poses[1]),
             std::string("    5.73  ") + name(PoseStatus::kSingular) +
                 ": nothing resists turning about x\n");
-  ASSERT_EQ(failures(run.scene, run.sweep).size(), 1U);
-  EXPECT_EQ(failures(run.scene, run.sweep)[0], std::string("bend = 5.72958 deg: ") +
-                                                   name(PoseStatus::kSingular) +
-                                                   ": nothing resists turning about x");
+  ASSERT_EQ(failures(swept_quantity(run), run.sweep).size(), 1U);
+  EXPECT_EQ(failures(swept_quantity(run), run.sweep)[0], std::string("bend = 5.72958 deg: ") +
+                                                             name(PoseStatus::kSingular) +
+                                                             ": nothing resists turning about x");
 }
 
 TEST(EventLines, NameTheContactWhereOneIsMeant) {
   condyle::Run run = made_up_run();
   run.sweep.events = {{0.5 * M_PI, EventKind::kOpening, 0}, {M_PI, EventKind::kLimitPoint, -1}};
-  EXPECT_EQ(event_lines(run.scene, run.sweep),
+  EXPECT_EQ(event_lines(run.scene, swept_quantity(run), run.sweep),
             (std::vector<std::string>{"medial: opening at 90.000000 deg",
                                       "limit point at 180.000000 deg"}));
 }
