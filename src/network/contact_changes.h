@@ -4,7 +4,8 @@
 
 #include <vector>
 
-#include "network/integrate.h"
+#include "network/integrate_options.h"
+#include "network/motion.h"
 #include "network/network_equations.h"
 
 namespace condyle {

@@ -7,9 +7,13 @@
 /// events look at a state that differs from the one evaluated last by about the tolerance, and go
 /// there along the tangents.
 
+#include <cmath>
 #include <optional>
+#include <string>
+#include <vector>
 
-#include "network/integrate.h"
+#include "network/integrate_options.h"
+#include "network/motion.h"
 #include "network/ode_integrator.h"
 #include "network/state_numbers.h"
 

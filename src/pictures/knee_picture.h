@@ -5,9 +5,8 @@
 
 #include <memory>
 
-#include "pictures/camera.h"
 #include "pictures/image.h"
-#include "results/run_file.h"
+#include "pictures/scenery.h"
 
 namespace condyle {
 
@@ -18,8 +17,6 @@ struct PictureOptions {
   bool hertz = false;      ///< ellipses of the contact pressure, where the run holds estimates
   bool panel = false;      ///< without words, as large as the page lets it be
 };
-
-struct Scenery;
 
 class KneePictures {
  public:
@@ -34,8 +31,12 @@ class KneePictures {
   /// view is the same for all poses of a run.
   [[nodiscard]] Image draw(View view, std::size_t pose);
 
-  /// A picture and what it shows, for words around it (pictures/annotate.h).
-  struct Drawn;
+  /// A picture and what it shows, for words around it (pictures/annotate.h). The scenery refers to
+  /// the pictures that drew it.
+  struct Drawn {
+    Image image;
+    Scenery shown;
+  };
   [[nodiscard]] Drawn draw_shown(View view, std::size_t pose);
 
   /// The camera of a view.

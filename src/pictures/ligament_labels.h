@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pictures/annotate.h"
+#include "pictures/scenery.h"
 
 namespace condyle {
 

@@ -3,8 +3,8 @@
 /// What a picture is measured by: colour bars, scale bar, length of force arrows, and the
 /// anatomical directions.
 
-#include "pictures/annotate.h"
 #include "pictures/pen.h"
+#include "pictures/scenery.h"
 
 namespace condyle {
 

@@ -4,7 +4,6 @@
 
 #include <string>
 
-#include "report/report_page.h"
 #include "results/run_view.h"
 
 namespace condyle {

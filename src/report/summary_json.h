@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "results/run_file.h"
-#include "verify/verify.h"
+#include "verify/verification.h"
 
 namespace condyle {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "scene/swept_quantity.h"
-#include "verify/verify.h"
+#include "verify/verification.h"
 
 namespace condyle::verification {
 

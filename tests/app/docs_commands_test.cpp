@@ -105,7 +105,7 @@ TEST(ShippedScenes, AreAllRun) {
     if (entry.path().extension() == ".toml")
       scenes.push_back(fs::relative(entry.path(), kRoot / "data").generic_string());
   const std::string here = contents(kRoot / "tests/app/docs_commands_test.cpp");
-  const std::string hard = contents(kRoot / "tests/hard/hard_cases.cpp");
+  const std::string hard = contents(kRoot / "tests/support/hard_cases.cpp");
   for (const std::string& scene : scenes) {
     const bool is_hard = scene.rfind("hard/", 0) == 0;
     const std::string& source = is_hard ? hard : here;

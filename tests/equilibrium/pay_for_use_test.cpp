@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/part_scenes.h"
 #include "support/allocation_count.h"
 #include "support/counted_model.h"
 #include "support/instruction_count.h"
+#include "support/part_scenes.h"
 
 namespace condyle::accuracy {
 

@@ -1,7 +1,7 @@
 /// Scenes that are hard on a solver (data/hard): nothing crashes, hangs or is wrong and called
 /// converged. docs/accuracy.md prints the table.
 
-#include "hard/hard_cases.h"
+#include "support/hard_cases.h"
 
 #include <gtest/gtest.h>
 

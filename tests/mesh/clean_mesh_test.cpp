@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mesh/mesh_measures.h"
-#include "mesh/mesh_shapes.h"
+#include "support/mesh_shapes.h"
 
 namespace condyle {
 namespace {

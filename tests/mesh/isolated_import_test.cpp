@@ -9,7 +9,7 @@
 #include "mesh/load_mesh.h"
 #include "mesh/made_mesh.h"
 #include "mesh/mesh_readers.h"
-#include "mesh/mesh_shapes.h"
+#include "support/mesh_shapes.h"
 #include "support/scratch_folder.h"
 
 namespace condyle {

@@ -11,7 +11,7 @@
 
 #include "input_error.h"
 #include "mesh/clean_mesh.h"
-#include "mesh/mesh_shapes.h"
+#include "support/mesh_shapes.h"
 #include "support/scratch_folder.h"
 
 namespace condyle {

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "mesh/mesh_shapes.h"
+#include "support/mesh_shapes.h"
 
 namespace condyle {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "input_error.h"
 #include "math/rotation.h"
-#include "mesh/mesh_shapes.h"
+#include "support/mesh_shapes.h"
 #include "support/random.h"
 
 namespace condyle {

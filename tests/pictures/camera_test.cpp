@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 
 #include "input_error.h"
-#include "pictures/block_knee.h"
+#include "support/block_knee.h"
 
 namespace condyle {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "mesh/mesh_measures.h"
-#include "mesh/mesh_shapes.h"
 #include "pictures/fit_map.h"
+#include "support/mesh_shapes.h"
 #include "surface/fit_patch.h"
 
 namespace condyle {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "pictures/block_knee.h"
 #include "pictures/color_map.h"
 #include "pictures/knee_shapes.h"
+#include "support/block_knee.h"
 
 namespace condyle {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "input_error.h"
-#include "pictures/block_knee.h"
+#include "support/block_knee.h"
 
 namespace condyle {
 namespace {

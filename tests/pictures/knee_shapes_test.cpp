@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "pictures/block_knee.h"
 #include "pictures/ligament_groups.h"
 #include "pictures/seen_insertions.h"
 #include "results/run_view.h"
+#include "support/block_knee.h"
 
 namespace condyle {
 namespace {

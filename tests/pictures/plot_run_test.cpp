@@ -9,9 +9,9 @@
 
 #include "input_error.h"
 #include "network/simulate.h"
-#include "pictures/block_knee.h"
 #include "pictures/png_file.h"
 #include "pictures/run_program.h"
+#include "support/block_knee.h"
 #include "support/scratch_folder.h"
 
 namespace condyle {

@@ -4,8 +4,8 @@
 
 #include <cstdlib>
 
-#include "pictures/block_knee.h"
 #include "pictures/solids.h"
+#include "support/block_knee.h"
 
 namespace condyle {
 namespace {

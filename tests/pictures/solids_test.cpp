@@ -6,7 +6,7 @@
 
 #include <map>
 
-#include "pictures/block_knee.h"
+#include "support/block_knee.h"
 
 namespace condyle {
 namespace {

@@ -6,11 +6,11 @@
 #include <cstdlib>
 
 #include "pictures/annotate.h"
-#include "pictures/block_knee.h"
 #include "pictures/knee_picture.h"
 #include "pictures/page_scales.h"
 #include "pictures/png_file.h"
 #include "pictures/strip.h"
+#include "support/block_knee.h"
 
 namespace condyle {
 namespace {

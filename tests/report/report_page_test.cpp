@@ -9,10 +9,10 @@
 #include <array>
 #include <regex>
 
-#include "pictures/block_knee.h"
 #include "report/embedded.h"
 #include "results/digest.h"
 #include "results/made_up_run.h"
+#include "support/block_knee.h"
 
 namespace condyle {
 namespace {

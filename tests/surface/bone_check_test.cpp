@@ -9,7 +9,7 @@
 #include "mesh/clean_mesh.h"
 #include "mesh/load_mesh.h"
 #include "mesh/mesh_measures.h"
-#include "mesh/mesh_shapes.h"
+#include "support/mesh_shapes.h"
 #include "surface/mesh_distance.h"
 
 namespace condyle {

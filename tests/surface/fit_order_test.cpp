@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "mesh/mesh_measures.h"
-#include "mesh/mesh_shapes.h"
+#include "support/mesh_shapes.h"
 #include "surface/exact_surfaces.h"
 #include "surface/fit_patch.h"
 

@@ -6,7 +6,7 @@
 
 #include "input_error.h"
 #include "mesh/mesh_measures.h"
-#include "mesh/mesh_shapes.h"
+#include "support/mesh_shapes.h"
 #include "surface/fit_figures.h"
 
 namespace condyle {

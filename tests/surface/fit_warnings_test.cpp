@@ -9,8 +9,8 @@
 
 #include "mesh/clean_mesh.h"
 #include "mesh/load_mesh.h"
-#include "mesh/mesh_shapes.h"
 #include "scene/fit_surfaces.h"
+#include "support/mesh_shapes.h"
 #include "support/scratch_folder.h"
 
 namespace condyle {

@@ -8,7 +8,7 @@
 
 #include "input_error.h"
 #include "mesh/mesh_measures.h"
-#include "mesh/mesh_shapes.h"
+#include "support/mesh_shapes.h"
 
 namespace condyle {
 namespace {

@@ -2,7 +2,7 @@
 #include <fmt/os.h>
 
 #include "accuracy/study.h"
-#include "hard/hard_cases.h"
+#include "support/hard_cases.h"
 
 namespace condyle::accuracy {
 namespace {

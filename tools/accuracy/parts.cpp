@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "accuracy/clock.h"
-#include "accuracy/part_scenes.h"
 #include "accuracy/run_process.h"
 #include "accuracy/study.h"
 #include "support/allocation_count.h"
 #include "support/counted_model.h"
 #include "support/instruction_count.h"
+#include "support/part_scenes.h"
 
 namespace condyle::accuracy {
 namespace {

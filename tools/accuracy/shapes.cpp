@@ -7,8 +7,8 @@
 #include "accuracy/phantom_regions.h"
 #include "accuracy/phantom_truth.h"
 #include "mesh/mesh_measures.h"
-#include "mesh/mesh_shapes.h"
 #include "phantom/mesh_shape.h"
+#include "support/mesh_shapes.h"
 #include "surface/exact_surfaces.h"
 
 namespace condyle::accuracy {

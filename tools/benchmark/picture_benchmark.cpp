@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "pictures/block_knee.h"
 #include "pictures/knee_picture.h"
 #include "pictures/png_file.h"
 #include "pictures/shaded_mesh.h"
+#include "support/block_knee.h"
 
 namespace condyle::benchmarks {
 namespace {

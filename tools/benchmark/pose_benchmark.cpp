@@ -6,10 +6,10 @@
 
 #include <cmath>
 
-#include "benchmark/patch_knee.h"
 #include "elements/line_element_block.h"
 #include "equilibrium/equilibrium_solver.h"
 #include "math/small_lu.h"
+#include "support/patch_knee.h"
 
 namespace condyle::benchmarks {
 namespace {

@@ -12,8 +12,8 @@
 #include "equilibrium/path_system.h"
 #include "equilibrium/restore_state.h"
 #include "equilibrium/sweep.h"
-#include "hard/hard_cases.h"
 #include "scene/read_scene.h"
+#include "support/hard_cases.h"
 
 namespace condyle::hard {
 namespace {

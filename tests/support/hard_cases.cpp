@@ -1,11 +1,11 @@
-#include "hard/hard_cases.h"
+#include "support/hard_cases.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "hard/truths.h"
+#include "support/truths.h"
 
 namespace condyle::hard {
 namespace {

@@ -1,10 +1,10 @@
-#include "accuracy/part_scenes.h"
+#include "support/part_scenes.h"
 
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "benchmark/patch_knee.h"
+#include "support/patch_knee.h"
 
 namespace condyle::accuracy {
 namespace {

@@ -1,4 +1,4 @@
-#include "benchmark/patch_knee.h"
+#include "support/patch_knee.h"
 
 #include <cmath>
 #include <functional>

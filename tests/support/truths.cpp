@@ -1,4 +1,4 @@
-#include "hard/truths.h"
+#include "support/truths.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,164 @@
+/// What docs/architecture.md says of includes, read in every source: the page stays true because
+/// its own table is what is asked.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "app/include_graph.h"
+
+namespace condyle::test {
+namespace {
+
+const std::filesystem::path kRoot = CONDYLE_SOURCE_DIR;
+
+const std::vector<Include>& includes() {
+  static const std::vector<Include> all = includes_of_project(kRoot);
+  return all;
+}
+
+const std::vector<std::string>& rooms() {
+  static const std::vector<std::string> all = rooms_of_page(kRoot / "docs/architecture.md");
+  return all;
+}
+
+/// Place of a source's room in the table; -1 for what stands in src itself and serves every room.
+int row_of(const std::string& file) {
+  const std::string room = folder(file, 2);
+  if (room == "src") return -1;
+  const auto at = std::find(rooms().begin(), rooms().end(), room.substr(4));
+  return static_cast<int>(at - rooms().begin());
+}
+
+bool starts_with(const std::string& text, const std::string& begin) {
+  return text.rfind(begin, 0) == 0;
+}
+
+TEST(Architecture, EveryRoomHasARowOfTheTableAndEveryRowARoom) {
+  std::set<std::string> folders;
+  for (const auto& entry : std::filesystem::directory_iterator(kRoot / "src"))
+    if (entry.is_directory()) folders.insert(entry.path().filename().string());
+  EXPECT_EQ(folders, std::set<std::string>(rooms().begin(), rooms().end()));
+  EXPECT_GT(includes().size(), 2000U);
+}
+
+TEST(Architecture, IncludesGoOnlyUpwardsInTheTable) {
+  for (const Include& include : includes()) {
+    if (!starts_with(include.from, "src/") || !include.of_project()) continue;
+    EXPECT_TRUE(starts_with(include.to, "src/")) << include.from << " includes " << include.to;
+    EXPECT_LE(row_of(include.to), row_of(include.from))
+        << include.from << " includes " << include.to;
+  }
+}
+
+/// What tests and tools share stands in tests/support; tests may use tools, tools no tests.
+TEST(Architecture, ToolsIncludeNoTestsAndWhatBothShareIncludesNeither) {
+  for (const Include& include : includes()) {
+    if (!include.of_project()) continue;
+    const bool shared = folder(include.to, 2) == "tests/support";
+    if (folder(include.from, 2) == "tests/support") {
+      EXPECT_TRUE(shared || starts_with(include.to, "src/"))
+          << include.from << " includes " << include.to;
+    } else if (starts_with(include.from, "tools/")) {
+      EXPECT_TRUE(shared || !starts_with(include.to, "tests/"))
+          << include.from << " includes " << include.to;
+    }
+  }
+}
+
+/// Files that include each other, over however many others. Those that are named here are to go:
+/// one that is gone has to go from this list too.
+TEST(Architecture, NoFilesGoInACircleButThoseThatAreKnown) {
+  const std::vector<std::string> known = {
+      "src/equilibrium/closing_event, src/equilibrium/events",
+      "src/equilibrium/contact_search, src/equilibrium/line_contact",
+      "src/equilibrium/dependence, src/equilibrium/motion_name, src/equilibrium/stability",
+      "src/equilibrium/sweep, src/equilibrium/sweep_walk"};
+  EXPECT_EQ(circles(includes()), known);
+}
+
+TEST(Architecture, ACircleOverThreeFilesIsSeenAndAHeaderWithItsSourceIsNone) {
+  const std::vector<Include> made = {{"src/a/x.cpp", "src/a/x.h"}, {"src/a/x.cpp", "src/a/y.h"},
+                                     {"src/a/y.h", "src/a/z.h"},   {"src/a/z.cpp", "src/a/x.h"},
+                                     {"src/a/w.h", "src/a/x.h"},   {"src/a/x.h", "<vector>"}};
+  EXPECT_EQ(circles(made), std::vector<std::string>{"src/a/x, src/a/y, src/a/z"});
+}
+
+TEST(Architecture, EachLibraryIsIncludedInOneRoom) {
+  const std::map<std::string, std::string> room_of = {
+      {"<assimp/", "mesh"},         {"<nanoflann", "surface"},
+      {"<toml++/", "scene"},        {"<cvode/", "network"},
+      {"<hdf5", "results"},         {"<openssl/", "results"},
+      {"<tiny_gltf", "exchange"},   {"<meshoptimizer", "exchange"},
+      {"<pugixml", "exchange"},     {"<GL/", "pictures"},
+      {"<png.h", "pictures"},       {"<ft2build", "pictures"},
+      {"<nlohmann/json", "report"}, {"<CLI/", "app"}};
+  std::set<std::string> seen;
+  for (const Include& include : includes()) {
+    if (!starts_with(include.from, "src/")) continue;
+    for (const auto& [library, room] : room_of) {
+      if (!starts_with(include.to, library)) continue;
+      seen.insert(library);
+      EXPECT_EQ(folder(include.from, 2), "src/" + room) << include.from << " has " << include.to;
+    }
+  }
+  EXPECT_EQ(seen.size(), room_of.size());
+}
+
+/// A second way to the answer is one only as long as it borrows no solver; a check likewise.
+TEST(Architecture, TheReferenceModelAndTheVerifierShareNoLineOfASolver) {
+  const std::set<std::string> of_the_verifier = {"src/surface/patch.h",
+                                                 "src/math/rigid_transform.h"};
+  int files = 0;
+  for (const Include& include : includes()) {
+    const std::string room = folder(include.from, 2), other = folder(include.to, 2);
+    if (room == "src/reference" && other == "src/equilibrium") {
+      ++files;
+      EXPECT_EQ(include.to, "src/equilibrium/pose_result.h") << include.from;
+    }
+    if (room != "src/verify" || !include.of_project()) continue;
+    const bool free = other == "src" || other == "src/verify" || other == "src/scene" ||
+                      other == "src/results" || other == "src/mesh";
+    EXPECT_TRUE(free || of_the_verifier.count(include.to) == 1)
+        << include.from << " includes " << include.to;
+  }
+  EXPECT_GT(files, 0);
+}
+
+/// The equations of a network know nothing of the other solver.
+TEST(Architecture, OnlyWhatMakesStartsAndTellsAMotionOfTheNetworkKnowsTheEquilibrium) {
+  const std::set<std::string> doors = {"src/network/contact_scout", "src/network/knee_network",
+                                       "src/network/motion_poses", "src/network/simulate"};
+  for (const Include& include : includes()) {
+    if (folder(include.from, 2) != "src/network" || folder(include.to, 2) != "src/equilibrium")
+      continue;
+    EXPECT_TRUE(doors.count(include.from.substr(0, include.from.rfind('.'))) == 1 ||
+                include.to == "src/equilibrium/pose_result.h")
+        << include.from << " includes " << include.to;
+  }
+}
+
+/// An edit of the network rebuilds nobody who shows a run.
+TEST(Architecture, WhoShowsARunIncludesNothingOfTheNetworkOverHoweverManyFiles) {
+  std::map<std::string, std::vector<std::string>> next;
+  for (const Include& include : includes())
+    if (include.of_project()) next[include.from].push_back(include.to);
+  for (const auto& entry : next) {
+    const std::string room = folder(entry.first, 2);
+    if (room != "src/pictures" && room != "src/exchange" && room != "src/report") continue;
+    std::set<std::string> seen;
+    std::vector<std::string> open = {entry.first};
+    while (!open.empty()) {
+      const std::string file = open.back();
+      open.pop_back();
+      EXPECT_NE(folder(file, 2), "src/network") << file << " reached from " << entry.first;
+      for (const std::string& other : next[file])
+        if (seen.insert(other).second) open.push_back(other);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace condyle::test
