@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "elements/joint_table.h"
 #include "equilibrium/build_model.h"
 #include "equilibrium/sweep.h"
 #include "input_error.h"
@@ -18,13 +19,6 @@ namespace {
 constexpr double kDegree = M_PI / 180;
 constexpr double kFlexionStep = 5 * kDegree, kLoadStep = 0.1;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-constexpr double JointCoordinates::*kCoordinates[6] = {
-    &JointCoordinates::flexion,           &JointCoordinates::adduction,
-    &JointCoordinates::internal_rotation, &JointCoordinates::lateral_shift,
-    &JointCoordinates::anterior_drawer,   &JointCoordinates::distraction};
-constexpr const char* kCoordinateNames[6] = {
-    "flexion", "adduction", "internal rotation", "lateral shift", "anterior drawer", "distraction"};
 
 /// From one value to another in steps of at most `step`, both ends included.
 std::vector<double> way(double from, double to, double step) {
@@ -103,7 +97,7 @@ std::size_t least_load(const std::vector<PoseResult>& poses) {
 
 double coordinate(const Scene& scene, const PoseResult& pose) {
   const std::size_t k = loaded_coordinate(scene);
-  return pose.converged() ? pose.joint.*kCoordinates[k] / (k < 3 ? kDegree : 1) : kNone;
+  return pose.converged() ? pose.joint.*kJointCoordinates[k].member / (k < 3 ? kDegree : 1) : kNone;
 }
 
 }  // namespace
@@ -171,9 +165,9 @@ std::vector<std::string> laxity_lines(const Scene& scene, const LaxityResult& re
   const LoadDescription& load = scene.loads[scene.sweep->index];
   const double size = load.vector.norm();
   std::vector<std::string> lines = {
-      fmt::format("{} [{}] from {:g} to {:g} {} of {}", kCoordinateNames[k], k < 3 ? "deg" : "mm",
-                  size * scene.sweep->values.front(), size * scene.sweep->values.back(),
-                  load.moment ? "N mm" : "N", load.name),
+      fmt::format("{} [{}] from {:g} to {:g} {} of {}", kJointCoordinates[k].words,
+                  k < 3 ? "deg" : "mm", size * scene.sweep->values.front(),
+                  size * scene.sweep->values.back(), load.moment ? "N mm" : "N", load.name),
       fmt::format("{:<10}{:<10}{:>10}{:>12}{:>12}", "knee", "flexion", "ours", "reference",
                   "poses")};
   for (const LaxityCurve& curve : result.curves) {

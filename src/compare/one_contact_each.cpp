@@ -1,6 +1,8 @@
 #include "compare/one_contact_each.h"
 
+#include "elements/strain.h"
 #include "equilibrium/build_model.h"
+#include "equilibrium/describe_pose.h"
 #include "equilibrium/restore_state.h"
 #include "math/rotation.h"
 
@@ -12,18 +14,10 @@ ContactResult describe(const Model& model, const EquilibriumState& state, std::s
   const ContactPair& pair = model.pairs[static_cast<std::size_t>(contact.pair)];
   const ContactLinearization at =
       linearize_contact(*pair.on_B, contact.on_B, *pair.on_A, contact.on_A, state.X);
-  ContactPointResult point;
-  point.force = contact.p;
-  point.point_ground = at.B.c;
-  point.point_moving = at.A.c;
-  point.normal_ground = at.B.n;
-  point.gap = at.gap();
-  point.relative_curvature = at.relative_curvature;
   ContactResult result;
   result.closed = true;
-  result.force = contact.p;
-  result.resultant_ground = at.B.c;
-  result.points = {point};
+  result.points = {describe_point(at, contact.p, edge_distance(pair, contact.on_B, contact.on_A))};
+  set_resultant(result);
   return result;
 }
 
@@ -36,7 +30,7 @@ void describe(const Model& model, const EquilibriumState& state, PoseResult& pos
     pose.contacts[static_cast<std::size_t>(state.contacts[c].pair)] = describe(model, state, c);
   for (const LineElement& element : model.elements) {
     const LineElementState spring = line_element_state(element, state.X);
-    pose.ligaments.push_back({spring.length, 0, spring.force});
+    pose.ligaments.push_back({spring.length, strain(element.law, spring.length), spring.force});
   }
   for (std::size_t k = 0; k < model.conditions.size(); ++k)
     pose.conditions.push_back({model.conditions[k].value, state.sigma[k]});

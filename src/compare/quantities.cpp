@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "elements/joint_table.h"
 #include "scene/ligament_bundles.h"
 #include "scene/swept_quantity.h"
 
@@ -13,19 +14,13 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDegree = M_PI / 180;
 
 void add_joint(const Scene& scene, std::vector<Quantity>& quantities) {
-  const auto angle = [&](const char* name, double JointCoordinates::*member) {
-    quantities.push_back(
-        {name, "deg", [member](const PoseResult& p) { return p.joint.*member / kDegree; }});
-  };
-  const auto length = [&](const char* name, double JointCoordinates::*member) {
-    quantities.push_back({name, "mm", [member](const PoseResult& p) { return p.joint.*member; }});
-  };
-  if (!quantity_of_sweep(scene).flexion) angle("flexion", &JointCoordinates::flexion);
-  angle("adduction", &JointCoordinates::adduction);
-  angle("internal rotation", &JointCoordinates::internal_rotation);
-  length("lateral shift", &JointCoordinates::lateral_shift);
-  length("anterior drawer", &JointCoordinates::anterior_drawer);
-  length("distraction", &JointCoordinates::distraction);
+  const bool flexion_is_swept = quantity_of_sweep(scene).flexion;
+  for (const JointCoordinate& q : kJointCoordinates) {
+    if (flexion_is_swept && q.member == &JointCoordinates::flexion) continue;
+    const double unit = q.angle ? kDegree : 1;
+    quantities.push_back({q.words, q.angle ? "deg" : "mm",
+                          [&q, unit](const PoseResult& p) { return p.joint.*q.member / unit; }});
+  }
 }
 
 /// The strongest point of a contact, in the tibia's anatomical frame: lateral, anterior.

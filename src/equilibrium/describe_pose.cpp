@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "elements/hertz.h"
+#include "elements/strain.h"
 #include "equilibrium/contact_scales.h"
 #include "equilibrium/contact_shape.h"
 #include "equilibrium/edge_in_words.h"
@@ -19,8 +20,7 @@ void describe_elements(const Model& model,
                        PoseResult& result) {
   for (const LineElement& element : model.elements) {
     const LineElementState now = line_element_state(element, state.X);
-    const double slack = slack_length(element.law);
-    result.ligaments.push_back({now.length, slack > 0 ? now.length / slack - 1 : 0, now.force});
+    result.ligaments.push_back({now.length, strain(element.law, now.length), now.force});
   }
   for (std::size_t i = 0; i < model.conditions.size(); ++i)
     result.conditions.push_back({system.conditions()[i].coordinate, state.sigma[i]});

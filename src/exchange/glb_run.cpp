@@ -52,12 +52,6 @@ const ContactPointResult* farthest_beyond(const ContactResult& contact) {
   return farthest;
 }
 
-/// Many strands of one ligament are drawn thinner [mm].
-double ligament_radius(std::size_t ligaments) {
-  return 1.5 *
-         std::min(1.0, std::sqrt(20.0 / static_cast<double>(std::max<std::size_t>(1, ligaments))));
-}
-
 class GlbRun {
  public:
   GlbRun(const Run& run, const std::vector<ShownPose>& shown)
@@ -157,8 +151,8 @@ class GlbRun {
 
   void add_ligaments() {
     if (scene_.ligaments.empty()) return;
-    const int cylinder = add_mesh(
-        unit_cylinder("ligament", kLigament, kMetre * ligament_radius(scene_.ligaments.size())));
+    const int cylinder =
+        add_mesh(unit_cylinder("ligament", kLigament, kMetre * ligament_radius(scene_)));
     for (std::size_t i = 0; i < scene_.ligaments.size(); ++i) {
       GlbNode node;
       node.name = "ligament " + scene_.ligaments[i].name;

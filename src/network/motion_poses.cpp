@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "elements/contact.h"
+#include "elements/strain.h"
 #include "equilibrium/describe_pose.h"
 #include "network/contact_scout.h"
 
@@ -35,8 +36,9 @@ class FrameTeller {
     if (model_.joint) pose.joint = joint_coordinates(*model_.joint, pose.X_BA);
     add_contacts(frame, pose);
     for (std::size_t i = 0; i < model_.elements.size(); ++i) {
-      const double length = frame.lines[i].length, slack = slack_length(model_.elements[i].law);
-      pose.ligaments.push_back({length, slack > 0 ? length / slack - 1 : 0, frame.lines[i].force});
+      const double length = frame.lines[i].length;
+      pose.ligaments.push_back(
+          {length, strain(model_.elements[i].law, length), frame.lines[i].force});
     }
     for (std::size_t i = 0; i < model_.conditions.size(); ++i) {
       const std::vector<int>& hold = scene_.simulation->hold;

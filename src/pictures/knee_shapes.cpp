@@ -63,8 +63,7 @@ PictureScales picture_scales(const Run& run, double size) {
   scales.size = size;
   scales.arrow_mm_per_n = size * 35 / contact;
   if (low <= high) scales.sweep_low = low, scales.sweep_high = high;
-  const double strands = static_cast<double>(run.scene.ligaments.size());
-  scales.tube_radius = size * 1.5 * std::min(1.0, std::sqrt(20 / std::max(1.0, strands)));
+  scales.tube_radius = size * ligament_radius(run.scene);
   return scales;
 }
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "elements/joint_table.h"
 #include "pictures/knee_shapes.h"
 #include "pictures/ligament_groups.h"
 #include "results/contact_path.h"
@@ -129,20 +130,14 @@ Chart joint_coordinate_chart(const Run& run) {
   Chart chart = chart_of(run, "joint coordinates");
   if (!run.scene.joint) return chart;
   Panel angles{"Rotation [°]", {}}, lengths{"Translation [mm]", {}};
-  const auto angle = [&](const std::string& title, double JointCoordinates::*member) {
-    angles.curves.push_back(curve_of(
-        run, title, [member](const PoseResult& pose) { return kDegrees * (pose.joint.*member); }));
-  };
-  const auto length = [&](const std::string& title, double JointCoordinates::*member) {
-    lengths.curves.push_back(
-        curve_of(run, title, [member](const PoseResult& pose) { return pose.joint.*member; }));
-  };
-  if (!swept_quantity(run).flexion) angle("flexion", &JointCoordinates::flexion);
-  angle("adduction", &JointCoordinates::adduction);
-  angle("internal rotation", &JointCoordinates::internal_rotation);
-  length("lateral shift", &JointCoordinates::lateral_shift);
-  length("anterior drawer", &JointCoordinates::anterior_drawer);
-  length("distraction", &JointCoordinates::distraction);
+  const bool flexion_is_swept = swept_quantity(run).flexion;
+  for (const JointCoordinate& q : kJointCoordinates) {
+    if (flexion_is_swept && q.member == &JointCoordinates::flexion) continue;
+    const double unit = q.angle ? kDegrees : 1;
+    (q.angle ? angles : lengths).curves.push_back(curve_of(run, q.words, [&](const PoseResult& p) {
+      return unit * (p.joint.*q.member);
+    }));
+  }
   chart.panels = {angles, lengths};
   return chart;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "elements/contact.h"
+#include "elements/strain.h"
 #include "reference/joint_rotation.h"
 #include "reference/wismans_solver.h"
 #include "reference/wismans_system.h"
@@ -158,8 +159,7 @@ PoseResult describe(const WismansModel& model, const WismansSolution& solution) 
   }
   for (const LineElement& spring : model.springs) {
     const LineElementState state = line_element_state(spring, pose.X_BA);
-    const double slack = slack_length(spring.law);
-    pose.ligaments.push_back({state.length, slack > 0 ? state.length / slack - 1 : 0, state.force});
+    pose.ligaments.push_back({state.length, strain(spring.law, state.length), state.force});
   }
   pose.conditions = {{model.flexion, solution.unknowns[wismans::kMoment]}};
   to_file_frames(model.origins, pose);

@@ -82,8 +82,8 @@ std::vector<std::string> ligament_row(const Run& run,
                                       const SweptQuantity& swept,
                                       std::size_t index) {
   const PoseResult* most = hardest(run.sweep.poses, index);
-  std::vector<std::string> row = {run.scene.ligaments[index].name};
-  if (most == nullptr) return {row[0], "-", "-", "-", "-", "-"};
+  const std::string& ligament_name = run.scene.ligaments[index].name;
+  if (most == nullptr) return {ligament_name, "-", "-", "-", "-", "-"};
   double low = 1e300, high = -1e300;
   int taut = 0, all = 0;
   for (const PoseResult& pose : run.sweep.poses) {
@@ -95,12 +95,9 @@ std::vector<std::string> ligament_row(const Run& run,
     ++all;
   }
   const double force = most->ligaments[index].force;
-  row.push_back(number(force, 1));
-  row.push_back(force > 0 ? at_value(swept, most->value) : "-");
-  row.push_back(number(100 * low, 1));
-  row.push_back(number(100 * high, 1));
-  row.push_back(fmt::format("{} of {}", taut, all));
-  return row;
+  return {
+      ligament_name,        number(force, 1),      force > 0 ? at_value(swept, most->value) : "-",
+      number(100 * low, 1), number(100 * high, 1), fmt::format("{} of {}", taut, all)};
 }
 
 /// One number of each ligament at each pose.

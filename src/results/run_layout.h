@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "elements/joint_table.h"
 #include "equilibrium/pose_result.h"
 #include "scene/fit_surfaces.h"
 
@@ -22,14 +23,14 @@ struct Column {
   double unit = 1;
 };
 
-inline constexpr std::array<Column<JointCoordinates>, 6> kJointColumns = {{
-    {"flexion", "deg", &JointCoordinates::flexion, kDegree},
-    {"adduction", "deg", &JointCoordinates::adduction, kDegree},
-    {"internal_rotation", "deg", &JointCoordinates::internal_rotation, kDegree},
-    {"lateral_shift", "mm", &JointCoordinates::lateral_shift},
-    {"anterior_drawer", "mm", &JointCoordinates::anterior_drawer},
-    {"distraction", "mm", &JointCoordinates::distraction},
-}};
+inline constexpr std::array<Column<JointCoordinates>, 6> kJointColumns = [] {
+  std::array<Column<JointCoordinates>, 6> columns{};
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const JointCoordinate& q = kJointCoordinates[i];
+    columns[i] = {q.name, q.angle ? "deg" : "mm", q.member, q.angle ? kDegree : 1};
+  }
+  return columns;
+}();
 
 inline constexpr std::array<Column<LigamentResult>, 3> kLigamentColumns = {{
     {"length", "mm", &LigamentResult::length},

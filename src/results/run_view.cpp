@@ -88,6 +88,11 @@ const ContactPointResult* strongest_point(const ContactResult& contact) {
   return strongest == contact.points.end() ? nullptr : &*strongest;
 }
 
+double ligament_radius(const Scene& scene) {
+  const auto strands = static_cast<double>(scene.ligaments.size());
+  return 1.5 * std::min(1.0, std::sqrt(20 / std::max(1.0, strands)));
+}
+
 Vector3d place_of_interest(const Run& run, int body) {
   for (const PoseResult& pose : run.sweep.poses) {
     if (!has_place(pose)) continue;

@@ -41,6 +41,9 @@ namespace condyle {
 /// microseconds are written.
 [[nodiscard]] std::string short_time(double seconds, const std::string& micro);
 
+/// Radius of the tube that stands for a ligament [mm]: many strands are drawn thinner.
+[[nodiscard]] double ligament_radius(const Scene& scene);
+
 /// Where in the body's frame a surface without bounds is worth seeing [mm]: at the first contact of
 /// the run.
 [[nodiscard]] Eigen::Vector3d place_of_interest(const Run& run, int body);

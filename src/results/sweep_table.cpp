@@ -63,12 +63,10 @@ SweepTable::SweepTable(const Scene& scene, const SweptQuantity& swept) : unit_(s
 
 // Joint coordinates where the scene has a joint, else the pose: place of O_A and rotation vector.
 void SweepTable::add_coordinates(bool joint, bool flexion_is_swept) {
-  static constexpr std::array<const char*, 6> kJoint = {"flex",   "adduct", "int.rot",
-                                                        "lat.sh", "ant.dr", "distr"};
   static constexpr std::array<const char*, 6> kPose = {"x", "y", "z", "rot x", "rot y", "rot z"};
   for (std::size_t i = joint && flexion_is_swept ? 1 : 0; i < 6; ++i) {
     if (joint) {
-      cells_.push_back({kJoint[i], kJointColumns[i].units, 2,
+      cells_.push_back({kJointCoordinates[i].column, kJointColumns[i].units, 2,
                         [](const SweepTable&, const PoseResult& p, std::size_t k) {
                           return p.joint.*kJointColumns[k].member / kJointColumns[k].unit;
                         },

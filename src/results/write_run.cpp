@@ -116,10 +116,9 @@ ContactPointResult no_point() {
 // The point that stands for a pair of surfaces: the one with the greatest force.
 // An open contact without a place near carries nothing, infinitely far away.
 ContactPointResult main_point(const ContactResult& contact) {
-  if (contact.points.empty()) return no_point();
-  ContactPointResult point =
-      *std::max_element(contact.points.begin(), contact.points.end(),
-                        [](const auto& a, const auto& b) { return a.force < b.force; });
+  const ContactPointResult* strongest = strongest_point(contact);
+  if (strongest == nullptr) return no_point();
+  ContactPointResult point = *strongest;
   point.force = contact.force;
   return point;
 }

@@ -86,13 +86,14 @@ SweptQuantity quantity_of_sweep(const Scene& scene) {
 }
 
 SweptQuantity quantity_of_motion() {
-  SweptQuantity time;
-  time.name = time.inside = "time";
-  time.title = "Time";
-  time.symbol = "s";
-  time.unit = time.declared = {"s", 1};
-  time.axis = "Time [s]";
-  return time;
+  const Unit seconds = {"s", 1};
+  return {.name = "time",
+          .title = "Time",
+          .inside = "time",
+          .symbol = "s",
+          .unit = seconds,
+          .declared = seconds,
+          .axis = "Time [s]"};
 }
 
 std::string with_unit(const SweptQuantity& quantity, double value) {

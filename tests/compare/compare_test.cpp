@@ -8,8 +8,11 @@
 #include <cmath>
 #include <filesystem>
 
+#include "compare/one_contact_each.h"
 #include "equilibrium/sweep.h"
 #include "input_error.h"
+#include "reference/fit_heights.h"
+#include "reference/polynomial_surface.h"
 #include "results/run_file.h"
 #include "scene/read_scene.h"
 #include "support/scratch_folder.h"
@@ -52,6 +55,33 @@ void expect_all_three_agree(const Comparison& comparison) {
         difference(q.of(Variant::kReference), std::vector<double>(q.values[0].size(), 0.0)).max;
     EXPECT_LT(rest.max, 1e-9 * std::max(1.0, largest)) << q.name;
   }
+}
+
+// The same numbers of a pose from either solver: lengths, strains, and how far an edge is.
+TEST(Compare, OneContactEachTellsStrainsAndEdgesAsTheReferenceDoes) {
+  const Scene scene = with_quadratic_springs(read_scene(kKnee));
+  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
+  const std::vector<HeightFit> heights = fit_heights(scene, surfaces);
+  const SweepResult reference =
+      reference_sweep(scene, build_wismans_model(scene, heights), sweep(scene, surfaces));
+  const SweepResult ours =
+      sweep_one_contact_each(scene, with_polynomials(surfaces, heights), reference);
+  ASSERT_GT(ours.count_converged(), 0);
+  double greatest = 0;
+  for (std::size_t i = 0; i < ours.poses.size(); ++i) {
+    const PoseResult &a = ours.poses[i], &b = reference.poses[i];
+    if (!a.converged() || !b.converged()) continue;
+    for (std::size_t k = 0; k < a.ligaments.size(); ++k) {
+      EXPECT_NEAR(a.ligaments[k].strain, b.ligaments[k].strain, 1e-9) << k;
+      greatest = std::max(greatest, a.ligaments[k].strain);
+    }
+    for (const ContactResult& contact : a.contacts) {
+      ASSERT_EQ(contact.points.size(), 1U);
+      // Force times place over force: rounding.
+      EXPECT_LT((contact.resultant_ground - contact.points[0].point_ground).norm(), 1e-12);
+    }
+  }
+  EXPECT_GT(greatest, 0.01);
 }
 
 TEST(Compare, DifferencesAreMeasuredWhereBothHaveAValue) {
