@@ -3,8 +3,9 @@
 # and writes docs/strangers.md with each figure beside the one wanted. All of it takes about an hour on two cores; parts
 # are known, steps, places, roughness, time. Ends with 2 where a figure is not met.
 #
-#   tools/strangers.sh [--quick] [--threads N] [--parts known,steps]
+#   tools/strangers.sh [--quick] [--sweeps N] [--threads N] [--parts known,steps]
 #
+# --sweeps: of rough bone, 2000 where it is not given.
 # --quick, and any choice of parts, write out/strangers.md in place of docs/strangers.md.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -54,7 +54,7 @@ void expect_same(const SweepResult& a,
 }
 
 TEST(ComparedPlaces, OfFilesHaveNoSayInAComparison) {
-  Scene scene = read_scene(std::string(kData) + "wismans-type/knee.toml");
+  Scene scene = read_scene(std::filesystem::path(kData) / "wismans-type/knee.toml");
   const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
   SweepOptions plain;
   plain.events = plain.stability = false;
@@ -72,13 +72,15 @@ TEST(ComparedPlaces, OfFilesHaveNoSayInAComparison) {
           const double a = expected.quantities[q].values[v][k],
                        b = actual.quantities[q].values[v][k];
           EXPECT_EQ(std::isnan(a), std::isnan(b));
-          if (!std::isnan(a)) EXPECT_NEAR(a, b, 1e-8 * std::max(1.0, std::abs(a)));
+          if (!std::isnan(a)) {
+            EXPECT_NEAR(a, b, 1e-8 * std::max(1.0, std::abs(a)));
+          }
         }
   }
 }
 
 TEST(ComparedPlaces, OfFilesHaveNoSayInATestOfLaxity) {
-  Scene scene = read_scene(std::string(kData) + "wismans-type/drawer.toml");
+  Scene scene = read_scene(std::filesystem::path(kData) / "wismans-type/drawer.toml");
   scene.laxity->flexions = {0, M_PI / 3};
   const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
   const LaxityResult expected = test_laxity(scene, surfaces);
@@ -94,7 +96,7 @@ TEST(ComparedPlaces, OfFilesHaveNoSayInATestOfLaxity) {
 
 // Not turned: the integrator weighs components.
 TEST(ComparedPlaces, OfFilesHaveNoSayInAMotion) {
-  Scene scene = read_scene(std::string(kData) + "phantom/pendulum.toml");
+  Scene scene = read_scene(std::filesystem::path(kData) / "phantom/pendulum.toml");
   scene.simulation->time = 0.1;
   const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
   const MovedScene moved(scene, kFar);

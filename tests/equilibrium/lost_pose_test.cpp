@@ -91,9 +91,10 @@ TEST_F(UnknownBand, IsCrossedFromEverySideToTheSamePoses) {
       const double a = height(whole.at(kFirst)), b = height(whole.at(kLast));
       const double y = height(whole.at(degrees));
       const bool within = y > std::min(a, b) && y < std::max(a, b);
-      if (degrees != kFirst && degrees != kLast)
+      if (degrees != kFirst && degrees != kLast) {
         EXPECT_EQ(name(pose.status), std::string(within ? "left patch" : "converged"))
             << pose.reason;
+      }
       if (pose.solved()) expect_near(pose, whole.at(degrees), 1e-7);
     }
   }

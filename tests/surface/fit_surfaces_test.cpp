@@ -309,7 +309,6 @@ TEST(FitSurfaces, FindsTheSameCurvatureInMeshesOfDifferentResolution) {
     EXPECT_LT(curvature_difference(full[i], medium[i], 10), 0.0006) << full[i].report->surface;
     EXPECT_LT(curvature_difference(full[i], medium[i], 0), 0.001) << full[i].report->surface;
     EXPECT_LT(curvature_difference(full[i], coarse[i], 0), 0.003) << full[i].report->surface;
-    EXPECT_LT(full[i].report->seconds, 1);
   }
 }
 

@@ -43,7 +43,9 @@ void expect_radius(bool socket, double offset, double radius) {
     EXPECT_NEAR(at.c.norm(), radius, 0.02);
     EXPECT_GT(at.n.dot(old.n), 1 - 1e-5);
     EXPECT_GT(at.n.dot(at.c) * -bend, 0);
-    if (before.edge_distance(place) > 3) EXPECT_NEAR(at.K.trace(), 2 * bend / radius, 2e-3);
+    if (before.edge_distance(place) > 3) {
+      EXPECT_NEAR(at.K.trace(), 2 * bend / radius, 2e-3);
+    }
     // The same part is known, seen from the centre.
     EXPECT_GT(before.edge_distance(place), -0.2);
   }

@@ -1,12 +1,13 @@
 /// condyle_strangers: how the program fares on knees that it was not tuned to. Runs the program on
 /// them, verifies every pose, and writes docs/strangers.md with each figure beside the one wanted.
 ///
-///   condyle_strangers PROGRAM SOURCE -o PAGE.md [--quick] [--threads N] [--parts known,steps,...]
+///   condyle_strangers PROGRAM SOURCE -o PAGE.md [--quick] [--sweeps N] [--threads N]
+///   [--parts known,steps,...]
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +32,7 @@ struct Study {
   fs::path program, source, scratch;
   int threads = 1;
   bool quick = false;
+  std::size_t rough_sweeps = 2000;
   std::string page;
   bool met = true;             ///< every figure that was wanted
   double slowest_failing = 0;  ///< [s]
@@ -299,7 +301,7 @@ void study_roughness(Study& study) {
   std::vector<Study::Source> knees = study.shipped;
   knees.insert(knees.end(), study.population.begin(), study.population.end());
   const std::vector<double> sizes = {0.05, 0.1, 0.2, 0.3}, loads = {50, 100, 300};
-  const std::size_t sweeps = study.quick ? 24 : 2000;
+  const std::size_t sweeps = study.quick ? 24 : study.rough_sweeps;
   const std::size_t of_one_seed = knees.size() * sizes.size() * loads.size();
   const std::size_t seeds = std::max<std::size_t>(1, (sweeps + of_one_seed - 1) / of_one_seed);
   std::vector<Job> jobs;
@@ -376,6 +378,9 @@ int run(int argc, char** argv) {
       ->check(CLI::ExistingDirectory);
   app.add_option("-o,--output", output, "page to write (Markdown)")->required();
   app.add_flag("--quick", study.quick, "a small selection");
+  app.add_option("--sweeps", study.rough_sweeps, "of rough bone, at least")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--threads", study.threads, "sweeps at a time")->capture_default_str();
   app.add_option("--parts", parts,
                  "of known, steps, places, roughness, time; all where none is named")
@@ -389,6 +394,9 @@ int run(int argc, char** argv) {
       "by `condyle "
       "sweep`, every converged pose checked by `condyle verify` (docs/verify.md).");
   if (study.quick) study.write("\nA quick selection (`--quick`), not the whole study.");
+  if (app.count("--sweeps") > 0)
+    study.write(fmt::format("\nOf rough bone a selection (`--sweeps {}`); the whole has 2000.",
+                            study.rough_sweeps));
   for (const std::string& name : study.absent) {
     study.write(fmt::format("\nNot here, and left out: {}.", name));
     fmt::print(stderr, "not here, and left out: {}\n", name);
