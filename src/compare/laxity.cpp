@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "elements/joint_table.h"
 #include "equilibrium/build_model.h"
@@ -28,6 +29,15 @@ std::vector<double> way(double from, double to, double step) {
   return values;
 }
 
+/// What all curves of one knee share.
+struct PreparedKnee {
+  std::shared_ptr<const Model> model;
+  ContactCovers covers;
+  PreparedKnee(const Scene& scene, const std::vector<FittedSurface>& surfaces)
+      : model(std::make_shared<const Model>(build_model(scene, surfaces))),
+        covers(cover_pairs(*model)) {}
+};
+
 /// The ways to each flexion of the test, and there to the first value of the load.
 struct Ways {
   double start;  ///< flexion that the scene describes
@@ -39,18 +49,19 @@ struct Ways {
 };
 
 SweepResult by_engine(const Scene& scene,
-                      const std::vector<FittedSurface>& surfaces,
+                      const PreparedKnee& knee,
                       const Ways& ways,
                       double flexion) {
   EquilibriumOptions options;
   options.description.stability = false;
-  EquilibriumSolver solver(build_model(scene, surfaces), options);
+  EquilibriumSolver solver(knee.model, knee.covers, options);
   SweepOptions plain;
   plain.stability = plain.events = false;
-  double& angle = solver.model().conditions[scene.laxity->condition].value;
-  double& load = solver.model().loads[scene.sweep->index].scale;
-  load = 0;
+  const Swept angle = condition_value(static_cast<std::size_t>(scene.laxity->condition));
+  const Swept load = swept_of(*scene.sweep);
+  plain.drive = load.with(drive_of(solver.model()), 0);
   (void)sweep(solver, angle, way(ways.start, flexion, kFlexionStep), plain);
+  plain.drive = angle.with(*plain.drive, flexion);
   (void)sweep(solver, load, ways.to_load, plain);
   return sweep(solver, load, ways.loads, plain);
 }
@@ -130,8 +141,9 @@ LaxityResult test_laxity(const Scene& scene,
   for (const bool cut : {false, true}) {
     if (cut && scene.laxity->cut.empty()) continue;
     const Scene knee = cut ? without(scene, scene.laxity->cut) : scene;
+    const PreparedKnee prepared(knee, surfaces);
     for (const double flexion : scene.laxity->flexions) {
-      LaxityCurve curve{flexion, cut, by_engine(knee, surfaces, ways, flexion), {}};
+      LaxityCurve curve{flexion, cut, by_engine(knee, prepared, ways, flexion), {}};
       if (by_both) {
         std::vector<RigidTransform> starts;
         const PoseResult& middle = curve.ours.poses[least_load(curve.ours.poses)];

@@ -21,7 +21,10 @@ ContactResult describe(const Model& model, const EquilibriumState& state, std::s
   return result;
 }
 
-void describe(const Model& model, const EquilibriumState& state, PoseResult& pose) {
+void describe(const Model& model,
+              const EquilibriumState& state,
+              const Drive& drive,
+              PoseResult& pose) {
   pose.status = PoseStatus::kConverged;
   pose.X_BA = state.X;
   pose.joint = joint_coordinates(*model.joint, state.X);
@@ -33,7 +36,7 @@ void describe(const Model& model, const EquilibriumState& state, PoseResult& pos
     pose.ligaments.push_back({spring.length, strain(element.law, spring.length), spring.force});
   }
   for (std::size_t k = 0; k < model.conditions.size(); ++k)
-    pose.conditions.push_back({model.conditions[k].value, state.sigma[k]});
+    pose.conditions.push_back({drive.values[k], state.sigma[k]});
   to_file_frames(model.origins, pose);
 }
 
@@ -50,11 +53,10 @@ void step_aside(EquilibriumState& state) {
 SweepResult sweep_one_contact_each(const Scene& scene,
                                    const std::vector<FittedSurface>& surfaces,
                                    const SweepResult& reference) {
-  Model model = build_model(scene, surfaces);
+  const Model model = build_model(scene, surfaces);
   Newton newton(model);
-  const auto index = static_cast<std::size_t>(scene.sweep->index);
-  double& swept =
-      scene.sweep->varies_load ? model.loads[index].scale : model.conditions[index].value;
+  Drive drive = drive_of(model);
+  double& swept = swept_of(*scene.sweep).in(drive);
   SweepResult result;
   for (const PoseResult& from : reference.poses) {
     PoseResult pose;
@@ -62,10 +64,10 @@ SweepResult sweep_one_contact_each(const Scene& scene,
     if (from.converged() && can_restore(model, from)) {
       EquilibriumState state = restore_state(model, from);
       step_aside(state);
-      const NewtonReport report = newton.solve(state);
+      const NewtonReport report = newton.solve(state, drive);
       pose.iterations = report.iterations;
       pose.residual = report.residual;
-      if (report.outcome == NewtonOutcome::kConverged) describe(model, state, pose);
+      if (report.outcome == NewtonOutcome::kConverged) describe(model, state, drive, pose);
     }
     result.poses.push_back(std::move(pose));
   }

@@ -45,10 +45,7 @@ struct AxisPair {
   }
 };
 
-void set_angle(double angle, double value, ConditionDerivatives& out) {
-  out.coordinate = wrapped(angle);
-  out.k = wrapped(angle - value);
-}
+void set_angle(double angle, ConditionDerivatives& out) { out.coordinate = wrapped(angle); }
 
 /// Angle of spin about b: η = (b - s m)/c².
 void spin_about_fixed(const AxisPair& p, double sign, ConditionDerivatives& out) {
@@ -83,13 +80,13 @@ void cardan_angle(const KinematicCondition& condition,
   const AxisPair p(Vector3d::UnitZ(), R.col(1));
   switch (condition.cardan_axis) {
     case 0:
-      set_angle(std::atan2(p.s, p.v.norm()), condition.value, out);
+      set_angle(std::atan2(p.s, p.v.norm()), out);
       return spin_about_node(p, 1, out);
     case 1:
-      set_angle(std::atan2(-R(2, 0), R(2, 2)), condition.value, out);
+      set_angle(std::atan2(-R(2, 0), R(2, 2)), out);
       return spin_about_moving(p, 1, out);
     default:
-      set_angle(std::atan2(-R(0, 1), R(1, 1)), condition.value, out);
+      set_angle(std::atan2(-R(0, 1), R(1, 1)), out);
       return spin_about_fixed(p, 1, out);
   }
 }
@@ -132,16 +129,15 @@ void joint_angle(const KinematicCondition& condition,
   const double side = condition.frames.side, sigma = pose.sigma;
   const bool tibia_moves = condition.frames.tibia_moves;
   if (condition.kind == ConditionKind::kAdduction) {
-    set_angle(side * std::atan2(axes.s, axes.v.norm()), condition.value, out);
+    set_angle(side * std::atan2(axes.s, axes.v.norm()), out);
     return spin_about_node(axes, side, out);
   }
   const bool flexion = condition.kind == ConditionKind::kFlexion;
   if (flexion) {
-    set_angle(std::atan2(pose.e3.dot(pose.femur_axis(1)), pose.e3.dot(pose.femur_axis(2))),
-              condition.value, out);
+    set_angle(std::atan2(pose.e3.dot(pose.femur_axis(1)), pose.e3.dot(pose.femur_axis(2))), out);
   } else {
     const double y = -pose.e1.dot(pose.tibia_axis(1)), x = pose.e1.dot(pose.tibia_axis(0));
-    set_angle(side * std::atan2(y, x), condition.value, out);
+    set_angle(side * std::atan2(y, x), out);
   }
   const double sign = flexion ? -sigma : side * sigma;
   if (flexion == tibia_moves) return spin_about_fixed(axes, sign, out);
@@ -221,7 +217,6 @@ void joint_translation(const KinematicCondition& condition,
   } else {
     along_node(h, pose.axes(), out);
   }
-  out.k = out.coordinate - condition.value;
 }
 
 /// e.(a + q - x_C), q = R s_D: η = q x e.
@@ -231,7 +226,6 @@ void translation(const KinematicCondition& condition,
   const Vector3d& e = condition.axis;
   const Vector3d q = X_BA.R * condition.s_D;
   out.coordinate = e.dot(X_BA.p + q - condition.x_C);
-  out.k = out.coordinate - condition.value;
   out.alpha = e;
   out.eta = q.cross(e);
   out.D4.noalias() = q * e.transpose();
@@ -245,7 +239,6 @@ void distance(const KinematicCondition& condition,
   const Vector3d q = X_BA.R * condition.s_D;
   const Vector3d d = X_BA.p + q - condition.x_C;
   out.coordinate = d.norm();
-  out.k = out.coordinate - condition.value;
   const double L = std::max(out.coordinate, kSmallest);
   const Vector3d e = d / L;
   const Matrix3d P = (Matrix3d::Identity() - e * e.transpose()) / L, Q = skew(q);
@@ -260,7 +253,9 @@ void distance(const KinematicCondition& condition,
 
 }  // namespace
 
-ConditionDerivatives evaluate(const KinematicCondition& condition, const RigidTransform& X_BA) {
+ConditionDerivatives evaluate(const KinematicCondition& condition,
+                              double value,
+                              const RigidTransform& X_BA) {
   ConditionDerivatives out;
   for (Vector3d* v : {&out.alpha, &out.eta}) v->setZero();
   for (Matrix3d* D : {&out.D1, &out.D2, &out.D3, &out.D4}) D->setZero();
@@ -285,6 +280,8 @@ ConditionDerivatives evaluate(const KinematicCondition& condition, const RigidTr
       distance(condition, X_BA, out);
       break;
   }
+  const double off = out.coordinate - value;
+  out.k = is_angle(condition.kind) ? wrapped(off) : off;
   return out;
 }
 

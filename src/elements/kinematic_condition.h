@@ -31,7 +31,7 @@ enum class ConditionKind {
 
 struct KinematicCondition {
   ConditionKind kind = ConditionKind::kFlexion;
-  double value = 0;                                 ///< prescribed [rad] or [mm]
+  double value = 0;                                 ///< prescribed nominally [rad] or [mm]
   JointFrames frames;                               ///< Grood-Suntay kinds
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< kTranslation: unit vector, ground frame
   int cardan_axis = 0;                              ///< kRotation: 0 x, 1 y, 2 z of R = Rz Rx' Ry''
@@ -47,10 +47,12 @@ struct ConditionDerivatives {
   Eigen::Matrix3d D1, D2, D3, D4;
 };
 
-/// Finite everywhere except where the coordinate itself has no derivative (Cardan angle y or z at
-/// cos(x) = 0, flexion at ±90° of adduction, a distance of zero): there it returns what the formula
-/// gives with the denominator bounded away from zero by 1e-12, never NaN.
+/// `value` is prescribed [rad] or [mm]. Finite everywhere except where the coordinate itself has no
+/// derivative (Cardan angle y or z at cos(x) = 0, flexion at ±90° of adduction, a distance of zero):
+/// there it returns what the formula gives with the denominator bounded away from zero by 1e-12,
+/// never NaN.
 [[nodiscard]] ConditionDerivatives evaluate(const KinematicCondition& condition,
+                                            double value,
                                             const RigidTransform& X_BA);
 
 }  // namespace condyle

@@ -39,7 +39,8 @@ Eigen::Matrix3d matrix_of(const double (*rows)[4]) {
 
 }  // namespace
 
-LineElementBlock::LineElementBlock(const std::vector<LineElement>& elements) {
+void LineElementBlock::set(const std::vector<LineElement>& elements) {
+  entries_.clear();
   entries_.reserve(elements.size());
   for (const LineElement& element : elements) {
     Entry entry{};

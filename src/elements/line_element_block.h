@@ -11,8 +11,10 @@ namespace condyle {
 
 class LineElementBlock {
  public:
-  /// Keeps a reference: `elements` must stay as they are.
-  explicit LineElementBlock(const std::vector<LineElement>& elements);
+  /// Keeps a reference: `elements` must stay as they are until they are set anew.
+  explicit LineElementBlock(const std::vector<LineElement>& elements) { set(elements); }
+  /// Allocates nothing for as many as before.
+  void set(const std::vector<LineElement>& elements);
 
   struct Summary {
     double force_magnitudes = 0;  ///< Σ |f| [N]

@@ -7,15 +7,15 @@
 namespace condyle {
 namespace {
 
-void add_custom(const Load& load, const RigidTransform& X_BA, Wrench& wrench) {
+void add_custom(const Load& load, double scale, const RigidTransform& X_BA, Wrench& wrench) {
   Wrench own;
   load.custom(X_BA, own);
-  wrench.f += load.scale * own.f;
-  wrench.m += load.scale * own.m;
-  wrench.F1 += load.scale * own.F1;
-  wrench.F2 += load.scale * own.F2;
-  wrench.M1 += load.scale * own.M1;
-  wrench.M2 += load.scale * own.M2;
+  wrench.f += scale * own.f;
+  wrench.m += scale * own.m;
+  wrench.F1 += scale * own.F1;
+  wrench.F2 += scale * own.F2;
+  wrench.M1 += scale * own.M1;
+  wrench.M2 += scale * own.M2;
 }
 
 void add_moment(const Eigen::Vector3d& m, bool follows_body, Wrench& wrench) {
@@ -39,9 +39,9 @@ void add_force(const Eigen::Vector3d& f,
 
 }  // namespace
 
-void add_load(const Load& load, const RigidTransform& X_BA, Wrench& wrench) {
-  if (load.custom) return add_custom(load, X_BA, wrench);
-  Eigen::Vector3d vector = load.scale * load.vector;
+void add_load(const Load& load, double scale, const RigidTransform& X_BA, Wrench& wrench) {
+  if (load.custom) return add_custom(load, scale, X_BA, wrench);
+  Eigen::Vector3d vector = scale * load.vector;
   if (load.follows_body) vector = X_BA.R * vector;
   if (load.moment) {
     add_moment(vector, load.follows_body, wrench);

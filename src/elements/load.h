@@ -18,13 +18,13 @@ struct Load {
       Eigen::Vector3d::Zero();  ///< [N] or [N mm]; ground frame, or A's frame for a follower
   Eigen::Vector3d at =
       Eigen::Vector3d::Zero();  ///< point of application in A's frame [mm]; forces only
-  double scale = 1;             ///< multiplies the vector
-  /// In place of all the above but `scale`: writes the wrench on A about O_A and its derivatives at
-  /// the pose.
+  double scale = 1;             ///< that multiplies the vector, nominally
+  /// In place of all the above but the scale: writes the wrench on A about O_A and its derivatives
+  /// at the pose.
   std::function<void(const RigidTransform& X_BA, Wrench& wrench)> custom;
 };
 
-/// Adds the load and its derivatives to `wrench`. Allocates nothing.
-void add_load(const Load& load, const RigidTransform& X_BA, Wrench& wrench);
+/// Adds `scale` times the load and its derivatives to `wrench`. Allocates nothing.
+void add_load(const Load& load, double scale, const RigidTransform& X_BA, Wrench& wrench);
 
 }  // namespace condyle

@@ -17,7 +17,8 @@ constexpr double kShortest = 1e-7;  // a step [L] below which the path counts as
 class PathFollower {
  public:
   PathFollower(EquilibriumSolver& solver,
-               const SweptValue& swept,
+               const Swept& swept,
+               const Drive& drive,
                double from,
                double to,
                double largest_step,
@@ -25,16 +26,19 @@ class PathFollower {
       : solver_(solver),
         model_(solver.model()),
         swept_(swept),
+        drive_(drive),
         from_(from),
         to_(to),
         largest_step_(largest_step),
         options_(options),
-        system_(model_, swept, std::abs(to - from)),
-        contacts_(model_) {}
+        system_(model_, swept, drive, std::abs(to - from)),
+        contacts_(model_, solver.covers()) {
+    system_.set_parameters(solver.parameters());
+  }
 
   SweepResult follow() {
-    swept_.in(model_) = from_;
-    PoseResult first = solver_.solve();
+    swept_.in(drive_) = from_;
+    PoseResult first = solver_.solve(drive_);
     first.value = from_;
     append(first);
     if (!first.converged()) return std::move(result_);
@@ -73,9 +77,9 @@ class PathFollower {
 
   /// The pose at a point, with all that is told about it.
   bool describe(const PathPoint& point) {
-    swept_.in(model_) = point.value;
-    solver_.set_state(point.state);
-    PoseResult pose = solver_.solve(Patience::kNone);
+    swept_.in(drive_) = point.value;
+    solver_.set_state(point.state, drive_);
+    PoseResult pose = solver_.solve(drive_, Patience::kNone);
     pose.value = point.value;
     const bool usable = pose.solved();
     append(std::move(pose));
@@ -252,8 +256,9 @@ class PathFollower {
   }
 
   EquilibriumSolver& solver_;
-  Model& model_;
-  SweptValue swept_;
+  const Model& model_;
+  Swept swept_;
+  Drive drive_;
   double from_, to_, largest_step_;
   const PathOptions& options_;
   PathSystem system_;
@@ -266,19 +271,20 @@ class PathFollower {
 }  // namespace
 
 SweepResult follow_path(EquilibriumSolver& solver,
-                        const SweptValue& swept,
+                        const Swept& swept,
                         double from,
                         double to,
                         double largest_step,
                         const PathOptions& options) {
+  const Drive drive = options.drive ? *options.drive : drive_of(solver.model());
+  check_drive(drive, solver.model());
   if (from == to || !(largest_step > 0)) {
-    swept.in(solver.model()) = from;
     SweepResult single;
-    single.poses.push_back(solver.solve());
+    single.poses.push_back(solver.solve(swept.with(drive, from)));
     single.poses.back().value = from;
     return single;
   }
-  return PathFollower(solver, swept, from, to, largest_step, options).follow();
+  return PathFollower(solver, swept, drive, from, to, largest_step, options).follow();
 }
 
 }  // namespace condyle

@@ -9,6 +9,7 @@
 /// gap opens or the contact pushes.
 
 #include <functional>
+#include <optional>
 
 #include "equilibrium/equilibrium_solver.h"
 #include "equilibrium/path_system.h"
@@ -18,6 +19,7 @@ namespace condyle {
 struct PathOptions {
   double longest = 0.1;  ///< motion of the body in one step, in units of L
   int most_poses = 2000;
+  std::optional<Drive> drive = {};  ///< of all that is not swept; absent: the model's nominal one
   std::function<void(const PoseResult&)> on_pose = {};  ///< called after each pose, in order
 };
 
@@ -26,7 +28,7 @@ struct PathOptions {
 /// go back and beyond both. The last pose lies at `to` exactly; where the path cannot be followed
 /// so far the last pose says why. Events of contacts and limit points are located.
 [[nodiscard]] SweepResult follow_path(EquilibriumSolver& solver,
-                                      const SweptValue& swept,
+                                      const Swept& swept,
                                       double from,
                                       double to,
                                       double largest_step,

@@ -79,4 +79,9 @@ Model build_model(const Scene& scene, const std::vector<FittedSurface>& surfaces
   return model;
 }
 
+Swept swept_of(const SweepDescription& sweep) {
+  const auto index = static_cast<std::size_t>(sweep.index);
+  return sweep.varies_load ? load_scale(index) : condition_value(index);
+}
+
 }  // namespace condyle

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "equilibrium/model.h"
+#include "equilibrium/drive.h"
 #include "scene/fit_surfaces.h"
 #include "scene/scene.h"
 
@@ -13,5 +13,8 @@ namespace condyle {
 /// `surfaces` as from fit_surfaces: one per Scene::surfaces. The origins of the model's frames are
 /// the middles of the contact surfaces of either body (model_origins.h).
 [[nodiscard]] Model build_model(const Scene& scene, const std::vector<FittedSurface>& surfaces);
+
+/// Which number of that model's drive a sweep varies.
+[[nodiscard]] Swept swept_of(const SweepDescription& sweep);
 
 }  // namespace condyle

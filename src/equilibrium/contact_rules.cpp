@@ -42,7 +42,8 @@ bool is_contact_of(const Model& model,
                      });
 }
 
-ContactRules::ContactRules(const Model& model) : model_(model), searches_(make_searches(model)) {}
+ContactRules::ContactRules(const Model& model, const ContactCovers& covers)
+    : model_(model), searches_(make_searches(model, covers)) {}
 
 Fault ContactRules::fault(const NewtonSystem& system, const EquilibriumState& state) {
   Fault fault;

@@ -30,7 +30,8 @@ struct Fault {
 
 class ContactRules {
  public:
-  explicit ContactRules(const Model& model);
+  /// `covers` as from cover_pairs(model).
+  ContactRules(const Model& model, const ContactCovers& covers);
 
   /// `system` assembled at the state, which is one of equilibrium with its contacts. Where one
   /// pulls, overlaps are not looked for.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
+#include <utility>
 
 #include "elements/contact.h"
 #include "equilibrium/contact_scales.h"
@@ -65,32 +67,44 @@ void keep_isolated(std::vector<GapMinimum>& minima, double merge) {
 
 }  // namespace
 
-ContactSearch::Covers::Covers(const ContactPair& pair, double wanted)
-    : spacing(
+ContactCover::ContactCover(const ContactPair& pair, double wanted)
+    : surface_B(pair.on_B),
+      surface_A(pair.on_A),
+      spacing(
           std::max(affordable_spacing(*pair.on_B, wanted), affordable_spacing(*pair.on_A, wanted))),
       sampled_on_A(takes_fewer(*pair.on_A, *pair.on_B, spacing)),
       on_B(*pair.on_B, sampled_on_A ? kFacingSpacing * spacing : spacing),
       on_A(*pair.on_A, sampled_on_A ? spacing : kFacingSpacing * spacing),
       lines(have_straight_lines(*pair.on_B, *pair.on_A, spacing)) {}
 
-ContactSearch::ContactSearch(const ContactPair& pair, double spacing)
-    : covers_(std::make_shared<const Covers>(pair, spacing)),
-      on_B_(pair.on_B.get()),
-      on_A_(pair.on_A.get()),
-      spacing_(covers_->spacing),
-      sampled_on_A_(covers_->sampled_on_A),
+ContactSearch::ContactSearch(std::shared_ptr<const ContactCover> cover)
+    : cover_(std::move(cover)),
+      on_B_(cover_->surface_B.get()),
+      on_A_(cover_->surface_A.get()),
+      spacing_(cover_->spacing),
+      sampled_on_A_(cover_->sampled_on_A),
       deepest_(has_edge(other().surface()) ? kDeepest * spacing_ : kInfinity),
       shells_(Bending::shells(spacing_, sampled().extent())),
-      bending_B_(covers_->on_B, shells_),
-      bending_A_(covers_->on_A, shells_) {
+      bending_B_(cover_->on_B, shells_),
+      bending_A_(cover_->on_A, shells_) {
   const auto n = static_cast<std::size_t>(sampled().size());
   closest_.resize(n);
   seen_.resize(n);
   cluster_closest_.resize(sampled().clusters().size());
-  split_.assign(sampled().clusters().size(), 0);
+  split_.resize(sampled().clusters().size());
   near_.reserve(n);
   found_.reserve(n + kMaxConstraints);
   discs_.reserve(kMaxConstraints);
+}
+
+void ContactSearch::reset() {
+  std::fill(closest_.begin(), closest_.end(), Closest());
+  std::fill(seen_.begin(), seen_.end(), Seen());
+  std::fill(cluster_closest_.begin(), cluster_closest_.end(), Closest());
+  std::fill(split_.begin(), split_.end(), char{0});
+  near_contact_B_ = near_contact_A_ = -1;
+  now_ = 0;
+  nearest_reach_ = nearest_merge_ = -1;
 }
 
 /// No neighbour is lower for certain. One that was passed over is not, and one that faces nothing
@@ -147,7 +161,7 @@ void ContactSearch::add_minimum(int sample,
   // A sample stands for a minimum of its own only where it is the lowest and faces what is known.
   if (!minimum.refined && !(lowest && faces_known_part(sample))) return;
   found_.push_back(sampled_on_A_ ? minimum.point_B : X_BA.inverse() * minimum.point_B);
-  if (covers_->lines && add_line_ends(*on_B_, *on_A_, X_BA, minimum, spacing_, cutoff, minima))
+  if (cover_->lines && add_line_ends(*on_B_, *on_A_, X_BA, minimum, spacing_, cutoff, minima))
     return;
   if (minimum.gap < cutoff) minima.push_back(minimum);
 }
@@ -242,12 +256,22 @@ void ContactSearch::find_within(const RigidTransform& X_BA,
   }
 }
 
-std::vector<ContactSearch> make_searches(const Model& model) {
-  std::vector<ContactSearch> searches;
-  searches.reserve(model.pairs.size());
+ContactCovers cover_pairs(const Model& model) {
+  ContactCovers covers;
+  covers.reserve(model.pairs.size());
   for (const ContactPair& pair : model.pairs)
-    searches.emplace_back(pair, kSampleSpacing * model.length);
-  return searches;
+    covers.push_back(std::make_shared<const ContactCover>(pair, kSampleSpacing * model.length));
+  return covers;
+}
+
+std::vector<ContactSearch> make_searches(const Model& model, const ContactCovers& covers) {
+  const bool of_model =
+      std::equal(covers.begin(), covers.end(), model.pairs.begin(), model.pairs.end(),
+                 [](const std::shared_ptr<const ContactCover>& cover, const ContactPair& pair) {
+                   return cover && cover->surface_B == pair.on_B && cover->surface_A == pair.on_A;
+                 });
+  if (!of_model) throw std::invalid_argument("the covers are not of the surfaces of this model");
+  return {covers.begin(), covers.end()};
 }
 
 }  // namespace condyle

@@ -37,10 +37,31 @@ struct KnownContact {
   double least_curvature = 0;  ///< smaller principal relative curvature [1/mm]
 };
 
+/// What does not change of the searches of one pair, shared by all of them.
+struct ContactCover {
+  /// `wanted`: spacing of the samples [mm].
+  ContactCover(const ContactPair& pair, double wanted);
+
+  std::shared_ptr<const Surface> surface_B, surface_A;
+  double spacing;     ///< that can be afforded [mm]
+  bool sampled_on_A;  ///< the surface that takes fewer samples; one without bounds has none
+  SurfaceCover on_B, on_A;
+  bool lines;  ///< the surfaces may touch along a line (line_contact.h)
+};
+
+/// One for each pair of a model.
+using ContactCovers = std::vector<std::shared_ptr<const ContactCover>>;
+
+/// A search is warm: it begins where it last was, and belongs to one thread.
 class ContactSearch {
  public:
+  explicit ContactSearch(std::shared_ptr<const ContactCover> cover);
   /// `spacing` of the samples [mm].
-  explicit ContactSearch(const ContactPair& pair, double spacing = 1.2);
+  explicit ContactSearch(const ContactPair& pair, double spacing = 1.2)
+      : ContactSearch(std::make_shared<const ContactCover>(pair, spacing)) {}
+
+  /// As newly made. Allocates nothing.
+  void reset();
 
   /// All minima with gap < cutoff [mm], lowest first; nearer than `merge` [mm] to a lower one are
   /// left out, and so may be the known contacts.
@@ -63,14 +84,6 @@ class ContactSearch {
  private:
   /// How far beyond the known part a minimum may lie, in sample spacings.
   static constexpr double kBeyondEdge = 2;
-  /// The covers of a pair, constant.
-  struct Covers {
-    Covers(const ContactPair& pair, double wanted);
-    double spacing;     ///< that can be afforded [mm]
-    bool sampled_on_A;  ///< the surface that takes fewer samples; one without bounds has none
-    SurfaceCover on_B, on_A;
-    bool lines;  ///< the surfaces may touch along a line (line_contact.h)
-  };
   /// Where the other surface is nearest to a point, kept from pose to pose.
   struct Closest {
     Place place = Place::Zero();
@@ -127,10 +140,10 @@ class ContactSearch {
   [[nodiscard]] double edge_of(const Place& on_B, const Place& on_A) const;
   [[nodiscard]] GapMinimum refine(int sample, const RigidTransform& X_BA) const;
   [[nodiscard]] const SurfaceCover& sampled() const {
-    return sampled_on_A_ ? covers_->on_A : covers_->on_B;
+    return sampled_on_A_ ? cover_->on_A : cover_->on_B;
   }
   [[nodiscard]] const SurfaceCover& other() const {
-    return sampled_on_A_ ? covers_->on_B : covers_->on_A;
+    return sampled_on_A_ ? cover_->on_B : cover_->on_A;
   }
   [[nodiscard]] const Bending& bending_of_other() const {
     return sampled_on_A_ ? bending_B_ : bending_A_;
@@ -145,7 +158,7 @@ class ContactSearch {
     return closest_[static_cast<std::size_t>(sample)];
   }
 
-  std::shared_ptr<const Covers> covers_;
+  std::shared_ptr<const ContactCover> cover_;
   const Surface* on_B_;
   const Surface* on_A_;
   double spacing_;
@@ -167,8 +180,12 @@ class ContactSearch {
   double nearest_reach_ = -1, nearest_merge_ = -1;
 };
 
-/// One search for each pair of the model.
-[[nodiscard]] std::vector<ContactSearch> make_searches(const Model& model);
+[[nodiscard]] ContactCovers cover_pairs(const Model& model);
+
+/// One search for each pair of the model. `covers` as from cover_pairs(model); throws
+/// std::invalid_argument for those of other surfaces.
+[[nodiscard]] std::vector<ContactSearch> make_searches(const Model& model,
+                                                       const ContactCovers& covers);
 
 /// Refines two places to a local minimum of the gap at a fixed pose: Newton on g tangential = 0, h
 /// = 0. False where it does not settle on an isolated minimum within `reach` [mm] of the start.

@@ -74,8 +74,8 @@ double drop_within(const Facing& facing,
 void ContactSearch::set_discs(const std::vector<KnownContact>& known) {
   discs_.clear();
   for (const KnownContact& contact : known) {
-    near_contact_B_ = covers_->on_B.nearest(contact.on_B, near_contact_B_);
-    near_contact_A_ = covers_->on_A.nearest(contact.on_A, near_contact_A_);
+    near_contact_B_ = cover_->on_B.nearest(contact.on_B, near_contact_B_);
+    near_contact_A_ = cover_->on_A.nearest(contact.on_A, near_contact_A_);
     const double doubt = kDoubt * (contact.K_B.norm() + contact.K_A.norm());
     const double shift = bending_B_.shift(near_contact_B_, contact.K_B) +
                          bending_A_.shift(near_contact_A_, contact.K_A);

@@ -53,9 +53,12 @@ Descent::Descent(const Model& model,
     : model_(model), searches_(searches), newton_(newton), options_(options) {}
 
 DescentReport Descent::solve(EquilibriumState& state,
+                             const Drive& drive,
                              const Accept& accept,
                              int most_steps,
                              const Work& most) {
+  check_drive(drive, model_);
+  drive_ = &drive;
   DescentReport report;
   const Eigen::Vector3d origin = state.X.p;
   start(state.X);
@@ -214,11 +217,11 @@ void Descent::set_forces(Programme& programme) const {
   const double L = model_.length;
   Wrench wrench;
   programme.force_scale = 1e-12;
-  for (const LineElement& element : model_.elements)
+  for (const LineElement& element : parameters().elements)
     programme.force_scale += std::abs(add_line_element(element, X_, wrench).force);
-  for (const Load& load : model_.loads) {
+  for (std::size_t i = 0; i < parameters().loads.size(); ++i) {
     const Vector6 before = scaled(wrench, L);
-    add_load(load, X_, wrench);
+    add_load(parameters().loads[i], drive_->scales[i], X_, wrench);
     programme.force_scale += (scaled(wrench, L) - before).norm();
   }
   SmallQp& qp = programme.qp;
@@ -237,9 +240,9 @@ void Descent::set_rows(Programme& programme) const {
   qp.C.resize(m + static_cast<Eigen::Index>(programme.two_sided.size()), 6);
   qp.b.resize(qp.C.rows());
   for (Eigen::Index i = 0; i < m; ++i) {
-    const auto condition = static_cast<std::size_t>(i);
-    const ConditionDerivatives k = evaluate(model_.conditions[condition], X_);
-    const double w = condition_weight(model_, condition);
+    const auto index = static_cast<std::size_t>(i);
+    const ConditionDerivatives k = condition(index, X_);
+    const double w = condition_weight(model_, index);
     qp.C.row(i) << w * k.alpha.transpose(), w * k.eta.transpose() / model_.length;
     qp.b[i] = -w * k.k;
   }
@@ -302,18 +305,18 @@ double Descent::violation(const std::vector<Constraint>& constraints,
   for (const Constraint& constraint : constraints)
     sum += constraint.bilateral ? std::abs(constraint.gap) : std::max(0.0, -constraint.gap);
   for (std::size_t i = 0; i < model_.conditions.size(); ++i)
-    sum += condition_weight(model_, i) * std::abs(evaluate(model_.conditions[i], X).k);
+    sum += condition_weight(model_, i) * std::abs(condition(i, X).k);
   return sum;
 }
 
 double Descent::energy_change(const RigidTransform& from, const RigidTransform& to) const {
   double change = 0;
-  for (const LineElement& element : model_.elements)
+  for (const LineElement& element : parameters().elements)
     change += line_element_state(element, to).energy - line_element_state(element, from).energy;
   Wrench before, after;
-  for (const Load& load : model_.loads) {
-    add_load(load, from, before);
-    add_load(load, to, after);
+  for (std::size_t i = 0; i < parameters().loads.size(); ++i) {
+    add_load(parameters().loads[i], drive_->scales[i], from, before);
+    add_load(parameters().loads[i], drive_->scales[i], to, after);
   }
   const Vector6 mean = 0.5 * (scaled(before, model_.length) + scaled(after, model_.length));
   return change - mean.dot(step_between(from, to, model_.length));
@@ -327,8 +330,7 @@ Vector6 Descent::corrected_step(const Programme& programme,
   SmallQp qp = programme.qp;
   for (std::size_t i = 0; i < model_.conditions.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    qp.b[row] = qp.C.row(row).dot(step) -
-                condition_weight(model_, i) * evaluate(model_.conditions[i], to).k;
+    qp.b[row] = qp.C.row(row).dot(step) - condition_weight(model_, i) * condition(i, to).k;
   }
   qp.A.resize(static_cast<Eigen::Index>(there.size()), 6);
   qp.d.resize(qp.A.rows());
@@ -395,7 +397,7 @@ bool Descent::try_newton(const Multipliers& multipliers,
               [](const ClosedContact& a, const ClosedContact& b) { return a.p > b.p; });
     trial.contacts.resize(kMaxConstraints - trial.sigma.size());
   }
-  report.newton = newton_.solve(trial);
+  report.newton = newton_.solve(trial, *drive_);
   report.spent.iterations += report.newton.iterations;
   report.converged = report.newton.outcome == NewtonOutcome::kConverged && accept(trial);
   if (report.converged) result_ = trial;

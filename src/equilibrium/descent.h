@@ -49,9 +49,10 @@ class Descent {
 
   using Accept = std::function<bool(EquilibriumState&)>;
 
-  /// Improves `state` in place. `accept` says whether a Newton solution is one (no pull, no
+  /// Improves `state` in place. `drive` must stay until it returns; `accept` says whether a Newton solution is one (no pull, no
   /// overlap). Given up after `most_steps` or as much work.
   DescentReport solve(EquilibriumState& state,
+                      const Drive& drive,
                       const Accept& accept,
                       int most_steps,
                       const Work& most);
@@ -109,6 +110,10 @@ class Descent {
                   const Accept& accept,
                   DescentReport& report);
   bool stays_refused(const RigidTransform& found);
+  [[nodiscard]] const Parameters& parameters() const { return newton_.system().parameters(); }
+  [[nodiscard]] ConditionDerivatives condition(std::size_t i, const RigidTransform& X) const {
+    return evaluate(model_.conditions[i], drive_->values[i], X);
+  }
   [[nodiscard]] double violation(const std::vector<Constraint>& constraints,
                                  const RigidTransform& X) const;
   [[nodiscard]] double energy_change(const RigidTransform& from, const RigidTransform& to) const;
@@ -117,6 +122,7 @@ class Descent {
   std::vector<ContactSearch>& searches_;
   Newton& newton_;
   DescentOptions options_;
+  const Drive* drive_ = nullptr;  ///< of the pose under way
   EquilibriumState result_;
   RigidTransform X_;
   std::vector<Constraint> constraints_, trial_;

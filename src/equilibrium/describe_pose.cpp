@@ -18,7 +18,7 @@ void describe_elements(const Model& model,
                        const NewtonSystem& system,
                        const EquilibriumState& state,
                        PoseResult& result) {
-  for (const LineElement& element : model.elements) {
+  for (const LineElement& element : system.parameters().elements) {
     const LineElementState now = line_element_state(element, state.X);
     result.ligaments.push_back({now.length, strain(element.law, now.length), now.force});
   }

@@ -46,15 +46,18 @@ EquilibriumState with_all_contacts(const Model& model,
 }
 
 /// The load that drives the body the way it went.
-std::string driving_load(const Model& model, const EquilibriumState& state) {
+std::string driving_load(const Model& model,
+                         const Parameters& parameters,
+                         const EquilibriumState& state,
+                         const Drive& drive) {
   const double L = model.length;
   Eigen::Matrix<double, 6, 1> way;
   way << state.X.p - model.start.p, L * log_rotation(state.X.R * model.start.R.transpose());
   double most = 0;
   std::string name;
-  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+  for (std::size_t i = 0; i < parameters.loads.size(); ++i) {
     Wrench wrench;
-    add_load(model.loads[i], state.X, wrench);
+    add_load(parameters.loads[i], drive.scales[i], state.X, wrench);
     const double work = wrench.f.dot(way.head<3>()) + wrench.m.dot(way.tail<3>()) / L;
     if (!(work > most)) continue;
     most = work;
@@ -64,16 +67,19 @@ std::string driving_load(const Model& model, const EquilibriumState& state) {
 }
 
 /// What has a number that is none; empty where all are finite.
-std::string overflowed(const Model& model, const EquilibriumState& state) {
-  for (std::size_t i = 0; i < model.elements.size(); ++i) {
+std::string overflowed(const Model& model,
+                       const Parameters& parameters,
+                       const EquilibriumState& state,
+                       const Drive& drive) {
+  for (std::size_t i = 0; i < parameters.elements.size(); ++i) {
     Wrench wrench;
-    add_line_element(model.elements[i], state.X, wrench);
+    add_line_element(parameters.elements[i], state.X, wrench);
     if (!wrench.f.allFinite() || !wrench.m.allFinite() || !wrench.F1.allFinite())
       return "line element " + quoted(model.element_names[i]);
   }
-  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+  for (std::size_t i = 0; i < parameters.loads.size(); ++i) {
     Wrench wrench;
-    add_load(model.loads[i], state.X, wrench);
+    add_load(parameters.loads[i], drive.scales[i], state.X, wrench);
     if (!wrench.f.allFinite() || !wrench.m.allFinite())
       return "load " + quoted(model.load_names[i]);
   }
@@ -81,14 +87,14 @@ std::string overflowed(const Model& model, const EquilibriumState& state) {
 }
 
 /// The condition that asks a middle angle, which turns back at 90 degrees, for more.
-std::string angle_out_of_range(const Model& model) {
+std::string angle_out_of_range(const Model& model, const Drive& drive) {
   for (std::size_t i = 0; i < model.conditions.size(); ++i) {
     const KinematicCondition& condition = model.conditions[i];
     const bool middle = condition.kind == ConditionKind::kAdduction ||
                         (condition.kind == ConditionKind::kRotation && condition.cardan_axis == 0);
-    if (middle && std::abs(condition.value) > M_PI / 2)
+    if (middle && std::abs(drive.values[i]) > M_PI / 2)
       return fmt::format("condition {} asks for {:.6g} degrees of an angle that turns back at 90",
-                         quoted(model.condition_names[i]), condition.value * 180 / M_PI);
+                         quoted(model.condition_names[i]), drive.values[i] * 180 / M_PI);
   }
   return {};
 }
@@ -123,6 +129,7 @@ struct Failure {
   NewtonSystem& system;
   std::vector<ContactSearch>& searches;
   const EquilibriumState& state;  ///< the last that was tried
+  const Drive& drive;
   const Attempt& attempt;
   std::string singular;          ///< why Newton's matrix was, where it was
   std::optional<Objection> why;  ///< what rigid contact cannot say about a contact there
@@ -136,7 +143,7 @@ std::string too_many_conditions(const Failure& f) {
 }
 
 std::string overflowed_force(const Failure& f) {
-  const std::string what = overflowed(f.model, f.state);
+  const std::string what = overflowed(f.model, f.system.parameters(), f.state, f.drive);
   return what.empty() ? what : what + " has no finite force at the last pose";
 }
 
@@ -157,10 +164,11 @@ std::string conforming(const Failure& f) {
   return pair ? objection(Touch::kConforming, f.model.pairs[*pair].name)->reason : "";
 }
 
-std::string asked_out_of_range(const Failure& f) { return angle_out_of_range(f.model); }
+std::string asked_out_of_range(const Failure& f) { return angle_out_of_range(f.model, f.drive); }
 
 std::string without_length(const Failure& f) {
-  const int element = f.system.assemble(f.state) ? f.attempt.zero_element : f.system.zero_element();
+  const int element =
+      f.system.assemble(f.state, f.drive) ? f.attempt.zero_element : f.system.zero_element();
   if (element < 0) return {};
   return "line element " + quoted(f.model.element_names[static_cast<std::size_t>(element)]) +
          " has no length";
@@ -192,7 +200,8 @@ std::string at_an_edge(const Failure& f) {
 
 std::string runs_away(const Failure& f) {
   if (!f.attempt.descent.ran_away) return {};
-  return "the body runs away: nothing carries " + driving_load(f.model, f.state);
+  return "the body runs away: nothing carries " +
+         driving_load(f.model, f.system.parameters(), f.state, f.drive);
 }
 
 /// Contacts and conditions that cannot all hold where the descent ended: with a contact among them
@@ -200,7 +209,7 @@ std::string runs_away(const Failure& f) {
 template <bool with_contact>
 std::string contradiction(const Failure& f) {
   const EquilibriumState all = with_all_contacts(f.model, f.searches, f.state);
-  f.system.assemble(all);
+  f.system.assemble(all, f.drive);
   const Dependence dependence = find_dependence(f.model, f.system);
   if (!dependence.contradiction) return {};
   bool contact = false;
@@ -221,13 +230,13 @@ std::string no_set_of_contacts(const Failure& f) {
 
 std::string left_all_bounds(const Failure& f) {
   if (f.attempt.newton.outcome != NewtonOutcome::kDiverged) return {};
-  f.system.assemble(f.state);
+  f.system.assemble(f.state, f.drive);
   return "Newton's method left all bounds: " +
          worst_condition(f.model, f.system, f.attempt.descent.step);
 }
 
 std::string unsettled(const Failure& f) {
-  f.system.assemble(f.state);
+  f.system.assemble(f.state, f.drive);
   return "nothing settled within the iteration limit: " +
          worst_condition(f.model, f.system, f.attempt.descent.step);
 }
@@ -270,6 +279,7 @@ void explain_failure(const Model& model,
                      NewtonSystem& system,
                      std::vector<ContactSearch>& searches,
                      const EquilibriumState& state,
+                     const Drive& drive,
                      const Attempt& attempt,
                      std::string singular,
                      PoseResult& result) {
@@ -277,6 +287,7 @@ void explain_failure(const Model& model,
                         system,
                         searches,
                         state,
+                        drive,
                         attempt,
                         std::move(singular),
                         objection_at(model, searches, state.X)};

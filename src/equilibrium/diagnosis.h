@@ -15,13 +15,14 @@ namespace condyle {
                                        const NewtonSystem& system,
                                        const RigidTransform& X);
 
-/// Sets result.status and result.reason. `state` is the last that was tried from the pose before,
-/// `singular` why Newton's matrix was there, or empty; `system` belongs to the model and may be
-/// assembled anew; `searches`: one for each pair.
+/// Sets result.status and result.reason. `state` is the last that was tried from the pose before on
+/// the way to `drive`, `singular` why Newton's matrix was there, or empty; `system` belongs to the
+/// model and may be assembled anew; `searches`: one for each pair.
 void explain_failure(const Model& model,
                      NewtonSystem& system,
                      std::vector<ContactSearch>& searches,
                      const EquilibriumState& state,
+                     const Drive& drive,
                      const Attempt& attempt,
                      std::string singular,
                      PoseResult& result);

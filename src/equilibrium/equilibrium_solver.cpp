@@ -27,28 +27,52 @@ struct Failed {
 
 }  // namespace
 
-EquilibriumSolver::EquilibriumSolver(Model model, EquilibriumOptions options)
-    : model_(std::make_unique<Model>(std::move(model))),
+EquilibriumSolver::EquilibriumSolver(std::shared_ptr<const Model> model,
+                                     const ContactCovers& covers,
+                                     EquilibriumOptions options)
+    : model_(std::move(model)),
+      covers_(covers),
       options_(options),
-      searches_(make_searches(*model_)),
+      searches_(make_searches(*model_, covers_)),
       newton_(*model_, options_.newton),
       descent_(*model_, searches_, newton_, options_.descent),
       predictor_(*model_) {
   for (const ContactPair& pair : model_->pairs) passed_.emplace_back(pair, model_->length);
   state_.contacts.reserve(kMaxConstraints);
   minima_.reserve(kMinimaOfAPair);
-  state_.sigma.assign(model_->conditions.size(), 0);
-  state_.X = model_->start;
+  reset();
 }
 
-void EquilibriumSolver::set_state(const EquilibriumState& state) {
-  read_drive(target_);
-  const bool same = has_state_ && state.X.p == state_.X.p && state.X.R == state_.X.R &&
-                    target_.values == solved_.values && target_.scales == solved_.scales;
+EquilibriumSolver::EquilibriumSolver(std::shared_ptr<const Model> model, EquilibriumOptions options)
+    : EquilibriumSolver(model, cover_pairs(*model), options) {}
+
+EquilibriumSolver::EquilibriumSolver(Model model, EquilibriumOptions options)
+    : EquilibriumSolver(std::make_shared<const Model>(std::move(model)), options) {}
+
+void EquilibriumSolver::reset() {
+  state_.X = model_->start;
+  state_.contacts.clear();
+  state_.sigma.assign(model_->conditions.size(), 0);
+  has_state_ = has_edge_ = on_the_way_ = from_elsewhere_ = false;
+  spent_ = {};
+  predictor_.clear();
+  for (ContactSearch& search : searches_) search.reset();
+  for (PassedThrough& passed : passed_) passed.reset();
+}
+
+void EquilibriumSolver::set_parameters(const Parameters& parameters) {
+  newton_.system().set_parameters(parameters);
+  predictor_.clear();
+}
+
+void EquilibriumSolver::set_state(const EquilibriumState& state, const Drive& drive) {
+  check_drive(drive, *model_);
+  const bool same =
+      has_state_ && state.X.p == state_.X.p && state.X.R == state_.X.R && drive == solved_;
   if (same) return;
   predictor_.clear();
   state_ = state;
-  solved_ = target_;
+  solved_ = drive;
   has_state_ = true;
 }
 
@@ -59,20 +83,12 @@ void EquilibriumSolver::go_back(const Standing& standing) {
   has_state_ = standing.has_state;
 }
 
-void EquilibriumSolver::read_drive(Drive& drive) const {
-  drive.values.resize(model_->conditions.size());
-  drive.scales.resize(model_->loads.size());
-  for (std::size_t i = 0; i < drive.values.size(); ++i)
-    drive.values[i] = model_->conditions[i].value;
-  for (std::size_t i = 0; i < drive.scales.size(); ++i) drive.scales[i] = model_->loads[i].scale;
-}
-
 void EquilibriumSolver::set_drive(const Drive& from, const Drive& to, double t) {
   const auto between = [t](double a, double b) { return t == 1 ? b : a + t * (b - a); };
   for (std::size_t i = 0; i < to.values.size(); ++i)
-    model_->conditions[i].value = between(from.values[i], to.values[i]);
+    drive_.values[i] = between(from.values[i], to.values[i]);
   for (std::size_t i = 0; i < to.scales.size(); ++i)
-    model_->loads[i].scale = between(from.scales[i], to.scales[i]);
+    drive_.scales[i] = between(from.scales[i], to.scales[i]);
 }
 
 bool EquilibriumSolver::release_pulling(EquilibriumState& state) const {
@@ -193,7 +209,7 @@ bool EquilibriumSolver::faces(const EquilibriumState& state, Attempt& attempt) {
 bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
   constexpr int kRounds = 8;
   for (int round = 0; round < kRounds; ++round) {
-    attempt.newton = newton_.solve(state);
+    attempt.newton = newton_.solve(state, drive_);
     attempt.spent.iterations += attempt.newton.iterations;
     if (attempt.newton.outcome == NewtonOutcome::kZeroLength)
       attempt.zero_element = attempt.newton.zero_element;
@@ -207,9 +223,10 @@ bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
   return false;
 }
 
-void EquilibriumSolver::solve(PoseResult& result, Patience patience) {
+void EquilibriumSolver::solve(const Drive& drive, PoseResult& result, Patience patience) {
   const auto begin = std::chrono::steady_clock::now();
-  read_drive(target_);
+  check_drive(drive, *model_);
+  drive_ = target_ = drive;
   Attempt attempt;
   attempt.most = options_.most.share(patience == Patience::kWay ? 3 : 1);
   from_elsewhere_ = false;
@@ -224,13 +241,13 @@ void EquilibriumSolver::solve(PoseResult& result, Patience patience) {
   }
   std::optional<Failed> failed;
   if (!solved && patience == Patience::kAll) {
-    set_drive(target_, target_, 1);
+    drive_ = target_;
     failed = {next_, attempt.newton, attempt.descent, {}};
     if (attempt.newton.outcome == NewtonOutcome::kSingular)
       failed->singular = why_singular(*model_, newton_.system(), next_.X);
     if (!at_once) solved = solve_from_elsewhere(next_, attempt) || solve_from_edge(next_, attempt);
   }
-  set_drive(target_, target_, 1);
+  drive_ = target_;
   if (!solved) solved = take_off_surfaces(next_, attempt);
   clear(result);
   result.iterations = attempt.spent.iterations;
@@ -241,8 +258,8 @@ void EquilibriumSolver::solve(PoseResult& result, Patience patience) {
   } else if (failed) {
     attempt.newton = failed->newton;
     attempt.descent = failed->descent;
-    explain_failure(*model_, newton_.system(), searches_, failed->state, attempt, failed->singular,
-                    result);
+    explain_failure(*model_, newton_.system(), searches_, failed->state, drive_, attempt,
+                    failed->singular, result);
   } else {
     result.status = PoseStatus::kIterationLimit;
   }
@@ -273,9 +290,9 @@ void EquilibriumSolver::keep(const EquilibriumState& state) {
   predictor_.add(target_, state_);
 }
 
-PoseResult EquilibriumSolver::solve(Patience patience) {
+PoseResult EquilibriumSolver::solve(const Drive& drive, Patience patience) {
   PoseResult result;
-  solve(result, patience);
+  solve(drive, result, patience);
   return result;
 }
 

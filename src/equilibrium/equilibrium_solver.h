@@ -1,6 +1,8 @@
 #pragma once
 
-/// Positions of equilibrium of one model, one after the other.
+/// Positions of equilibrium of one model, one after the other: a pose is a function of the model,
+/// which is constant, of what drives it (drive.h), and of the pose before, from which it is found.
+/// Solvers share a model and its covers; each is the workspace of one thread.
 ///
 /// Newton on the contacts of the pose before comes first; then contacts that pull are released,
 /// overlaps that the search finds become contacts, and Newton goes on, until forces and gaps agree
@@ -45,22 +47,41 @@ enum class Patience {
 
 class EquilibriumSolver {
  public:
+  explicit EquilibriumSolver(std::shared_ptr<const Model> model, EquilibriumOptions options = {});
+  /// `covers` as from cover_pairs(*model), shared with other solvers of the model. Throws
+  /// std::invalid_argument for those of another one.
+  EquilibriumSolver(std::shared_ptr<const Model> model,
+                    const ContactCovers& covers,
+                    EquilibriumOptions options = {});
   explicit EquilibriumSolver(Model model, EquilibriumOptions options = {});
   EquilibriumSolver(const EquilibriumSolver&) = delete;
   EquilibriumSolver& operator=(const EquilibriumSolver&) = delete;
 
-  /// Values of conditions and scales of loads may change between poses; nothing else may.
-  [[nodiscard]] Model& model() { return *model_; }
+  [[nodiscard]] const Model& model() const { return *model_; }
+  [[nodiscard]] const ContactCovers& covers() const { return covers_; }
 
   /// Solves from the last converged state, or from the model's start when there is none. The state
-  /// is kept when the pose converges.
+  /// is kept when the pose converges. Throws std::invalid_argument for a drive that is not one of
+  /// the model.
   /// Allocates nothing once `result` and the solver have held a pose of this model.
-  void solve(PoseResult& result, Patience patience = Patience::kAll);
-  PoseResult solve(Patience patience = Patience::kAll);
+  void solve(const Drive& drive, PoseResult& result, Patience patience = Patience::kAll);
+  PoseResult solve(const Drive& drive, Patience patience = Patience::kAll);
+  /// With the model's nominal drive.
+  PoseResult solve() { return solve(drive_of(*model_)); }
 
-  /// The last converged state; set_state restores one, solved with the model's present values.
+  /// Ligaments and loads from now on, in place of the model's own: costs no rebuilding. The state
+  /// stays, as a start for the next pose. Throws std::invalid_argument where there are not as many
+  /// as the model has.
+  void set_parameters(const Parameters& parameters);
+  [[nodiscard]] const Parameters& parameters() const { return newton_.system().parameters(); }
+
+  /// As newly made, but for the parameters: what is solved next does not depend on what was solved before, to the last bit.
+  /// Builds nothing anew and allocates nothing.
+  void reset();
+
+  /// The last converged state; set_state restores one, solved with that drive.
   [[nodiscard]] const EquilibriumState& state() const { return state_; }
-  void set_state(const EquilibriumState& state);
+  void set_state(const EquilibriumState& state, const Drive& drive);
 
   /// From where the next pose starts: the last converged state and its values, or none.
   struct Standing {
@@ -81,7 +102,6 @@ class EquilibriumSolver {
   [[nodiscard]] bool from_elsewhere() const { return from_elsewhere_; }
 
  private:
-  void read_drive(Drive& drive) const;
   void keep(const EquilibriumState& state);
   void set_drive(const Drive& from, const Drive& to, double t);
   bool settle_at_estimates(EquilibriumState& state, Attempt& attempt);
@@ -107,7 +127,8 @@ class EquilibriumSolver {
   [[nodiscard]] std::pair<int, double> farthest_beyond(const EquilibriumState& state) const;
   [[nodiscard]] bool faces(const EquilibriumState& state, Attempt& attempt);
 
-  std::unique_ptr<Model> model_;
+  std::shared_ptr<const Model> model_;
+  ContactCovers covers_;
   EquilibriumOptions options_;
   std::vector<ContactSearch> searches_;
   std::vector<PassedThrough> passed_;
@@ -116,7 +137,8 @@ class EquilibriumSolver {
   Predictor predictor_;
   EquilibriumState state_, next_, trial_;
   Drive solved_;  ///< at which state_ was solved
-  Drive target_;  ///< of the pose under way
+  Drive target_;  ///< of the pose under way: what is asked for,
+  Drive drive_;   ///< and what is tried now on the way there
   bool has_state_ = false;
   OffSurfaces edge_;         ///< the last equilibrium told of beyond an edge
   bool has_edge_ = false;    ///< since a pose converged

@@ -24,9 +24,9 @@ bool EquilibriumSolver::descend(EquilibriumState& state, Attempt& attempt) {
   const RigidTransform from = state.X;
   const bool open_ended = conforming_pair(*model_, searches_, state.X).has_value();
   const int steps = open_ended ? kFewSteps : options_.descent.max_steps;
-  attempt.descent =
-      descent_.solve(state, [&](EquilibriumState& s) { return carries_and_clear(s, attempt); },
-                     steps, {std::min(2 * steps, left.iterations), left.searches});
+  attempt.descent = descent_.solve(
+      state, drive_, [&](EquilibriumState& s) { return carries_and_clear(s, attempt); }, steps,
+      {std::min(2 * steps, left.iterations), left.searches});
   attempt.newton = attempt.descent.newton;
   attempt.spent.add(attempt.descent.spent);
   if (!attempt.descent.converged && !on_the_way_) attempt.descended_from.push_back(from);
@@ -96,17 +96,17 @@ bool EquilibriumSolver::solve_first(EquilibriumState& state,
   bool far = false;
   for (std::size_t i = 0; i < model_->conditions.size(); ++i) {
     const KinematicCondition& condition = model_->conditions[i];
-    const double k = evaluate(condition, state.X).k;
+    const double k = evaluate(condition, target.values[i], state.X).k;
     own.values[i] = target.values[i] + k;
     far |= std::abs(k) * condition_weight(*model_, i) > kFar * model_->length;
   }
   if (!far) return find_first(state, attempt);
-  set_drive(own, own, 1);
+  drive_ = own;
   on_the_way_ = true;
   const bool at_start = find_first(state, attempt);
   on_the_way_ = false;
   const bool arrived = at_start && advance(state, own, target, attempt);
-  set_drive(target, target, 1);
+  drive_ = target;
   return arrived || descend(state = state_, attempt);
 }
 
@@ -122,14 +122,14 @@ bool EquilibriumSolver::solve_from_last(EquilibriumState& state,
   if (descend(state = state_, attempt)) return true;
   if (attempt.off || patience == Patience::kNone) return false;
   const bool arrived = advance(state = state_, solved_, target_, attempt);
-  set_drive(target_, target_, 1);
+  drive_ = target_;
   return arrived;
 }
 
 bool EquilibriumSolver::descend_from(const RigidTransform& X,
                                      EquilibriumState& state,
                                      Attempt& attempt) {
-  state.X = carried(*model_, X);
+  state.X = carried(*model_, drive_, X);
   state.contacts.clear();
   state.sigma.assign(model_->conditions.size(), 0);
   return descend(state, attempt);
@@ -144,7 +144,7 @@ bool EquilibriumSolver::solve_from_elsewhere(EquilibriumState& state, Attempt& a
   const bool from_last = has_state_ && descend_from(state_.X, last, attempt);
   if (from_last && !from_start) state = last;
   if (from_last && from_start && !same_pose(*model_, state.X, last.X)) attempt.other = last.X;
-  if (from_last || from_start) newton_.system().assemble(state);
+  if (from_last || from_start) newton_.system().assemble(state, drive_);
   return from_last || from_start;
 }
 
@@ -162,7 +162,7 @@ bool EquilibriumSolver::solve_from_edge(EquilibriumState& state, Attempt& attemp
 bool EquilibriumSolver::take_off_surfaces(EquilibriumState& state, const Attempt& attempt) {
   if (!attempt.off) return false;
   state = attempt.off->state;
-  return newton_.solve(state).outcome == NewtonOutcome::kConverged;
+  return newton_.solve(state, drive_).outcome == NewtonOutcome::kConverged;
 }
 
 bool EquilibriumSolver::starts_passed_through(Attempt& attempt) {

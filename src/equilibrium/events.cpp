@@ -53,15 +53,6 @@ double body_motion(const SolvedPose& from, const SolvedPose& to, double L) {
   return std::hypot((b.p - a.p).norm(), L * log_rotation(b.R * a.R.transpose()).norm());
 }
 
-/// Which number of the model is swept.
-SweptValue swept_value(const Model& model, const double& swept) {
-  for (std::size_t i = 0; i < model.loads.size(); ++i)
-    if (&model.loads[i].scale == &swept) return {true, i};
-  for (std::size_t i = 0; i < model.conditions.size(); ++i)
-    if (&model.conditions[i].value == &swept) return {false, i};
-  return {false, model.conditions.size()};
-}
-
 void append_changes(const SolvedPose& before,
                     const SolvedPose& after,
                     double value,
@@ -82,16 +73,19 @@ void append_limit(const SolvedPose& before, const SolvedPose& after, std::vector
 
 class EventSearch {
  public:
-  EventSearch(EquilibriumSolver& solver, double& swept, const EventOptions& options)
-      : solver_(solver), swept_(swept), options_(options) {}
+  EventSearch(EquilibriumSolver& solver,
+              const Swept& swept,
+              const Drive& drive,
+              const EventOptions& options)
+      : solver_(solver), swept_(swept), drive_(drive), options_(options) {}
 
   /// The pose at a value, from another one; nothing where it has no equilibrium.
   std::optional<SolvedPose> pose_at(double value, const SolvedPose& from) {
     if (!options_.most_wasted.after(wasted_).any()) return std::nullopt;
-    swept_ = from.value;
-    solver_.set_state(from.state);
-    swept_ = value;
-    SolvedPose pose{value, solver_.solve(Patience::kNone), {}};
+    swept_.in(drive_) = from.value;
+    solver_.set_state(from.state, drive_);
+    swept_.in(drive_) = value;
+    SolvedPose pose{value, solver_.solve(drive_, Patience::kNone), {}};
     if (!pose.result.solved()) {
       wasted_.add(solver_.spent());
       return std::nullopt;
@@ -171,19 +165,21 @@ class EventSearch {
  private:
   /// What the tangent at one pose says about the way to the value of another [mm].
   double foretold_motion(const SolvedPose& at, const SolvedPose& to) {
-    Model& model = solver_.model();
-    const SweptValue swept = swept_value(model, swept_);
-    if (!swept.varies_load && swept.index == model.conditions.size()) return INFINITY;
-    PathSystem path(model, swept, 1);
     PathSystem::Direction tangent;
-    if (!path.tangent({at.state, at.value}, tangent) || tangent.value() == 0) return INFINITY;
+    if (!path_) {
+      path_.emplace(solver_.model(), swept_, drive_, 1);
+      path_->set_parameters(solver_.parameters());
+    }
+    if (!path_->tangent({at.state, at.value}, tangent) || tangent.value() == 0) return INFINITY;
     double square = 0;
     for (std::size_t i = 0; i < 6; ++i) square += tangent.d[i] * tangent.d[i];
     return std::sqrt(square) * std::abs((to.value - at.value) / tangent.value());
   }
 
   EquilibriumSolver& solver_;
-  double& swept_;
+  Swept swept_;
+  Drive drive_;
+  std::optional<PathSystem> path_;  ///< once it is asked for
   const EventOptions& options_;
   Work wasted_;  ///< on trials without equilibrium
 };
@@ -191,12 +187,13 @@ class EventSearch {
 }  // namespace
 
 void locate_events(EquilibriumSolver& solver,
-                   double& swept,
+                   const Swept& swept,
+                   const Drive& drive,
                    const SolvedPose& left,
                    const SolvedPose& right,
                    std::vector<Event>& events,
                    const EventOptions& options) {
-  EventSearch search(solver, swept, options);
+  EventSearch search(solver, swept, drive, options);
   const double L = solver.model().length, straight = kStraight * std::abs(right.value - left.value);
   SolvedPose from = left;
   for (int k = 0; k < options.most_events && !same_contacts(from.result, right.result); ++k) {

@@ -36,10 +36,11 @@ struct EventOptions {
                                 ///< looked for between the two poses
 };
 
-/// Appends the events between two poses of one sweep. `swept` is the value in the solver's model;
-/// it and the solver's state are changed.
+/// Appends the events between two poses of one sweep. `drive`: of all that is not swept. The
+/// solver's state is changed.
 void locate_events(EquilibriumSolver& solver,
-                   double& swept,
+                   const Swept& swept,
+                   const Drive& drive,
                    const SolvedPose& left,
                    const SolvedPose& right,
                    std::vector<Event>& events,

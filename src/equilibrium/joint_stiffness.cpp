@@ -37,7 +37,7 @@ Matrix6 joint_jacobian(const JointFrames& frames, const RigidTransform& X_BA) {
   condition.frames = frames;
   for (std::size_t i = 0; i < kCoordinates.size(); ++i) {
     condition.kind = kCoordinates[i];
-    const ConditionDerivatives k = evaluate(condition, X_BA);
+    const ConditionDerivatives k = evaluate(condition, 0, X_BA);
     J.row(static_cast<Eigen::Index>(i)) << k.alpha.transpose(), k.eta.transpose();
   }
   return J;

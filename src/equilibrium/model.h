@@ -1,8 +1,9 @@
 #pragma once
 
 /// The scene as the solver wants it: every point on the body that carries it, bodies reduced to B
-/// (fixed, ground frame) and A (moving). Constant while poses are solved, but for the swept value.
-/// Its frames have their origins in the joint; poses that are told are in the files' frames.
+/// (fixed, ground frame) and A (moving). Constant, and shared by as many solvers as there are
+/// threads: what changes from pose to pose is an argument (drive.h), for which the values of its
+/// conditions and the scales of its loads are the nominal numbers. Its frames have their origins in the joint; poses that are told are in the files' frames.
 
 #include <memory>
 #include <optional>

@@ -15,18 +15,27 @@ constexpr double kFreeStep =
 
 }  // namespace
 
-NewtonSystem::NewtonSystem(const Model& model) : model_(model), elements_(model.elements) {
+NewtonSystem::NewtonSystem(const Model& model)
+    : model_(model), parameters_(parameters_of(model)), elements_(parameters_.elements) {
   contacts_.reserve(kMaxConstraints);
   conditions_.reserve(model.conditions.size());
 }
 
-bool NewtonSystem::assemble(const EquilibriumState& state) {
+void NewtonSystem::set_parameters(const Parameters& parameters) {
+  check_parameters(parameters, model_);
+  parameters_ = parameters;
+  elements_.set(parameters_.elements);
+}
+
+bool NewtonSystem::assemble(const EquilibriumState& state, const Drive& drive) {
+  check_drive(drive, model_);
   wrench_ = Wrench();
   const LineElementBlock::Summary summary = elements_.add_to(state.X, wrench_);
   force_scale_ = summary.force_magnitudes;
   zero_element_ = summary.zero_element;
   const Eigen::Vector3d f_elements = wrench_.f, m_elements = wrench_.m;
-  for (const Load& load : model_.loads) add_load(load, state.X, wrench_);
+  for (std::size_t i = 0; i < parameters_.loads.size(); ++i)
+    add_load(parameters_.loads[i], drive.scales[i], state.X, wrench_);
   force_scale_ += (wrench_.f - f_elements).norm() + (wrench_.m - m_elements).norm() / model_.length;
 
   contacts_.clear();
@@ -40,7 +49,7 @@ bool NewtonSystem::assemble(const EquilibriumState& state) {
 
   conditions_.clear();
   for (std::size_t i = 0; i < model_.conditions.size(); ++i) {
-    conditions_.push_back(evaluate(model_.conditions[i], state.X));
+    conditions_.push_back(evaluate(model_.conditions[i], drive.values[i], state.X));
     const ConditionDerivatives& k = conditions_.back();
     const double sigma = state.sigma[i];
     if (sigma == 0) continue;
@@ -135,7 +144,7 @@ double NewtonSystem::largest_gap() const {
 Newton::Newton(const Model& model, NewtonOptions options)
     : model_(model), options_(options), system_(model) {}
 
-NewtonReport Newton::solve(EquilibriumState& state) {
+NewtonReport Newton::solve(EquilibriumState& state, const Drive& drive) {
   NewtonReport report;
   const double L = model_.length;
   double last_step = INFINITY;
@@ -145,7 +154,7 @@ NewtonReport Newton::solve(EquilibriumState& state) {
     return report;
   }
   for (;; ++report.iterations) {
-    const bool has_directions = system_.assemble(state);
+    const bool has_directions = system_.assemble(state, drive);
     report.residual = system_.out_of_balance();
     report.gap = system_.largest_gap();
     report.force_scale = system_.force_scale();

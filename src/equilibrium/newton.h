@@ -20,7 +20,8 @@
 
 #include "elements/contact.h"
 #include "elements/line_element_block.h"
-#include "equilibrium/model.h"
+#include "equilibrium/drive.h"
+#include "equilibrium/parameters.h"
 #include "math/small_lu.h"
 
 namespace condyle {
@@ -61,9 +62,17 @@ struct NewtonReport {
 class NewtonSystem {
  public:
   explicit NewtonSystem(const Model& model);
+  NewtonSystem(const NewtonSystem&) = delete;
+  NewtonSystem& operator=(const NewtonSystem&) = delete;
 
-  /// False where an element has no length (zero_element()).
-  bool assemble(const EquilibriumState& state);
+  /// In place of those before, at first the model's own. Throws std::invalid_argument where there
+  /// are not as many as the model has.
+  void set_parameters(const Parameters& parameters);
+  [[nodiscard]] const Parameters& parameters() const { return parameters_; }
+
+  /// False where an element has no length (zero_element()). Throws std::invalid_argument for a
+  /// drive that is not one of the model.
+  bool assemble(const EquilibriumState& state, const Drive& drive);
 
   /// Fills the matrix and the right side (minus the residual); returns the number of rows.
   int fill(const EquilibriumState& state, SmallLu& matrix, double* right_side) const;
@@ -84,6 +93,7 @@ class NewtonSystem {
 
  private:
   const Model& model_;
+  Parameters parameters_;
   LineElementBlock elements_;
   Wrench wrench_;
   std::vector<ContactLinearization> contacts_;
@@ -97,7 +107,7 @@ class Newton {
   explicit Newton(const Model& model, NewtonOptions options = {});
 
   /// Improves the state in place. Allocates nothing once the state has its size.
-  NewtonReport solve(EquilibriumState& state);
+  NewtonReport solve(EquilibriumState& state, const Drive& drive);
 
   /// The system at the last state assembled.
   [[nodiscard]] const NewtonSystem& system() const { return system_; }

@@ -28,6 +28,9 @@ class PassedThrough {
   /// The surfaces touch here: they are on their right sides.
   void trust(const RigidTransform& X_BA) { trusted_ = X_BA; }
 
+  /// As newly made.
+  void reset() { trusted_.reset(); }
+
   static constexpr double kDeep = 0.48;  ///< of L: as deep as the search takes for an overlap
 
  private:

@@ -13,12 +13,12 @@ constexpr double kFarthest = 0.3;     // a correction that leads farther [L] has
 
 }  // namespace
 
-PathSystem::PathSystem(Model& model, const SweptValue& swept, double range)
-    : model_(model), swept_(swept), weight_(model.length / range), system_(model) {}
+PathSystem::PathSystem(const Model& model, const Swept& swept, const Drive& drive, double range)
+    : model_(model), swept_(swept), drive_(drive), weight_(model.length / range), system_(model) {}
 
 bool PathSystem::assemble(const PathPoint& point) {
-  swept_.in(model_) = point.value;
-  return system_.assemble(point.state);
+  swept_.in(drive_) = point.value;
+  return system_.assemble(point.state, drive_);
 }
 
 /// Newton's matrix and the column of the swept value; the last row is left to the caller. Returns
@@ -27,11 +27,9 @@ int PathSystem::fill(const PathPoint& point, double* right_side) {
   const int rows = system_.fill(point.state, matrix_, right_side);
   for (int i = 0; i < rows; ++i) matrix_(i, rows) = 0;
   for (int j = 0; j <= rows; ++j) matrix_(rows, j) = 0;
-  if (swept_.varies_load) {
-    Load unit = model_.loads[swept_.index];
-    unit.scale = 1;
+  if (swept_.is_load()) {
     Wrench wrench;
-    add_load(unit, point.state.X, wrench);
+    add_load(system_.parameters().loads[swept_.index], 1, point.state.X, wrench);
     for (int i = 0; i < 3; ++i) {
       matrix_(i, rows) = wrench.f[i];
       matrix_(3 + i, rows) = wrench.m[i] / model_.length;

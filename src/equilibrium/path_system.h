@@ -12,15 +12,6 @@
 
 namespace condyle {
 
-/// Which number of the model is swept: the value of a condition or the scale of a load.
-struct SweptValue {
-  bool varies_load = false;
-  std::size_t index = 0;
-  [[nodiscard]] double& in(Model& model) const {
-    return varies_load ? model.loads[index].scale : model.conditions[index].value;
-  }
-};
-
 /// A point of the path.
 struct PathPoint {
   EquilibriumState state;
@@ -37,8 +28,10 @@ class PathSystem {
     [[nodiscard]] double force(std::size_t contact) const { return d[6 + contact]; }
   };
 
-  /// `range`: of the swept value, counts as L.
-  PathSystem(Model& model, const SweptValue& swept, double range);
+  /// `drive`: of all that is not swept; `range`: of the swept value, counts as L.
+  PathSystem(const Model& model, const Swept& swept, const Drive& drive, double range);
+
+  void set_parameters(const Parameters& parameters) { system_.set_parameters(parameters); }
 
   /// The unit tangent of the path at a point on it, of either sign; false where there is none or
   /// more than one.
@@ -66,8 +59,9 @@ class PathSystem {
   int fill(const PathPoint& point, double* right_side);
   void apply(PathPoint& point, const double* step) const;
 
-  Model& model_;
-  SweptValue swept_;
+  const Model& model_;
+  Swept swept_;
+  Drive drive_;
   double weight_;  ///< of the swept value in the length of the path [mm per unit]
   NewtonSystem system_;
   SmallLu matrix_;

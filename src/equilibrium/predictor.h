@@ -7,15 +7,10 @@
 #include <array>
 #include <vector>
 
+#include "equilibrium/drive.h"
 #include "equilibrium/newton.h"
 
 namespace condyle {
-
-/// What drives a model from pose to pose.
-struct Drive {
-  std::vector<double> values;  ///< of the conditions [rad] or [mm]
-  std::vector<double> scales;  ///< of the loads
-};
 
 class Predictor {
  public:

@@ -23,7 +23,7 @@ double largest_step(const std::vector<double>& values) {
 }  // namespace
 
 SweepResult sweep(EquilibriumSolver& solver,
-                  double& swept,
+                  const Swept& swept,
                   const std::vector<double>& values,
                   const SweepOptions& options) {
   return SweepWalk(solver, swept, options).along(values);
@@ -37,10 +37,9 @@ SweepResult sweep(const Scene& scene,
   equilibrium.description.stability = options.stability;
   equilibrium.description.joint_stiffness = options.stability && scene.joint;
   EquilibriumSolver solver(build_model(scene, surfaces), equilibrium);
-  const SweptValue swept{scene.sweep->varies_load, static_cast<std::size_t>(scene.sweep->index)};
+  const Swept swept = swept_of(*scene.sweep);
   const std::vector<double>& values = scene.sweep->values;
-  if (!scene.sweep->arc_length || values.size() < 2)
-    return sweep(solver, swept.in(solver.model()), values, options);
+  if (!scene.sweep->arc_length || values.size() < 2) return sweep(solver, swept, values, options);
   PathOptions path;
   path.on_pose = options.on_pose;
   return follow_path(solver, swept, values.front(), values.back(), largest_step(values), path);

@@ -9,6 +9,7 @@
 /// equilibrium exist, and the remark of the pose says so.
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "equilibrium/equilibrium_solver.h"
@@ -20,8 +21,9 @@
 namespace condyle {
 
 struct SweepOptions {
-  bool stability = true;  ///< reduced stiffness of each pose
-  bool events = true;     ///< locate what happens to contacts between poses
+  bool stability = true;       ///< reduced stiffness of each pose
+  bool events = true;          ///< locate what happens to contacts between poses
+  std::optional<Drive> drive;  ///< of all that is not swept; absent: the model's nominal one
   /// Taken over where their values are met, failures too: a solved one is polished and described
   /// anew, not searched for. The first value that is not known starts from the pose before it in
   /// the sweep, or, where there is none, from the known one with the nearest value.
@@ -33,11 +35,10 @@ struct SweepOptions {
   std::function<void(const KnownPose&)> on_computed;
 };
 
-/// Solves the values in order. `swept` is the one of the solver's model that varies. Never throws
-/// for mathematics that does not succeed: a pose carries its status. Whether poses are examined for
+/// Solves the values in order. `swept` says which number of the drive varies. Never throws for mathematics that does not succeed: a pose carries its status. Whether poses are examined for
 /// stability is the solver's option here.
 [[nodiscard]] SweepResult sweep(EquilibriumSolver& solver,
-                                double& swept,
+                                const Swept& swept,
                                 const std::vector<double>& values,
                                 const SweepOptions& options = {});
 

@@ -9,12 +9,20 @@
 
 namespace condyle {
 
-SweepWalk::SweepWalk(EquilibriumSolver& solver, double& swept, const SweepOptions& options)
+SweepWalk::SweepWalk(EquilibriumSolver& solver, const Swept& swept, const SweepOptions& options)
     : solver_(solver),
       swept_(swept),
+      drive_(options.drive ? *options.drive : drive_of(solver.model())),
       options_(options),
       known_(options.known),
-      start_(solver.standing()) {}
+      start_(solver.standing()) {
+  check_drive(drive_, solver.model());
+}
+
+const Drive& SweepWalk::drive_at(double value) {
+  swept_.in(drive_) = value;
+  return drive_;
+}
 
 SweepResult SweepWalk::along(const std::vector<double>& values) {
   stops_.reserve(values.size());
@@ -56,9 +64,8 @@ bool SweepWalk::take_over(const KnownPose& known, Stop& stop) {
     return known.pose.status != PoseStatus::kNotComputed;
   }
   if (!can_restore(solver_.model(), known.pose)) return false;
-  swept_ = stop.at.value;
-  solver_.set_state(restore_state(solver_.model(), known.pose));
-  solver_.solve(pose, Patience::kNone);
+  solver_.set_state(restore_state(solver_.model(), known.pose), drive_at(stop.at.value));
+  solver_.solve(drive_at(stop.at.value), pose, Patience::kNone);
   const bool same = agrees(pose, known.pose);
   if (same) {
     stop.at.state = solver_.solution();
@@ -81,13 +88,11 @@ bool SweepWalk::agrees(const PoseResult& pose, const PoseResult& known) const {
 void SweepWalk::compute(Stop& stop) {
   if (!last_converged_) {
     const KnownPose* nearest = known_.nearest_converged(stop.at.value);
-    if (nearest != nullptr && can_restore(solver_.model(), nearest->pose)) {
-      swept_ = nearest->pose.value;
-      solver_.set_state(restore_state(solver_.model(), nearest->pose));
-    }
+    if (nearest != nullptr && can_restore(solver_.model(), nearest->pose))
+      solver_.set_state(restore_state(solver_.model(), nearest->pose),
+                        drive_at(nearest->pose.value));
   }
-  swept_ = stop.at.value;
-  solver_.solve(stop.at.result);
+  solver_.solve(drive_at(stop.at.value), stop.at.result);
   stop.from_elsewhere = solver_.from_elsewhere();
   if (stop.at.result.solved()) stop.at.state = solver_.solution();
 }
@@ -109,8 +114,7 @@ void SweepWalk::mend_gap() {
 bool SweepWalk::mend(Stop& stop, const Stop& from) {
   if (stop.taken != nullptr) return false;
   stand_at(from.at);
-  swept_ = stop.at.value;
-  solver_.solve(trial_, Patience::kWay);
+  solver_.solve(drive_at(stop.at.value), trial_, Patience::kWay);
   const double seconds = stop.at.result.seconds + trial_.seconds;
   const int iterations = stop.at.result.iterations + trial_.iterations;
   if (trial_.converged() || (trial_.solved() && !stop.at.result.solved())) {
@@ -143,10 +147,10 @@ void SweepWalk::tell() {
 /// Says so where the body moved far since the pose before, by more than what is prescribed.
 void SweepWalk::note_jump(Stop& stop) {
   if (!stop.converged() || told_ == 0 || !stops_[told_ - 1].converged()) return;
-  swept_ = stop.at.value;
   const Model& model = solver_.model();
   const std::string words =
-      jump(model, carried(model, in_model(stops_[told_ - 1].at.result)), in_model(stop.at.result));
+      jump(model, carried(model, drive_at(stop.at.value), in_model(stops_[told_ - 1].at.result)),
+           in_model(stop.at.result));
   if (!words.empty()) add_remark(stop.at.result, words);
 }
 
@@ -161,15 +165,14 @@ void SweepWalk::find_events(Stop& stop) {
     return;
   }
   const auto begin = std::chrono::steady_clock::now();
-  locate_events(solver_, swept_, last.at, stop.at, stop.events);
+  locate_events(solver_, swept_, drive_, last.at, stop.at, stop.events);
   stand_at_last_converged();
   stop.at.result.event_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 void SweepWalk::stand_at(const SolvedPose& pose) {
-  swept_ = pose.value;
-  solver_.set_state(pose.state);
+  solver_.set_state(pose.state, drive_at(pose.value));
 }
 
 void SweepWalk::stand_at_last_converged() {
@@ -207,8 +210,7 @@ void SweepWalk::follow(std::size_t from, int way) {
     Stop& stop = stops_[static_cast<std::size_t>(k)];
     if (!stop.converged()) continue;
     stand_at(at);
-    swept_ = stop.at.value;
-    solver_.solve(trial_, Patience::kNone);
+    solver_.solve(drive_at(stop.at.value), trial_, Patience::kNone);
     stop.at.result.seconds += trial_.seconds;
     const Model& model = solver_.model();
     const RigidTransform here = in_model(stop.at.result), there = in_model(trial_);

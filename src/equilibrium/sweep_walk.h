@@ -13,8 +13,8 @@ namespace condyle {
 
 class SweepWalk {
  public:
-  /// Refers to the solver, its swept value and the options.
-  SweepWalk(EquilibriumSolver& solver, double& swept, const SweepOptions& options);
+  /// Refers to the solver and the options.
+  SweepWalk(EquilibriumSolver& solver, const Swept& swept, const SweepOptions& options);
 
   SweepResult along(const std::vector<double>& values);
 
@@ -40,6 +40,7 @@ class SweepWalk {
   void tell();
   void find_events(Stop& stop);
   void note_jump(Stop& stop);
+  const Drive& drive_at(double value);
   void stand_at(const SolvedPose& pose);
   void stand_at_last_converged();
   void note_second_equilibria();
@@ -47,7 +48,8 @@ class SweepWalk {
   [[nodiscard]] bool continuous(std::size_t a, std::size_t b) const;
 
   EquilibriumSolver& solver_;
-  double& swept_;
+  Swept swept_;
+  Drive drive_;  ///< of the value under way
   const SweepOptions& options_;
   KnownPoseIndex known_;
   EquilibriumSolver::Standing start_;

@@ -64,15 +64,16 @@ class RowMaker {
 
   void add_condition(std::size_t i, const NetworkState& state) {
     const ConditionComponent& component = network_.conditions[i];
-    KinematicCondition condition = component.condition;
+    const KinematicCondition& condition = component.condition;
+    double value = condition.value;
     ConstraintRow row;
     if (component.value) {
       const DrivenValue driven = component.value(state.t);
-      condition.value = driven.value;
+      value = driven.value;
       row.rate = driven.rate;
       row.acceleration = driven.acceleration;
     }
-    const ConditionDerivatives k = evaluate(condition, state.bodies[component.body].X);
+    const ConditionDerivatives k = evaluate(condition, value, state.bodies[component.body].X);
     row.edge = graph_.condition_edge[i];
     row.vertex_to = graph_.graph.edges[row.edge].to;
     row.direction << k.alpha, k.eta;

@@ -18,8 +18,8 @@ constexpr double kBuried = 0.05 / 30;    // where there is no single lowest poin
 
 }  // namespace
 
-PairScout::PairScout(const Model& model, const KneeNetwork& knee)
-    : model_(model), knee_(knee), searches_(make_searches(model)) {}
+PairScout::PairScout(const Model& model, const ContactCovers& covers, const KneeNetwork& knee)
+    : model_(model), knee_(knee), searches_(make_searches(model, covers)) {}
 
 ContactSighting PairScout::operator()(NetworkState& state) {
   ContactSighting sighting;

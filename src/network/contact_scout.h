@@ -11,7 +11,7 @@ namespace condyle {
 class PairScout {
  public:
   /// Keeps references.
-  PairScout(const Model& model, const KneeNetwork& knee);
+  PairScout(const Model& model, const ContactCovers& covers, const KneeNetwork& knee);
 
   /// As ContactScout says.
   ContactSighting operator()(NetworkState& state);

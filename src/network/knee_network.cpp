@@ -66,6 +66,7 @@ KneeNetwork make_knee_network(const Model& model, const std::optional<MassProper
 }
 
 NetworkState state_at_rest(const Model& model,
+                           const ContactCovers& covers,
                            const KneeNetwork& knee,
                            const EquilibriumState& equilibrium) {
   NetworkState state;
@@ -82,7 +83,8 @@ NetworkState state_at_rest(const Model& model,
     const ContactPair& pair = model.pairs[knee.places[i]];
     const double L = model.length;
     std::vector<GapMinimum> minima;
-    ContactSearch(pair, kSampleSpacing * L).find_nearest(equilibrium.X, kReach * L, minima);
+    ContactSearch(covers[static_cast<std::size_t>(knee.places[i])])
+        .find_nearest(equilibrium.X, kReach * L, minima);
     if (!minima.empty())
       places = {minima.front().on_B, minima.front().on_A};
     else

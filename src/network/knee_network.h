@@ -4,6 +4,7 @@
 /// insertions, contact points and load points, the femur is the ground. The one place of this room
 /// that knows the solver's model.
 
+#include "equilibrium/contact_search.h"
 #include "equilibrium/model.h"
 #include "equilibrium/newton.h"
 #include "network/network.h"
@@ -27,6 +28,7 @@ inline constexpr int kPointsPerPair = 3;
 /// the first contact starts from the nearest place that the solver's search finds; the others wait.
 /// Throws InputError for a pair that touches in more than kPointsPerPair points.
 [[nodiscard]] NetworkState state_at_rest(const Model& model,
+                                         const ContactCovers& covers,
                                          const KneeNetwork& knee,
                                          const EquilibriumState& equilibrium);
 

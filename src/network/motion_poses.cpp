@@ -47,7 +47,8 @@ class FrameTeller {
           held == hold.end()
               ? 0
               : frame.condition_multiplier[static_cast<std::size_t>(held - hold.begin())];
-      pose.conditions.push_back({evaluate(model_.conditions[i], pose.X_BA).coordinate, multiplier});
+      pose.conditions.push_back(
+          {evaluate(model_.conditions[i], 0, pose.X_BA).coordinate, multiplier});
     }
     to_file_frames(model_.origins, pose);
     return pose;

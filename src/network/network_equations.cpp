@@ -83,10 +83,10 @@ bool NetworkEquations::add_lines() {
 void NetworkEquations::add_forces(const NetworkState& state) {
   for (std::size_t i = 0; i < network_.forces.size(); ++i) {
     const ForceDriver& driver = network_.forces[i];
-    Wrench wrench;
-    add_load(driver.load, state.bodies[driver.body].X, wrench);
     const double scale = driver.scale ? driver.scale(state.t) : 1;
-    through_.col(graph_.force_edge[i]) << -scale * wrench.f, -scale * wrench.m;
+    Wrench wrench;
+    add_load(driver.load, scale * driver.load.scale, state.bodies[driver.body].X, wrench);
+    through_.col(graph_.force_edge[i]) << -wrench.f, -wrench.m;
   }
 }
 

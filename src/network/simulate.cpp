@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "equilibrium/build_model.h"
@@ -51,16 +52,19 @@ int hold_for_start(const Scene& scene, const MassProperties& mass, Model& model)
 }
 
 /// Equilibrium at the start: first where the scene's start pose is, then where it is wanted.
-EquilibriumState find_start(const Scene& scene, const MassProperties& mass, const Model& model) {
+EquilibriumState find_start(const Scene& scene,
+                            const MassProperties& mass,
+                            const Model& model,
+                            const ContactCovers& covers) {
   Model held = model;
   const int flexion = hold_for_start(scene, mass, held);
   if (flexion >= 0)
     held.conditions[flexion].value = joint_coordinates(*model.joint, model.start).flexion;
-  EquilibriumSolver solver(std::move(held));
+  EquilibriumSolver solver(std::make_shared<const Model>(std::move(held)), covers);
   PoseResult pose = solver.solve();
   if (flexion >= 0) {
-    solver.model().conditions[flexion].value = *scene.simulation->flexion;
-    pose = solver.solve();
+    const Swept angle = condition_value(static_cast<std::size_t>(flexion));
+    pose = solver.solve(angle.with(drive_of(solver.model()), *scene.simulation->flexion));
   }
   if (!pose.converged())
     fail(scene, "the knee has no position of equilibrium to start from: " +
@@ -135,10 +139,11 @@ Simulation simulate(const Scene& scene,
   const Model model = build_model(scene, surfaces);
   MassProperties mass = result.mass;
   mass.center -= model.origins.A;
-  const EquilibriumState start = find_start(scene, mass, model);
+  const ContactCovers covers = cover_pairs(model);
+  const EquilibriumState start = find_start(scene, mass, model, covers);
   KneeNetwork knee = make_knee_network(model, mass);
   complete(scene, model.origins, knee);
-  NetworkState state = state_at_rest(model, knee, start);
+  NetworkState state = state_at_rest(model, covers, knee, start);
   set_velocity(scene, model, knee.network, state);
 
   const SimulationDescription& simulation = *scene.simulation;
@@ -149,7 +154,7 @@ Simulation simulate(const Scene& scene,
   options.restitution = simulation.restitution;
   options.breaks = drive_breaks(simulation.drives);
   options.on_frame = on_frame;
-  PairScout scout(model, knee);
+  PairScout scout(model, covers, knee);
   const auto begin = std::chrono::steady_clock::now();
   result.motion = integrate(knee.network, state, options, std::move(scout));
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -55,16 +55,17 @@ TEST(KinematicCondition, GradientIsExactForEveryKind) {
     for (int variant = 0; variant < 24; ++variant) {
       KinematicCondition condition = random_condition(random, kind, variant);
       const RigidTransform X = tame_pose(random, condition);
-      condition.value = evaluate(condition, X).coordinate;  // so that no angle wraps nearby
+      condition.value =
+          evaluate(condition, condition.value, X).coordinate;  // so that no angle wraps nearby
       const auto k = [&](const Vector3d& da, const Vector3d& dpi) -> Row {
-        return Row(evaluate(condition, test::displaced(X, da, dpi)).k);
+        return Row(evaluate(condition, condition.value, test::displaced(X, da, dpi)).k);
       };
       const Vector3d zero = Vector3d::Zero();
       const auto by_a =
           test::jacobian_at_zero<1, 3>([&](const Vector3d& da) { return k(da, zero); });
       const auto by_pi =
           test::jacobian_at_zero<1, 3>([&](const Vector3d& dpi) { return k(zero, dpi); });
-      const ConditionDerivatives d = evaluate(condition, X);
+      const ConditionDerivatives d = evaluate(condition, condition.value, X);
       EXPECT_LT((d.alpha - by_a.transpose()).norm(), 1e-8 * (1 + d.alpha.norm()))
           << static_cast<int>(kind);
       EXPECT_LT((d.eta - by_pi.transpose()).norm(), 1e-8 * (1 + d.eta.norm()))
@@ -79,9 +80,13 @@ TEST(KinematicCondition, SecondDerivativesAreExactForEveryKind) {
     for (int variant = 0; variant < 24; ++variant) {
       const KinematicCondition condition = random_condition(random, kind, variant);
       const RigidTransform X = tame_pose(random, condition);
-      const auto alpha = [&](const RigidTransform& at) { return evaluate(condition, at).alpha; };
-      const auto eta = [&](const RigidTransform& at) { return evaluate(condition, at).eta; };
-      const ConditionDerivatives d = evaluate(condition, X);
+      const auto alpha = [&](const RigidTransform& at) {
+        return evaluate(condition, condition.value, at).alpha;
+      };
+      const auto eta = [&](const RigidTransform& at) {
+        return evaluate(condition, condition.value, at).eta;
+      };
+      const ConditionDerivatives d = evaluate(condition, condition.value, X);
       const auto close = [](const Matrix3d& found, const Matrix3d& expected) {
         return (found - expected).norm() < 1e-8 * (1 + expected.norm());
       };
@@ -108,7 +113,7 @@ TEST(KinematicCondition, CoordinatesAreTheJointCoordinates) {
                                             q.lateral_shift, q.anterior_drawer, q.distraction};
     for (std::size_t i = 0; i < 6; ++i) {
       condition.kind = kAllKinds[i];
-      EXPECT_NEAR(evaluate(condition, X).coordinate, expected[i], 1e-11);
+      EXPECT_NEAR(evaluate(condition, condition.value, X).coordinate, expected[i], 1e-11);
     }
   }
 }
@@ -126,7 +131,8 @@ TEST(KinematicCondition, CardanAnglesAreThoseTheRotationWasMadeOf) {
   const std::array<double, 3> by_axis = {psi, omega, phi};
   for (int axis = 0; axis < 3; ++axis) {
     condition.cardan_axis = axis;
-    EXPECT_NEAR(evaluate(condition, {cardan(phi, psi, omega), Vector3d::Zero()}).coordinate,
+    EXPECT_NEAR(evaluate(condition, condition.value, {cardan(phi, psi, omega), Vector3d::Zero()})
+                    .coordinate,
                 by_axis[axis], 1e-14);
   }
 }
@@ -137,7 +143,8 @@ TEST(KinematicCondition, GradientOfTheLastCardanAngleIsThatOfTheTheory) {
   condition.kind = ConditionKind::kRotation;
   condition.cardan_axis = 1;
   const double phi = 0.7, psi = 0.4;
-  const ConditionDerivatives d = evaluate(condition, {cardan(phi, psi, 1.1), Vector3d::Zero()});
+  const ConditionDerivatives d =
+      evaluate(condition, condition.value, {cardan(phi, psi, 1.1), Vector3d::Zero()});
   EXPECT_LT((d.eta - Vector3d(-std::sin(phi), std::cos(phi), 0) / std::cos(psi)).norm(), 1e-14);
 }
 
@@ -146,7 +153,8 @@ TEST(KinematicCondition, AnglesAreComparedTheShortWayRound) {
   condition.kind = ConditionKind::kRotation;
   condition.cardan_axis = 2;
   condition.value = 3.1;
-  const ConditionDerivatives d = evaluate(condition, {cardan(-3.1, 0, 0), Vector3d::Zero()});
+  const ConditionDerivatives d =
+      evaluate(condition, condition.value, {cardan(-3.1, 0, 0), Vector3d::Zero()});
   EXPECT_NEAR(d.coordinate, -3.1, 1e-14);
   EXPECT_NEAR(d.k, 2 * std::numbers::pi - 6.2, 1e-14);
 }
@@ -154,7 +162,7 @@ TEST(KinematicCondition, AnglesAreComparedTheShortWayRound) {
 TEST(KinematicCondition, MultiplierOfAnAngleTurnsAboutItsAxis) {
   // With the frames aligned the tibia flexes about -I: dflexion = -dπ.I.
   KinematicCondition condition;
-  const ConditionDerivatives d = evaluate(condition, {});
+  const ConditionDerivatives d = evaluate(condition, condition.value, {});
   EXPECT_LT((d.eta + Vector3d::UnitX()).norm(), 1e-15);
   EXPECT_EQ(d.alpha, Vector3d::Zero());
 }
@@ -166,7 +174,8 @@ TEST(KinematicCondition, DistanceOfAnIsometricFibreIsItsLength) {
   condition.x_C = {1, 1, 1};
   condition.s_D = {1, 0, 0};
   // D at (4, 5, 1): (3, 4, 0) from C.
-  const ConditionDerivatives d = evaluate(condition, {Matrix3d::Identity(), Vector3d(3, 5, 1)});
+  const ConditionDerivatives d =
+      evaluate(condition, condition.value, {Matrix3d::Identity(), Vector3d(3, 5, 1)});
   EXPECT_NEAR(d.k, 1, 1e-15);
   EXPECT_LT((d.alpha - Vector3d(0.6, 0.8, 0)).norm(), 1e-15);
 }
@@ -183,16 +192,20 @@ TEST(KinematicCondition, StaysFiniteWhereTheCoordinateHasNoDerivative) {
     condition.kind = kind;
     for (const double angle : {std::numbers::pi / 2, -std::numbers::pi / 2}) {
       const Vector3d p(1, 2, 3);
-      EXPECT_TRUE(finite(evaluate(condition, {exp_rotation(angle * Vector3d::UnitY()), p})))
+      EXPECT_TRUE(finite(
+          evaluate(condition, condition.value, {exp_rotation(angle * Vector3d::UnitY()), p})))
           << static_cast<int>(kind);
-      EXPECT_TRUE(finite(evaluate(condition, {exp_rotation(angle * Vector3d::UnitX()), p})))
+      EXPECT_TRUE(finite(
+          evaluate(condition, condition.value, {exp_rotation(angle * Vector3d::UnitX()), p})))
           << static_cast<int>(kind);
     }
-    EXPECT_TRUE(finite(evaluate(condition, {}))) << static_cast<int>(kind);  // a distance of zero
+    EXPECT_TRUE(finite(evaluate(condition, condition.value, {})))
+        << static_cast<int>(kind);  // a distance of zero
     // The axes of the joint and of the Cardan angles exactly parallel.
     Matrix3d R;
     R << 0, 0, 1, 1, 0, 0, 0, 1, 0;
-    EXPECT_TRUE(finite(evaluate(condition, {R, Vector3d(1, 2, 3)}))) << static_cast<int>(kind);
+    EXPECT_TRUE(finite(evaluate(condition, condition.value, {R, Vector3d(1, 2, 3)})))
+        << static_cast<int>(kind);
   }
 }
 
@@ -202,7 +215,7 @@ TEST(KinematicCondition, AllocatesNothing) {
   const test::AllocationCount count;
   for (const ConditionKind kind : kAllKinds) {
     condition.kind = kind;
-    sum += evaluate(condition, {}).k;
+    sum += evaluate(condition, condition.value, {}).k;
   }
   EXPECT_EQ(count.since_start(), 0);
   EXPECT_TRUE(std::isfinite(sum));

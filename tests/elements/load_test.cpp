@@ -17,7 +17,7 @@ using test::Random;
 
 Wrench wrench_of(const Load& load, const RigidTransform& X) {
   Wrench wrench;
-  add_load(load, X, wrench);
+  add_load(load, load.scale, X, wrench);
   return wrench;
 }
 
@@ -77,7 +77,7 @@ TEST(Load, CustomLoadIsAddedAndScaled) {
   load.scale = 2;
   Wrench wrench;
   wrench.f = Vector3d(1, 1, 1);  // what is there stays
-  add_load(load, {Matrix3d::Identity(), Vector3d(1, 2, 3)}, wrench);
+  add_load(load, load.scale, {Matrix3d::Identity(), Vector3d(1, 2, 3)}, wrench);
   EXPECT_LT((wrench.f - Vector3d(-5, -11, -17)).norm(), 1e-14);
   expect_exact_derivatives(load, {Matrix3d::Identity(), Vector3d(1, 2, 3)});
 }
@@ -87,7 +87,7 @@ TEST(Load, AllocatesNothing) {
   load.vector = {0, 100, 0};
   Wrench wrench;
   const test::AllocationCount count;
-  add_load(load, {}, wrench);
+  add_load(load, 1, {}, wrench);
   EXPECT_EQ(count.since_start(), 0);
 }
 

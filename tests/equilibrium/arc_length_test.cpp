@@ -14,7 +14,7 @@ namespace {
 using test::Truss;
 
 constexpr double kDegree = M_PI / 180;
-constexpr SweptValue kPress{true, 0};
+constexpr Swept kPress = load_scale(0);
 
 TEST(ArcLength, FollowsTheTrussThroughBothLimitPoints) {
   EquilibriumSolver solver(Truss::model());
@@ -76,15 +76,15 @@ TEST(ArcLength, ClosesAContactAfterTheSnapAndOpensItAgain) {
 // Without limit points the path is that of a sweep in steps.
 TEST(ArcLength, FollowsAKneeWhereASweepDoes) {
   EquilibriumSolver follower(test::quadric_knee());
-  const SweepResult path = follow_path(follower, {false, 0}, 0, 90 * kDegree, 5 * kDegree);
+  const SweepResult path = follow_path(follower, condition_value(0), 0, 90 * kDegree, 5 * kDegree);
   EXPECT_TRUE(path.events.empty());
   ASSERT_GE(path.poses.size(), 19u);
   EXPECT_EQ(path.poses.back().value, 90 * kDegree);
   EquilibriumSolver stepper(test::quadric_knee());
   for (const PoseResult& pose : path.poses) {
     ASSERT_TRUE(pose.converged()) << pose.reason;
-    stepper.model().conditions[0].value = pose.value;
-    const PoseResult expected = stepper.solve();
+    const PoseResult expected =
+        stepper.solve(condition_value(0).with(drive_of(stepper.model()), pose.value));
     ASSERT_TRUE(expected.converged());
     EXPECT_LT((pose.X_BA.p - expected.X_BA.p).norm(), 1e-9);
     EXPECT_LT((pose.X_BA.R - expected.X_BA.R).norm(), 1e-10);
@@ -97,7 +97,7 @@ TEST(ArcLength, OpensAContactWhereItsForceVanishes) {
   Model model = test::Problem1::model(0, 1);
   model.start.R = exp_rotation({0, -1.3, 0});
   EquilibriumSolver solver(std::move(model));
-  const SweepResult path = follow_path(solver, {true, 1}, 0, 40, 4);
+  const SweepResult path = follow_path(solver, load_scale(1), 0, 40, 4);
   ASSERT_EQ(path.events.size(), 1u);
   EXPECT_EQ(path.events[0].kind, EventKind::kOpening);
   EXPECT_NEAR(path.events[0].value, test::Problem1::p(0), 1e-9);

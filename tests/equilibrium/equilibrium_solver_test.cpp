@@ -21,20 +21,19 @@ constexpr double kDegree = M_PI / 180;
 // Cancellation test [Dortmans 1986, 4.6]: a pull in -x beyond p(0) = 32.1 N opens the contact;
 // without it the contact is back, with the same answer.
 TEST(EquilibriumSolver, ContactOpensUnderAPullAndClosesAgain) {
-  Model model = test::Problem1::model(0);
+  Model model = test::Problem1::model(0, 40);
+  model.loads[1].scale = 0;
   model.start.R = exp_rotation({0, -1.3, 0});
   EquilibriumSolver solver(std::move(model));
   const PoseResult closed = solver.solve();
   ASSERT_TRUE(closed.converged()) << closed.reason;
   EXPECT_NEAR(closed.contacts[0].force, test::Problem1::p(0), 1e-10);
 
-  solver.model().loads[1].vector = {-40, 0, 0};
-  const PoseResult open = solver.solve();
+  const PoseResult open = solver.solve(load_scale(1).with(drive_of(solver.model()), 1));
   ASSERT_TRUE(open.converged()) << open.reason;
   EXPECT_FALSE(open.contacts[0].closed);
   EXPECT_LT(open.X_BA.p.x(), 1 - 1e-3);
 
-  solver.model().loads[1].vector = {0, 0, 0};
   const PoseResult again = solver.solve();
   ASSERT_TRUE(again.converged()) << again.reason;
   EXPECT_TRUE(again.contacts[0].closed);
@@ -59,8 +58,8 @@ constexpr SpringKneePose kSpringKnee[] = {{0, -0.8355, -0.0375, 0.6282, 6.4148, 
 TEST(EquilibriumSolver, FollowsTheIndependentPathOfTheTwelveSpringKnee) {
   EquilibriumSolver solver(test::spring_knee());
   for (const SpringKneePose& expected : kSpringKnee) {
-    solver.model().conditions[0].value = expected.flexion * kDegree;
-    const PoseResult pose = solver.solve();
+    const PoseResult pose =
+        solver.solve(condition_value(0).with(drive_of(solver.model()), expected.flexion * kDegree));
     ASSERT_TRUE(pose.converged()) << expected.flexion << ": " << pose.reason;
     EXPECT_NEAR(pose.joint.adduction / kDegree, expected.adduction, 0.05);
     EXPECT_NEAR(pose.joint.internal_rotation / kDegree, expected.internal_rotation, 0.05);
@@ -88,13 +87,13 @@ TEST(EquilibriumSolver, FindsTheKneeFromAGapAndFromAnOverlap) {
 // Turning the whole scene by any rigid motion turns the answer.
 TEST(EquilibriumSolver, TurningTheWholeSceneTurnsTheAnswer) {
   EquilibriumSolver solver(test::spring_knee());
-  solver.model().conditions[0].value = 30 * kDegree;
-  const PoseResult pose = solver.solve();
+  const PoseResult pose =
+      solver.solve(condition_value(0).with(drive_of(solver.model()), 30 * kDegree));
   ASSERT_TRUE(pose.converged());
   const RigidTransform X{exp_rotation({0.4, -1.1, 0.7}), {12, -40, 7}};
   EquilibriumSolver turned(test::spring_knee(X));
-  turned.model().conditions[0].value = 30 * kDegree;
-  const PoseResult turned_pose = turned.solve();
+  const PoseResult turned_pose =
+      turned.solve(condition_value(0).with(drive_of(turned.model()), 30 * kDegree));
   ASSERT_TRUE(turned_pose.converged()) << turned_pose.reason;
   const RigidTransform expected = X * pose.X_BA;
   EXPECT_LT((turned_pose.X_BA.p - expected.p).norm(), 1e-9);
@@ -107,8 +106,8 @@ TEST(EquilibriumSolver, TurningTheWholeSceneTurnsTheAnswer) {
 // here from what the pose reports and not from the solver's own sums.
 TEST(EquilibriumSolver, ReportedForcesBalance) {
   EquilibriumSolver solver(test::spring_knee());
-  solver.model().conditions[0].value = 60 * kDegree;
-  const PoseResult pose = solver.solve();
+  const PoseResult pose =
+      solver.solve(condition_value(0).with(drive_of(solver.model()), 60 * kDegree));
   ASSERT_TRUE(pose.converged());
   Eigen::Vector3d f = Eigen::Vector3d::Zero(), m = f;
   const auto add = [&](const Eigen::Vector3d& force, const Eigen::Vector3d& point) {
@@ -125,7 +124,7 @@ TEST(EquilibriumSolver, ReportedForcesBalance) {
       add(point.force * point.normal_ground, point.point_ground);
   EXPECT_LT(f.norm(), 1e-9);
   // What is left of the moment is the flexion moment: about the axis along which flexion turns.
-  const ConditionDerivatives flexion = evaluate(solver.model().conditions[0], pose.X_BA);
+  const ConditionDerivatives flexion = evaluate(solver.model().conditions[0], 0, pose.X_BA);
   EXPECT_LT((m - pose.conditions[0].multiplier * flexion.eta).norm(), 1e-7);
 }
 

@@ -14,7 +14,7 @@ namespace condyle {
 namespace {
 
 /// The sweep of one value of a model that is solved everywhere.
-SweepResult run(EquilibriumSolver& solver, double& swept, const std::vector<double>& values) {
+SweepResult run(EquilibriumSolver& solver, const Swept& swept, const std::vector<double>& values) {
   const SweepResult result = sweep(solver, swept, values);
   for (const PoseResult& pose : result.poses)
     EXPECT_TRUE(pose.solved()) << pose.value << ": " << pose.reason;
@@ -28,7 +28,7 @@ TEST(Events, ContactOpensWhereThePullEqualsItsForceAndClosesThereAgain) {
   Model model = test::Problem1::model(0, 1);  // a pull of 1 N, scaled by the sweep
   model.start.R = exp_rotation({0, -1.3, 0});
   EquilibriumSolver solver(std::move(model));
-  const SweepResult result = run(solver, solver.model().loads[1].scale, {0, 20, 40, 20, 0});
+  const SweepResult result = run(solver, load_scale(1), {0, 20, 40, 20, 0});
   ASSERT_EQ(result.events.size(), 2u);
   EXPECT_EQ(result.events[0].kind, EventKind::kOpening);
   EXPECT_EQ(result.events[1].kind, EventKind::kClosing);
@@ -43,7 +43,7 @@ TEST(Events, NothingHappensOnAQuietSweep) {
   Model model = test::Problem1::model(0);
   model.start.R = exp_rotation({0, -1.3, 0});
   EquilibriumSolver solver(std::move(model));
-  EXPECT_TRUE(run(solver, solver.model().conditions[0].value, {0, 0.5, 1, 1.5}).events.empty());
+  EXPECT_TRUE(run(solver, condition_value(0), {0, 0.5, 1, 1.5}).events.empty());
 }
 
 // A ball that may only move up and down is carried along over two ridges: the contact jumps from
@@ -67,7 +67,7 @@ TEST(Events, AContactThatJumpsBetweenTwoRidgesDoesSoHalfWay) {
   model.start.p = {-3, 0, 62};
   model.length = 30;
   EquilibriumSolver solver(std::move(model));
-  const SweepResult result = run(solver, solver.model().conditions[0].value, {-3, -1.1, 0.9, 3});
+  const SweepResult result = run(solver, condition_value(0), {-3, -1.1, 0.9, 3});
   for (const PoseResult& pose : result.poses) EXPECT_TRUE(pose.converged()) << pose.reason;
   ASSERT_EQ(result.events.size(), 1u);
   EXPECT_EQ(result.events[0].kind, EventKind::kJump);
@@ -80,8 +80,7 @@ TEST(Events, AContactThatJumpsBetweenTwoRidgesDoesSoHalfWay) {
 TEST(Events, ASnapThroughIsALimitPoint) {
   using test::Truss;
   EquilibriumSolver solver(Truss::model());
-  const SweepResult result =
-      run(solver, solver.model().loads[0].scale, {0, 4, 8, 12, 4, -4, -8, -12});
+  const SweepResult result = run(solver, load_scale(0), {0, 4, 8, 12, 4, -4, -8, -12});
   EXPECT_LT(result.poses[3].X_BA.p.z(), -Truss::h);
   EXPECT_GT(result.poses.back().X_BA.p.z(), Truss::h);
   ASSERT_EQ(result.events.size(), 2u);
@@ -99,7 +98,7 @@ TEST(Events, ASnapThroughThatClosesAContactIsBoth) {
   Model model = Truss::with_floor();
   model.pairs[0].on_B = make_plane({0, 0, -3}, {0, 0, 1});  // the ball meets it at z = -2
   EquilibriumSolver solver(std::move(model));
-  const SweepResult result = run(solver, solver.model().loads[0].scale, {0, 5, 10});
+  const SweepResult result = run(solver, load_scale(0), {0, 5, 10});
   ASSERT_EQ(result.events.size(), 2u);
   EXPECT_EQ(result.events[0].kind, EventKind::kLimitPoint);
   EXPECT_EQ(result.events[1].kind, EventKind::kClosing);

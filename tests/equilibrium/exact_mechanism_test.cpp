@@ -102,8 +102,8 @@ TEST_F(Feikes, PathMeetsAllConstraintsTo1em8) {
   ASSERT_GT(path.size(), 90u);
   for (const auto& row : path) {
     const double flexion = std::stod(row[0]);
-    solver.model().conditions[3].value = flexion * kDegree;
-    const PoseResult pose = solver.solve();
+    const PoseResult pose =
+        solver.solve(condition_value(3).with(drive_of(solver.model()), flexion * kDegree));
     ASSERT_TRUE(pose.converged()) << flexion << ": " << pose.reason;
     for (int i = 0; i < 3; ++i) {
       const KinematicCondition& fibre = mechanism.model.conditions[static_cast<std::size_t>(i)];
@@ -130,8 +130,7 @@ TEST_F(Feikes, TheFlexionMomentIsTheWorkOfTheLoadPerRadian) {
   const Load& load = mechanism.model.loads[0];
   for (const double flexion : {20.0, 50.0, 80.0}) {
     const auto pose_at = [&](double angle) {
-      solver.model().conditions[3].value = angle;
-      return solver.solve();
+      return solver.solve(condition_value(3).with(drive_of(solver.model()), angle));
     };
     constexpr double kStep = 1e-4;
     const PoseResult before = pose_at(flexion * kDegree - kStep), pose = pose_at(flexion * kDegree),

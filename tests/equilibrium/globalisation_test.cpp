@@ -63,13 +63,12 @@ TEST(Globalisation, OneStepFrom0To120DegreesLandsWhereSmallStepsLand) {
   EquilibriumSolver walker(test::quadric_knee()), jumper(test::quadric_knee());
   PoseResult walked;
   for (int flexion = 0; flexion <= 120; flexion += 5) {
-    walker.model().conditions[0].value = flexion * kDegree;
-    walked = walker.solve();
+    walked = walker.solve(condition_value(0).with(drive_of(walker.model()), flexion * kDegree));
     ASSERT_TRUE(walked.converged()) << flexion << ": " << walked.reason;
   }
   ASSERT_TRUE(jumper.solve().converged());
-  jumper.model().conditions[0].value = 120 * kDegree;
-  const PoseResult jumped = jumper.solve();
+  const PoseResult jumped =
+      jumper.solve(condition_value(0).with(drive_of(jumper.model()), 120 * kDegree));
   ASSERT_TRUE(jumped.converged()) << jumped.reason;
   EXPECT_LT((jumped.X_BA.p - walked.X_BA.p).norm(), 1e-8);
 }
@@ -77,11 +76,12 @@ TEST(Globalisation, OneStepFrom0To120DegreesLandsWhereSmallStepsLand) {
 TEST(Globalisation, NothingIsAllocatedAfterTheFirstPoses) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "allocations are not counted here";
   EquilibriumSolver solver(test::quadric_knee());
+  Drive drive = drive_of(solver.model());
   PoseResult pose;
   const auto sweep = [&](int from, int to) {
     for (int flexion = from; flexion <= to; flexion += 5) {
-      solver.model().conditions[0].value = flexion * kDegree;
-      solver.solve(pose);
+      drive.values[0] = flexion * kDegree;
+      solver.solve(drive, pose);
       ASSERT_TRUE(pose.converged()) << pose.reason;
     }
   };

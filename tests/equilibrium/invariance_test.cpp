@@ -16,8 +16,8 @@ std::vector<PoseResult> path(const test::QuadricKneeView& view) {
   EquilibriumSolver solver(test::quadric_knee(view));
   std::vector<PoseResult> poses;
   for (int flexion = 0; flexion <= 90; flexion += 15) {
-    solver.model().conditions[0].value = flexion * kDegree;
-    poses.push_back(solver.solve());
+    poses.push_back(
+        solver.solve(condition_value(0).with(drive_of(solver.model()), flexion * kDegree)));
     EXPECT_TRUE(poses.back().converged()) << flexion << ": " << poses.back().reason;
   }
   return poses;

@@ -33,7 +33,7 @@ Load conjugate_load(const JointFrames& frames, const Vector6& Q) {
   Load load;
   load.custom = [frames, Q](const RigidTransform& X, Wrench& wrench) {
     for (std::size_t i = 0; i < 6; ++i) {
-      const ConditionDerivatives k = evaluate(coordinate(frames, i), X);
+      const ConditionDerivatives k = evaluate(coordinate(frames, i), 0, X);
       const double q = Q[static_cast<Eigen::Index>(i)];
       wrench.f += q * k.alpha;
       wrench.m += q * k.eta;
@@ -61,8 +61,8 @@ double difference(const Matrix6& a, const Matrix6& b, double angle) {
   return d.cwiseAbs().maxCoeff() / of.cwiseAbs().maxCoeff();
 }
 
-PoseResult solve(EquilibriumSolver& solver) {
-  PoseResult pose = solver.solve();
+PoseResult solve(EquilibriumSolver& solver, const Drive& drive) {
+  PoseResult pose = solver.solve(drive);
   EXPECT_TRUE(pose.converged()) << pose.reason;
   return pose;
 }
@@ -82,18 +82,16 @@ TEST(JointStiffness, ComplianceIsWhatSmallLoadsDo) {
       model.load_names.push_back("added " + std::to_string(i));
     }
     EquilibriumSolver solver(model, with_stiffness());
-    const PoseResult pose = solve(solver);
+    const Drive drive = drive_of(model);
+    const PoseResult pose = solve(solver, drive);
     ASSERT_TRUE(pose.joint_stiffness);
     Matrix6 C;
     for (Eigen::Index i = 0; i < 6; ++i) {
       const double step = i < 3 ? 1 : 0.02;  // N mm, N
-      double& scale = solver.model().loads[first + static_cast<std::size_t>(i)].scale;
-      scale = step;
-      C.col(i) = in_order(solve(solver).joint);
-      scale = -step;
-      C.col(i) -= in_order(solve(solver).joint);
+      const Swept scale = load_scale(first + static_cast<std::size_t>(i));
+      C.col(i) = in_order(solve(solver, scale.with(drive, step)).joint);
+      C.col(i) -= in_order(solve(solver, scale.with(drive, -step)).joint);
       C.col(i) /= 2 * step;
-      scale = 0;
     }
     EXPECT_LT(difference(pose.joint_stiffness->compliance, C, 1. / 30), 1e-6) << C;
     // Flexion is prescribed: no load moves it.
@@ -118,7 +116,7 @@ Model hanging_knee() {
 TEST(JointStiffness, StiffnessIsWhatPrescribedCoordinatesAskFor) {
   const Model free = hanging_knee();
   EquilibriumSolver solver(free, with_stiffness());
-  const PoseResult pose = solve(solver);
+  const PoseResult pose = solve(solver, drive_of(solver.model()));
   ASSERT_TRUE(pose.joint_stiffness);
   Model held = free;
   const Vector6 at = in_order(pose.joint);
@@ -136,7 +134,7 @@ TEST(JointStiffness, StiffnessIsWhatPrescribedCoordinatesAskFor) {
       moved.conditions[i].value += side == 0 ? -step : step;
       moved.start = pose.X_BA;
       EquilibriumSolver moved_solver(moved);
-      const PoseResult there = solve(moved_solver);
+      const PoseResult there = solve(moved_solver, drive_of(moved_solver.model()));
       for (Eigen::Index k = 0; k < 6; ++k)
         Q[side][k] = -there.conditions[static_cast<std::size_t>(k)].multiplier;
     }
@@ -151,7 +149,7 @@ TEST(JointStiffness, IsSymmetricWhereForcesHaveAnEnergy) {
   Model model = test::quadric_knee();
   model.loads[0].follows_body = false;
   EquilibriumSolver solver(model, with_stiffness());
-  const PoseResult pose = solve(solver);
+  const PoseResult pose = solve(solver, drive_of(solver.model()));
   ASSERT_TRUE(pose.joint_stiffness);
   const JointStiffness& joint = *pose.joint_stiffness;
   EXPECT_LT(difference(joint.stiffness, joint.stiffness.transpose(), 30), 1e-10);
@@ -170,7 +168,7 @@ TEST(JointStiffness, SaysNothingWhereThereIsNone) {
     model.condition_names.emplace_back("held");
   }
   EquilibriumSolver mechanism(model, with_stiffness());
-  const PoseResult held = solve(mechanism);
+  const PoseResult held = solve(mechanism, drive_of(mechanism.model()));
   ASSERT_TRUE(held.joint_stiffness);
   EXPECT_EQ(held.joint_stiffness->compliance, Matrix6::Zero());
 
@@ -179,14 +177,14 @@ TEST(JointStiffness, SaysNothingWhereThereIsNone) {
   loose.conditions.clear();
   loose.loads.clear();
   NewtonSystem nothing(loose);
-  (void)nothing.assemble({});
+  (void)nothing.assemble({}, {});
   EXPECT_FALSE(joint_stiffness(loose, nothing, {}));
   loose.joint.reset();
   EXPECT_FALSE(joint_stiffness(loose, nothing, {}));
   // Adduction of 90 degrees: flexion and internal rotation are the same turn.
   const RigidTransform across{rotation_from_joint_angles(*model.joint, 0, M_PI / 2, 0), {0, 0, 0}};
   NewtonSystem there(model);
-  (void)there.assemble({across, {}, std::vector<double>(6, 0.0)});
+  (void)there.assemble({across, {}, std::vector<double>(6, 0.0)}, drive_of(model));
   EXPECT_FALSE(joint_stiffness(model, there, across));
 }
 

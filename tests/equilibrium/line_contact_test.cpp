@@ -15,7 +15,7 @@ namespace condyle {
 namespace {
 
 std::optional<Objection> objection_anew(const Model& model, const RigidTransform& X) {
-  std::vector<ContactSearch> searches = make_searches(model);
+  std::vector<ContactSearch> searches = make_searches(model, cover_pairs(model));
   return objection_at(model, searches, X);
 }
 
@@ -149,8 +149,7 @@ TEST(LineContact, OneEndTakesOverFromAnother) {
   hold(model, ConditionKind::kRotation, 2);
   EquilibriumSolver solver(model);
   for (const double x : {0.0, 3.0, 5.9, 6.5, 10.0, 4.0}) {
-    solver.model().conditions[0].value = x;
-    const PoseResult pose = solver.solve();
+    const PoseResult pose = solver.solve(condition_value(0).with(drive_of(solver.model()), x));
     ASSERT_TRUE(pose.converged()) << x << ": " << pose.reason;
     const auto [low, high] = ends_of(pose, Vector3d::UnitX());
     const double first = std::max(-9.0, x - 15);
@@ -160,8 +159,7 @@ TEST(LineContact, OneEndTakesOverFromAnother) {
     EXPECT_NEAR(low.force + high.force, 12, 1e-9) << x;
   }
   // At x = 16 the weight lies 2 mm beyond the floor.
-  solver.model().conditions[0].value = 16;
-  EXPECT_FALSE(solver.solve().converged());
+  EXPECT_FALSE(solver.solve(condition_value(0).with(drive_of(solver.model()), 16)).converged());
 }
 
 // Two rollers with parallel axes; yaw and y are prescribed, for on its own the upper one rolls off.

@@ -28,7 +28,7 @@ std::vector<double> values(double from, double to, double step) {
 
 SweepResult run(const Model& model, const std::vector<double>& flexions) {
   EquilibriumSolver solver(model);
-  return sweep(solver, solver.model().conditions[0].value, flexions);
+  return sweep(solver, condition_value(0), flexions);
 }
 
 /// The sweeps that all have to say the same where they meet.
@@ -119,7 +119,7 @@ TEST_F(UnknownBand, PosesAreToldOnceAndInOrder) {
   options.on_pose = [&](const PoseResult& pose) { told.push_back(pose.value); };
   options.on_computed = [&](const KnownPose& known) { computed.push_back(known.pose.value); };
   const std::vector<double> flexions = values(0, 120, 5);
-  const SweepResult result = sweep(solver, solver.model().conditions[0].value, flexions, options);
+  const SweepResult result = sweep(solver, condition_value(0), flexions, options);
   EXPECT_EQ(told, flexions);
   EXPECT_EQ(computed, flexions);
 }
@@ -132,7 +132,7 @@ TEST(SecondEquilibrium, OfASnapThroughIsToldOnEitherWay) {
   const std::vector<double> down(up.rbegin(), up.rend());
   for (const std::vector<double>& loads : {up, down}) {
     EquilibriumSolver solver(Truss::model());
-    const SweepResult result = sweep(solver, solver.model().loads[0].scale, loads);
+    const SweepResult result = sweep(solver, load_scale(0), loads);
     for (const PoseResult& pose : result.poses) {
       SCOPED_TRACE(pose.value);
       ASSERT_TRUE(pose.converged()) << pose.reason;
@@ -150,7 +150,7 @@ TEST(Jumps, ABodyThatMovedFarBetweenTwoPosesIsTold) {
   using test::Truss;
   EquilibriumSolver solver(Truss::model());
   const std::vector<double> loads = {-12, -8, -4, 0, 4, 8, 12};
-  const SweepResult result = sweep(solver, solver.model().loads[0].scale, loads);
+  const SweepResult result = sweep(solver, load_scale(0), loads);
   int told = 0;
   for (std::size_t k = 1; k < loads.size(); ++k) {
     const PoseResult &before = result.poses[k - 1], &pose = result.poses[k];
@@ -184,8 +184,8 @@ TEST(CarriedPose, HasThePrescribedCoordinatesAndKeepsTheOthers) {
   Model model = knee();
   const RigidTransform from{exp_rotation({0.2, -0.1, 0.3}), {1, -2, 3}};
   const JointCoordinates before = joint_coordinates(*model.joint, from);
-  model.conditions[0].value = 1.1;
-  const JointCoordinates q = joint_coordinates(*model.joint, carried(model, from));
+  const Drive drive = condition_value(0).with(drive_of(model), 1.1);
+  const JointCoordinates q = joint_coordinates(*model.joint, carried(model, drive, from));
   EXPECT_NEAR(q.flexion, 1.1, 1e-12);
   EXPECT_NEAR(q.adduction, before.adduction, 1e-12);
   EXPECT_NEAR(q.internal_rotation, before.internal_rotation, 1e-12);
@@ -206,9 +206,10 @@ TEST(CarriedPose, MeetsConditionsWithoutAJoint) {
   turn.cardan_axis = 0;
   turn.value = 0.8;
   model.conditions = {height, turn};
-  const RigidTransform X = carried(model, {Eigen::Matrix3d::Identity(), {1, 2, 3}});
+  const RigidTransform X =
+      carried(model, drive_of(model), {Eigen::Matrix3d::Identity(), {1, 2, 3}});
   for (const KinematicCondition& condition : model.conditions)
-    EXPECT_NEAR(evaluate(condition, X).k, 0, 1e-10);
+    EXPECT_NEAR(evaluate(condition, condition.value, X).k, 0, 1e-10);
   EXPECT_NEAR(X.p.x(), 1, 1e-10);
   EXPECT_NEAR(X.p.y(), 2, 1e-10);
 }

@@ -63,9 +63,8 @@ TEST(ModelOrigins, HaveNoSayInWhatIsTold) {
   move_origins(near, model);
   EquilibriumSolver moved(std::move(model));
   for (int flexion = 0; flexion <= 90; flexion += 30) {
-    for (EquilibriumSolver* solver : {&plain, &moved})
-      solver->model().conditions[0].value = flexion * kDegree;
-    const PoseResult a = plain.solve(), b = moved.solve();
+    const Drive drive = condition_value(0).with(drive_of(plain.model()), flexion * kDegree);
+    const PoseResult a = plain.solve(drive), b = moved.solve(drive);
     ASSERT_TRUE(a.converged() && b.converged());
     EXPECT_LT((a.X_BA.p - b.X_BA.p).norm(), 1e-9);
     EXPECT_LT((a.X_BA.R - b.X_BA.R).norm(), 1e-11);

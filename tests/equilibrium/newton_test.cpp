@@ -28,8 +28,7 @@ TEST(Newton, ReportProblem1HasTheExactAnswerInFiveIterationsPerIncrement) {
   state.contacts[0].on_A = state.X.R.transpose() * Eigen::Vector3d(1, 0, 0);
   state.sigma = {0};
   for (const double phi : {0.0, 0.5, 1.0, 1.5, 2.0, 2.5}) {
-    model.conditions[0].value = phi;
-    const NewtonReport report = newton.solve(state);
+    const NewtonReport report = newton.solve(state, condition_value(0).with(drive_of(model), phi));
     ASSERT_EQ(report.outcome, NewtonOutcome::kConverged) << "phi = " << phi;
     EXPECT_LE(report.iterations, 5);  // the report: 4, and one for the tolerance of 1e-12
     EXPECT_NEAR(angle_about_y(state.X), P::w(phi), 1e-12);
@@ -53,8 +52,8 @@ TEST(Newton, ReportProblem2HasTheExactAnswerInThreeIterations) {
   state.X = model.start;
   state.sigma = {0, 0};
   for (const double alpha : {0.0, 0.1, 0.2, 0.3}) {
-    model.conditions[0].value = alpha;
-    const NewtonReport report = newton.solve(state);
+    const NewtonReport report =
+        newton.solve(state, condition_value(0).with(drive_of(model), alpha));
     ASSERT_EQ(report.outcome, NewtonOutcome::kConverged);
     EXPECT_LE(report.iterations, 3);
     EXPECT_NEAR(state.sigma[0], -1 - 6 * alpha, 1e-12 * 10);
@@ -73,8 +72,7 @@ TEST(Newton, ReportProblem3HasTheExactAnswerInFourIterations) {
   state.X = model.start;
   state.sigma = {0};
   for (const double w : {0.0, 0.1, 0.2, 0.3, 0.4}) {
-    model.conditions[0].value = w;
-    const NewtonReport report = newton.solve(state);
+    const NewtonReport report = newton.solve(state, condition_value(0).with(drive_of(model), w));
     ASSERT_EQ(report.outcome, NewtonOutcome::kConverged);
     EXPECT_LE(report.iterations, 4);
     EXPECT_NEAR(state.sigma[0], -10 * std::sin(w), 1e-12 * 30);
@@ -91,7 +89,7 @@ TEST(Newton, ResidualFallsQuadratically) {
   std::vector<double> error;
   for (int k = 0; k < 5; ++k) {
     Newton newton(model, {.max_iterations = 1});
-    newton.solve(state);
+    newton.solve(state, drive_of(model));
     error.push_back(std::abs(angle_about_y(state.X) - test::Problem1::w(0)));
   }
   // e_{k+1} <= C e_k² with C of order one; 1e-12 is the tolerance at which Newton stops.
@@ -117,7 +115,7 @@ TEST(Newton, OneStepLeavesTheSquareOfTheDisplacement) {
       state.X.R = exp_rotation(size * Eigen::Vector3d::Unit(direction - 3)) * state.X.R;
     }
     Newton newton(model, {.max_iterations = 1});
-    newton.solve(state);
+    newton.solve(state, drive_of(model));
     return (state.X.p - solution.X.p).norm() + model.length * (state.X.R - solution.X.R).norm();
   };
   for (int direction = 0; direction < 6; ++direction) {
@@ -137,7 +135,7 @@ TEST(Newton, ContactThatDependsOnAConditionIsSingular) {
   state.X = {exp_rotation({0, -1.3, 0}), {1, 0, 0}};
   state.contacts = {{0, {2, 0, 0}, state.X.R.transpose() * Eigen::Vector3d(1, 0, 0), 0}};
   state.sigma = {0, 0};
-  EXPECT_EQ(newton.solve(state).outcome, NewtonOutcome::kSingular);
+  EXPECT_EQ(newton.solve(state, drive_of(model)).outcome, NewtonOutcome::kSingular);
 }
 
 TEST(Newton, ElementWithoutLengthIsNamed) {
@@ -146,7 +144,7 @@ TEST(Newton, ElementWithoutLengthIsNamed) {
   Newton newton(model);
   EquilibriumState state;
   state.X = model.start;
-  const NewtonReport report = newton.solve(state);
+  const NewtonReport report = newton.solve(state, drive_of(model));
   EXPECT_EQ(report.outcome, NewtonOutcome::kZeroLength);
   EXPECT_EQ(report.zero_element, 2);
 }

@@ -30,7 +30,7 @@ struct PulledSphere {
     SweepOptions options;
     options.known = std::move(known);
     options.on_computed = [&](const KnownPose& pose) { computed.push_back(pose); };
-    return sweep(solver, solver.model().loads[1].scale, values, options);
+    return sweep(solver, load_scale(1), values, options);
   }
   EquilibriumSolver solver;
   std::vector<KnownPose> computed;  ///< what the runs computed
@@ -51,12 +51,12 @@ TEST(Resume, KeepsWhatIsSaidOfSecondEquilibriaAndJumps) {
   SweepOptions options;
   options.on_computed = [&](const KnownPose& pose) { computed.push_back(pose); };
   EquilibriumSolver solver(test::Truss::model());
-  const SweepResult whole = sweep(solver, solver.model().loads[0].scale, loads, options);
+  const SweepResult whole = sweep(solver, load_scale(0), loads, options);
   for (std::size_t stop = 0; stop <= loads.size(); ++stop) {
     EquilibriumSolver again(test::Truss::model());
     SweepOptions resumed;
     resumed.known.assign(computed.begin(), computed.begin() + static_cast<std::ptrdiff_t>(stop));
-    const SweepResult result = sweep(again, again.model().loads[0].scale, loads, resumed);
+    const SweepResult result = sweep(again, load_scale(0), loads, resumed);
     for (std::size_t k = 0; k < loads.size(); ++k)
       EXPECT_EQ(result.poses[k].remark, whole.poses[k].remark) << stop << ", " << loads[k];
   }
@@ -155,9 +155,9 @@ TEST(RestoreState, NeedsOnlyThePolishOfRoundOff) {
   const EquilibriumState state = restore_state(sphere.solver.model(), pose);
   ASSERT_EQ(state.contacts.size(), 1u);
   PulledSphere other;
-  other.solver.model().loads[1].scale = 10;
-  other.solver.set_state(state);
-  const PoseResult again = other.solver.solve();
+  const Drive drive = load_scale(1).with(drive_of(other.solver.model()), 10);
+  other.solver.set_state(state, drive);
+  const PoseResult again = other.solver.solve(drive);
   EXPECT_LE(again.iterations, 1);
   EXPECT_LT((again.X_BA.p - pose.X_BA.p).norm(), 1e-14);
 }

@@ -22,7 +22,7 @@ struct Judged {
 
 Judged judge(const Model& model, const EquilibriumState& state) {
   NewtonSystem system(model);
-  system.assemble(state);
+  system.assemble(state, drive_of(model));
   Judged judged{stability(model, system), {}};
   judged.remark = stability_remark(model, system, state.X, judged.stability);
   return judged;

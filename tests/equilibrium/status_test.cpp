@@ -144,8 +144,8 @@ TEST(Status, AContactBeyondTheKnownSurfaceIsNamed) {
   EquilibriumSolver solver(std::move(model));
   const PoseResult inside = solver.solve();
   EXPECT_TRUE(inside.converged()) << inside.reason;
-  solver.model().conditions[0].value = 0.5;
-  expect_reason(solver.solve(), PoseStatus::kLeftPatch, "\"floor\"");
+  expect_reason(solver.solve(condition_value(0).with(drive_of(solver.model()), 0.5)),
+                PoseStatus::kLeftPatch, "\"floor\"");
 }
 
 // Conditions hold the ball 3 mm deep in the floor, from which it cannot come.

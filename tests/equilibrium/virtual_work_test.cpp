@@ -100,7 +100,7 @@ TEST(VirtualWork, DerivativesOfTheWholeWrenchAreThoseOfDifferences) {
   const auto wrench_at = [&model](const RigidTransform& X) {
     Wrench wrench;
     for (const LineElement& element : model.elements) add_line_element(element, X, wrench);
-    for (const Load& load : model.loads) add_load(load, X, wrench);
+    for (const Load& load : model.loads) add_load(load, load.scale, X, wrench);
     return wrench;
   };
   for (int trial = 0; trial < 20; ++trial) {
@@ -124,15 +124,14 @@ TEST(VirtualWork, TheFlexionMomentIsTheSlopeOfTheEnergyLessTheWorkOfTheLoads) {
   for (const double flexion : {0.2, 0.7, 1.2}) {
     constexpr double kStep = 1e-4;
     const auto pose_at = [&solver](double angle) {
-      solver.model().conditions[0].value = angle;
-      return solver.solve();
+      return solver.solve(condition_value(0).with(drive_of(solver.model()), angle));
     };
     const PoseResult before = pose_at(flexion - kStep), pose = pose_at(flexion),
                      after = pose_at(flexion + kStep);
     ASSERT_TRUE(before.converged() && pose.converged() && after.converged()) << pose.reason;
     const Model& model = solver.model();
     Wrench loads;
-    for (const Load& load : model.loads) add_load(load, pose.X_BA, loads);
+    for (const Load& load : model.loads) add_load(load, load.scale, pose.X_BA, loads);
     const Eigen::Vector3d turn = log_rotation(after.X_BA.R * before.X_BA.R.transpose());
     const double work = loads.f.dot(after.X_BA.p - before.X_BA.p) + loads.m.dot(turn);
     const double gain = energy(model, after.X_BA) - energy(model, before.X_BA);

@@ -27,7 +27,7 @@ struct MovingKnee {
   MovingKnee() {
     EquilibriumSolver solver(model);
     EXPECT_TRUE(solver.solve().converged());
-    state = state_at_rest(model, knee, solver.state());
+    state = state_at_rest(model, cover_pairs(model), knee, solver.state());
     test::Random random(17);
     state.bodies[0].v = random.vector(200);
     state.bodies[0].omega = random.vector(3);

@@ -53,7 +53,7 @@ TEST(ContactScout, FollowsAnUnseenPlaceAndDropsADouble) {
   state.bodies[0].X = model.start;
   state.contacts.resize(knee.places.size());
   for (ContactPlaces& places : state.contacts) places.followed = false;
-  PairScout scout(model, knee);
+  PairScout scout(model, cover_pairs(model), knee);
 
   EXPECT_TRUE(scout(state).overlapping.empty());
   const auto followed = [&] {

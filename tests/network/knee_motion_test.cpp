@@ -34,8 +34,8 @@ TEST(KneeMotion, ComesToRestAtTheEnginesPose) {
   IntegrationOptions options;
   options.end = 6;
   options.interval = 0.1;
-  const Motion motion =
-      integrate(knee.network, state_at_rest(model, knee, equilibrium(1.5)), options);
+  const Motion motion = integrate(
+      knee.network, state_at_rest(model, cover_pairs(model), knee, equilibrium(1.5)), options);
   ASSERT_TRUE(motion.completed) << motion.reason;
   const RigidTransform& X = motion.frames.back().state.bodies[0].X;
   const EquilibriumState rest = equilibrium(1);
@@ -85,8 +85,8 @@ TEST(KneeMotion, KeepsItsEnergyWhileItSwings) {
   options.end = 0.2;
   options.interval = 0.01;
   options.tolerance = 1e-11;
-  const Motion motion =
-      integrate(knee.network, state_at_rest(model, knee, equilibrium(1)), options);
+  const Motion motion = integrate(
+      knee.network, state_at_rest(model, cover_pairs(model), knee, equilibrium(1)), options);
   ASSERT_TRUE(motion.completed) << motion.reason;
   EXPECT_GT(motion.energy_scale, 100);
   EXPECT_LT(motion.largest_imbalance, 1e-7 * motion.energy_scale);
@@ -111,8 +111,8 @@ TEST(KneeMotion, KeepsItsEnergyForTenSeconds) {
   options.end = 10;
   options.interval = 0.1;
   options.tolerance = 1e-12;
-  const Motion motion =
-      integrate(knee.network, state_at_rest(model, knee, equilibrium(1)), options);
+  const Motion motion = integrate(
+      knee.network, state_at_rest(model, cover_pairs(model), knee, equilibrium(1)), options);
   ASSERT_TRUE(motion.completed) << motion.reason;
   EXPECT_GT(motion.energy_scale, 10);
   EXPECT_LT(motion.largest_imbalance, 1e-8 * motion.energy_scale);
@@ -131,11 +131,12 @@ TEST(KneeMotion, TooManyStepsEndItAtOnce) {
   options.tolerance = 1e-12;
   options.most_steps = 120;
   long scouted = 0;
-  const Motion motion = integrate(knee.network, state_at_rest(model, knee, equilibrium(1)), options,
-                                  [&](NetworkState&) {
-                                    ++scouted;
-                                    return ContactSighting{};
-                                  });
+  const Motion motion =
+      integrate(knee.network, state_at_rest(model, cover_pairs(model), knee, equilibrium(1)),
+                options, [&](NetworkState&) {
+                  ++scouted;
+                  return ContactSighting{};
+                });
   EXPECT_FALSE(motion.completed);
   EXPECT_NE(motion.reason.find("too many steps for one frame"), std::string::npos) << motion.reason;
   EXPECT_EQ(motion.reason.find("at 0"), 0U) << motion.reason;
@@ -151,13 +152,14 @@ TEST(KneeMotion, AnOverlapThatStaysEndsTheMotionInBoundedTime) {
   IntegrationOptions options;
   options.end = options.interval = 0.01;
   long asked = 0;
-  const Motion motion = integrate(knee.network, state_at_rest(model, knee, equilibrium(1)), options,
-                                  [&](NetworkState& state) {
-                                    ++asked;
-                                    ContactSighting sighting;
-                                    if (state.t > 0.002) sighting.unseen = -1;
-                                    return sighting;
-                                  });
+  const Motion motion =
+      integrate(knee.network, state_at_rest(model, cover_pairs(model), knee, equilibrium(1)),
+                options, [&](NetworkState& state) {
+                  ++asked;
+                  ContactSighting sighting;
+                  if (state.t > 0.002) sighting.unseen = -1;
+                  return sighting;
+                });
   EXPECT_FALSE(motion.completed);
   EXPECT_NE(motion.reason.find("overlap where no contact could be followed"), std::string::npos);
   EXPECT_LT(asked, 250);

@@ -17,7 +17,7 @@ namespace {
 Vector6 network_balance(const Model& model, const EquilibriumState& state) {
   const KneeNetwork knee = make_knee_network(model, {});
   NetworkEquations equations(knee.network);
-  NetworkState at = state_at_rest(model, knee, state);
+  NetworkState at = state_at_rest(model, cover_pairs(model), knee, state);
   EXPECT_TRUE(equations.assemble(at));
   Eigen::VectorXd mu(static_cast<Eigen::Index>(equations.rows().size()));
   for (std::size_t k = 0; k < equations.rows().size(); ++k) {
@@ -46,7 +46,7 @@ TEST(Statics, NetworkWithoutInertiaHasTheEnginesResidual) {
     state.sigma[0] = random.between(-2e4, 2e4);
     // Both look at the contact points of this pose.
     const KneeNetwork knee = make_knee_network(model, {});
-    NetworkState at = state_at_rest(model, knee, state);
+    NetworkState at = state_at_rest(model, cover_pairs(model), knee, state);
     std::vector<SettledContact> settled;
     ASSERT_TRUE(settle_contacts(knee.network, true, at, settled));
     for (std::size_t i = 0; i < knee.places.size(); ++i)
@@ -56,7 +56,7 @@ TEST(Statics, NetworkWithoutInertiaHasTheEnginesResidual) {
           contact.on_A = at.contacts[i].on_body;
         }
     NewtonSystem system(model);
-    ASSERT_TRUE(system.assemble(state));
+    ASSERT_TRUE(system.assemble(state, drive_of(model)));
     const Vector6 balance = network_balance(model, state);
     const double scale = system.force_scale(), L = model.length;
     EXPECT_LT((balance.head<3>() - system.wrench().f).norm(), 1e-12 * scale);
@@ -82,7 +82,7 @@ TEST(Statics, TheEnginesPoseIsAPositionOfRestOfTheNetwork) {
   mass.inertia = Eigen::Vector3d(50, 50, 8).asDiagonal();
   const KneeNetwork knee = make_knee_network(model, mass);
   NetworkEquations equations(knee.network);
-  NetworkState state = state_at_rest(model, knee, solver.state());
+  NetworkState state = state_at_rest(model, cover_pairs(model), knee, solver.state());
   ASSERT_TRUE(equations.assemble(state) && equations.solve());
   EXPECT_LT(equations.accelerations().norm(), 1e-5);  // 1e-9 N on 4e-6 N s²/mm
   int closed = 0;

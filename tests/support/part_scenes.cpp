@@ -1,5 +1,6 @@
 #include "support/part_scenes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -49,10 +50,10 @@ std::vector<std::vector<double>> make_values(const Parts& parts) {
   for (int pose = 0; pose <= PartSweep::kPoses; ++pose) {
     std::vector<double>& here = values.emplace_back(1, pose * kStep);
     if (!parts.prescribed) continue;
-    solver.model().conditions[0].value = here[0];
-    const RigidTransform X = solver.solve().X_BA;
+    const Drive drive = condition_value(0).with(drive_of(solver.model()), here[0]);
+    const RigidTransform X = solver.solve(drive).X_BA;
     for (const KinematicCondition& condition : more_motions(solver.model()))
-      here.push_back(evaluate(condition, X).coordinate);
+      here.push_back(evaluate(condition, 0, X).coordinate);
   }
   return values;
 }
@@ -102,18 +103,20 @@ PartSweep::PartSweep(const Parts& parts)
     : model_(make_model(parts)),
       options_(make_options(parts)),
       values_(make_values(parts)),
-      solver_(at_first(model_, values_[0]), options_) {}
+      solver_(at_first(model_, values_[0]), options_),
+      drive_(drive_of(solver_.model())) {}
 
 PartSweep::PartSweep(const PartSweep& other, Model model)
     : model_(std::move(model)),
       options_(other.options_),
       values_(other.values_),
-      solver_(at_first(model_, values_[0]), options_) {}
+      solver_(at_first(model_, values_[0]), options_),
+      drive_(drive_of(solver_.model())) {}
 
 void PartSweep::solve(int pose, PoseResult& result) {
   const std::vector<double>& values = values_[static_cast<std::size_t>(pose)];
-  for (std::size_t i = 0; i < values.size(); ++i) solver_.model().conditions[i].value = values[i];
-  solver_.solve(result);
+  std::copy(values.begin(), values.end(), drive_.values.begin());
+  solver_.solve(drive_, result);
 }
 
 int PartSweep::there_and_back(PoseResult& result) {

@@ -53,6 +53,7 @@ class PartSweep {
   EquilibriumOptions options_;
   std::vector<std::vector<double>> values_;  ///< of the conditions, by pose
   EquilibriumSolver solver_;
+  Drive drive_;
 };
 
 }  // namespace condyle::accuracy

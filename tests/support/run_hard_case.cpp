@@ -50,9 +50,9 @@ char letter(PoseStatus status) {
   return '?';
 }
 
-double condition_number(const Model& model, const EquilibriumState& state) {
+double condition_number(const Model& model, const EquilibriumState& state, const Drive& drive) {
   NewtonSystem system(model);
-  if (!system.assemble(state)) return std::numeric_limits<double>::infinity();
+  if (!system.assemble(state, drive)) return std::numeric_limits<double>::infinity();
   SmallLu matrix;
   double right_side[SmallLu::kMaxSize];
   const int size = system.fill(state, matrix, right_side);
@@ -74,30 +74,25 @@ bool is_finite(const PoseResult& pose) {
 }
 
 /// The largest of the poses that converged; of the solver's own state where none did.
-double largest_condition(EquilibriumSolver& solver,
-                         const SweptValue& swept,
-                         const SweepResult& sweep) {
+double largest_condition(EquilibriumSolver& solver, const Swept& swept, const SweepResult& sweep) {
+  Drive drive = drive_of(solver.model());
   double largest = 0;
   for (const PoseResult& pose : sweep.poses) {
     if (!pose.converged() || !can_restore(solver.model(), pose)) continue;
-    swept.in(solver.model()) = pose.value;
-    largest =
-        std::max(largest, condition_number(solver.model(), restore_state(solver.model(), pose)));
+    swept.in(drive) = pose.value;
+    largest = std::max(
+        largest, condition_number(solver.model(), restore_state(solver.model(), pose), drive));
   }
-  return largest > 0 ? largest : condition_number(solver.model(), solver.state());
+  return largest > 0 ? largest : condition_number(solver.model(), solver.state(), drive);
 }
 
 /// How far the last pose is from where as many equal steps lead: |Δa|/L or the angle.
-double far_from_steps(const Model& model,
-                      const SweptValue& swept,
-                      const SweepResult& sweep,
-                      int steps) {
+double far_from_steps(const Model& model, const Swept& swept, const SweepResult& sweep, int steps) {
   EquilibriumSolver solver(model);
   PoseResult pose;
   for (int k = 0; k <= steps; ++k) {
     const double from = sweep.poses.front().value, to = sweep.poses.back().value;
-    swept.in(solver.model()) = from + (to - from) * k / steps;
-    solver.solve(pose);
+    solver.solve(swept.with(drive_of(model), from + (to - from) * k / steps), pose);
     if (!pose.converged()) return std::numeric_limits<double>::infinity();
   }
   const PoseResult& last = sweep.poses.back();
@@ -109,10 +104,9 @@ void solve(const Scene& scene, const HardCase& hard, HardOutcome& outcome) {
   const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
   const Model model = build_model(scene, surfaces);
   EquilibriumSolver solver(model);
-  const SweptValue swept{scene.sweep->varies_load, static_cast<std::size_t>(scene.sweep->index)};
-  outcome.sweep = scene.sweep->arc_length
-                      ? sweep(scene, surfaces)
-                      : sweep(solver, swept.in(solver.model()), scene.sweep->values);
+  const Swept swept = swept_of(*scene.sweep);
+  outcome.sweep =
+      scene.sweep->arc_length ? sweep(scene, surfaces) : sweep(solver, swept, scene.sweep->values);
   outcome.condition = largest_condition(solver, swept, outcome.sweep);
   if (hard.error) outcome.error = hard.error(outcome.sweep);
   if (hard.steps > 0) outcome.error = far_from_steps(model, swept, outcome.sweep, hard.steps);

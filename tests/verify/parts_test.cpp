@@ -141,7 +141,7 @@ TEST(VerifyCoordinates, ChangeAsTheConditionsSay) {
           condition.s_D = described.ends[1].at;
         }
         const RigidTransform X = random_pose();
-        const ConditionDerivatives expected = evaluate(condition, X);
+        const ConditionDerivatives expected = evaluate(condition, 0, X);
         EXPECT_NEAR(verification::coordinate(scene, described, X), expected.coordinate, 1e-12);
         const auto own = verification::gradient(scene, described, X, X.p);
         const double size = expected.alpha.norm() + expected.eta.norm();

@@ -31,13 +31,14 @@ EquilibriumOptions without_stability() {
 /// Time of a warm sweep of a condition's value from 0 to `to` [us].
 double sweep_time(Model model, int poses, double to) {
   EquilibriumSolver solver(std::move(model), without_stability());
+  Drive drive = drive_of(solver.model());
   PoseResult pose;
-  solver.solve(pose);
+  solver.solve(drive, pose);
   bool forth = true;
   const auto sweep = [&] {
     for (int k = 0; k < poses; ++k) {
-      solver.model().conditions[0].value = to * (forth ? k + 1 : poses - k) / poses;
-      solver.solve(pose);
+      drive.values[0] = to * (forth ? k + 1 : poses - k) / poses;
+      solver.solve(drive, pose);
     }
     forth = !forth;
   };
@@ -64,15 +65,16 @@ Model with_ligaments(int times) {
 /// The load turns back and forth: the scale of the side load is what varies.
 double mount_time(int contacts) {
   EquilibriumSolver solver(test::kinematic_mount(contacts), without_stability());
+  Drive drive = drive_of(solver.model());
   PoseResult pose;
-  solver.solve(pose);
+  solver.solve(drive, pose);
   if (!pose.converged() || test::closed_contacts(pose) != contacts)
     throw std::runtime_error(fmt::format("a mount of {} contacts does not stand", contacts));
   bool forth = true;
   const auto sweep = [&] {
     for (int k = 1; k <= 18; ++k) {
-      solver.model().loads[1].scale = (forth ? k : 18 - k) / 18.0;
-      solver.solve(pose);
+      drive.scales[1] = (forth ? k : 18 - k) / 18.0;
+      solver.solve(drive, pose);
     }
     forth = !forth;
   };

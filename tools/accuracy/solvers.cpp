@@ -30,19 +30,20 @@ struct Task {
 std::vector<Task> make_tasks() {
   std::vector<Task> tasks;
   EquilibriumSolver solver(test::quadric_knee());
-  static_cast<void>(solver.solve());
+  Drive drive = drive_of(solver.model());
+  static_cast<void>(solver.solve(drive));
   for (int k = 1; k <= kPoses; ++k) {
     Task& task = tasks.emplace_back();
     task.flexion = task.equations.flexion = k * kStep;
     task.start = solver.state();
     NewtonSystem at_start(solver.model());
-    at_start.assemble(task.start);
+    at_start.assemble(task.start, drive);
     task.start_unknowns = unknowns_of(task.start, at_start, task.equations);
 
-    solver.model().conditions[0].value = task.flexion;
-    static_cast<void>(solver.solve());
+    drive.values[0] = task.flexion;
+    static_cast<void>(solver.solve(drive));
     NewtonSystem at_end(solver.model());
-    at_end.assemble(solver.state());
+    at_end.assemble(solver.state(), drive);
     KneeEquations there = task.equations;
     const Unknowns<double> near = unknowns_of(solver.state(), at_end, there);
     task.truth = solve_exactly(there, near);
@@ -64,16 +65,17 @@ struct Errors {
 
 /// Of all poses after so many iterations of our Newton, ascending by the error of the pose.
 std::vector<Errors> errors_after(int iterations, const std::vector<Task>& tasks) {
-  Model model = test::quadric_knee();
+  const Model model = test::quadric_knee();
   NewtonOptions options;
   options.max_iterations = iterations;
   options.tolerance = 0;
   Newton newton(model, options);
+  Drive drive = drive_of(model);
   std::vector<Errors> errors;
   for (const Task& task : tasks) {
-    model.conditions[0].value = task.flexion;
+    drive.values[0] = task.flexion;
     EquilibriumState state = task.start;
-    newton.solve(state);
+    newton.solve(state, drive);
     errors.emplace_back().take(task, state);
   }
   std::sort(errors.begin(), errors.end(),
@@ -118,20 +120,21 @@ void tolerances(const std::vector<Task>& tasks, const Setting& setting, Study& s
   study.page +=
       "| tolerance | largest pose error | largest force error [N] | iterations | time per pose |\n"
       "|---|---|---|---|---|\n";
-  Model model = test::quadric_knee();
+  const Model model = test::quadric_knee();
   for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13}) {
     NewtonOptions options;
     options.tolerance = tolerance;
     Newton newton(model, options);
+    Drive drive = drive_of(model);
     std::vector<EquilibriumState> ends;
     for (const Task& task : tasks) ends.push_back(task.start);
     int iterations = 0;
     const auto all = [&] {
       iterations = 0;
       for (std::size_t i = 0; i < tasks.size(); ++i) {
-        model.conditions[0].value = tasks[i].flexion;
+        drive.values[0] = tasks[i].flexion;
         ends[i] = tasks[i].start;
-        iterations += newton.solve(ends[i]).iterations;
+        iterations += newton.solve(ends[i], drive).iterations;
       }
     };
     const double time = least_microseconds(kRuns, all, kSeconds) / kPoses;
@@ -172,17 +175,18 @@ Row row_of(const Peer& peer, const std::vector<Task>& tasks) {
 
 Row row_of_newton(const std::vector<Task>& tasks) {
   Row row{"ours, Newton alone"};
-  Model model = test::quadric_knee();
+  const Model model = test::quadric_knee();
   Newton newton(model);
+  Drive drive = drive_of(model);
   std::vector<EquilibriumState> ends;
   for (const Task& task : tasks) ends.push_back(task.start);
   const auto all = [&] {
     row.converged = 0;
     row.iterations = 0;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
-      model.conditions[0].value = tasks[i].flexion;
+      drive.values[0] = tasks[i].flexion;
       ends[i] = tasks[i].start;
-      const NewtonReport report = newton.solve(ends[i]);
+      const NewtonReport report = newton.solve(ends[i], drive);
       row.iterations += report.iterations / static_cast<double>(kPoses);
       row.converged += report.outcome == NewtonOutcome::kConverged ? 1 : 0;
     }
@@ -198,8 +202,9 @@ Row row_of_solver(const std::vector<Task>& tasks) {
   EquilibriumOptions options;
   options.description.stability = false;
   EquilibriumSolver solver(test::quadric_knee(), options);
+  Drive drive = drive_of(solver.model());
   PoseResult pose;
-  solver.solve(pose);
+  solver.solve(drive, pose);
   std::vector<EquilibriumState> ends(tasks.size(), solver.state());
   bool forth = true;
   const auto all = [&] {
@@ -207,8 +212,8 @@ Row row_of_solver(const std::vector<Task>& tasks) {
     row.iterations = 0;
     for (std::size_t k = 0; k < tasks.size(); ++k) {
       const std::size_t i = forth ? k : tasks.size() - 1 - k;
-      solver.model().conditions[0].value = tasks[i].flexion;
-      solver.solve(pose);
+      drive.values[0] = tasks[i].flexion;
+      solver.solve(drive, pose);
       row.iterations += pose.iterations / static_cast<double>(kPoses);
       row.converged += pose.converged() ? 1 : 0;
       ends[i] = solver.state();

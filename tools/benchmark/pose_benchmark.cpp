@@ -34,15 +34,16 @@ void per_pose(benchmark::State& state, long iterations, long poses) {
 
 /// Newton alone, from the state of the pose before: what a hand-written solver does.
 void newton_alone(benchmark::State& state) {
-  Model model = knee(static_cast<Knee>(state.range(0)));
+  const Model model = knee(static_cast<Knee>(state.range(0)));
   EquilibriumSolver first(model);
   if (!first.solve().converged()) return state.SkipWithError("the first pose did not converge");
   EquilibriumState now = first.state();
   Newton newton(model);
+  Drive drive = drive_of(model);
   long iterations = 0, poses = 0;
   for (auto _ : state) {
-    model.conditions[0].value = flexion(static_cast<int>(++poses % (2 * kSteps)));
-    const NewtonReport report = newton.solve(now);
+    drive.values[0] = flexion(static_cast<int>(++poses % (2 * kSteps)));
+    const NewtonReport report = newton.solve(now, drive);
     if (report.outcome != NewtonOutcome::kConverged) return state.SkipWithError("not converged");
     iterations += report.iterations;
   }
@@ -60,12 +61,13 @@ void pose(benchmark::State& state) {
   EquilibriumOptions options;
   options.description.stability = effort == kAll;
   EquilibriumSolver solver(std::move(model), options);
+  Drive drive = drive_of(solver.model());
   PoseResult result;
   long iterations = 0, poses = 0;
-  solver.solve(result);
+  solver.solve(drive, result);
   for (auto _ : state) {
-    solver.model().conditions[0].value = flexion(static_cast<int>(++poses % (2 * kSteps)));
-    solver.solve(result);
+    drive.values[0] = flexion(static_cast<int>(++poses % (2 * kSteps)));
+    solver.solve(drive, result);
     if (!result.converged()) return state.SkipWithError(result.reason.c_str());
     iterations += result.iterations;
   }
@@ -116,12 +118,13 @@ void ligaments(benchmark::State& state) {
   EquilibriumOptions options;
   options.description.stability = false;
   EquilibriumSolver solver(std::move(model), options);
+  Drive drive = drive_of(solver.model());
   PoseResult result;
   long poses = 0;
-  solver.solve(result);
+  solver.solve(drive, result);
   for (auto _ : state) {
-    solver.model().conditions[0].value = flexion(static_cast<int>(++poses % (2 * kSteps)));
-    solver.solve(result);
+    drive.values[0] = flexion(static_cast<int>(++poses % (2 * kSteps)));
+    solver.solve(drive, result);
   }
   state.SetComplexityN(state.range(0));
 }
