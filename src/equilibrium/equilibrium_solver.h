@@ -75,7 +75,8 @@ class EquilibriumSolver {
   void set_parameters(const Parameters& parameters);
   [[nodiscard]] const Parameters& parameters() const { return newton_.system().parameters(); }
 
-  /// As newly made, but for the parameters: what is solved next does not depend on what was solved before, to the last bit.
+  /// As newly made, but for the parameters: what is solved next does not depend on what was solved
+  /// before, to the last bit.
   /// Builds nothing anew and allocates nothing.
   void reset();
 
