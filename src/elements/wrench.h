@@ -17,6 +17,13 @@ struct Wrench {
   Eigen::Matrix3d M2 = Eigen::Matrix3d::Zero();  ///< ∂m/∂π [N mm/rad]
 };
 
+/// (f, m/L) [N], L [mm].
+[[nodiscard]] inline Eigen::Matrix<double, 6, 1> scaled_wrench(const Wrench& w, double L) {
+  Eigen::Matrix<double, 6, 1> scaled;
+  scaled << w.f, w.m / L;
+  return scaled;
+}
+
 /// -∂(f, m/L) with respect to (da, L dπ) [N/mm], L [mm]: the tangent stiffness with rotations as
 /// lengths. Symmetric at equilibrium for loads that have a potential.
 [[nodiscard]] inline Eigen::Matrix<double, 6, 6> scaled_stiffness(const Wrench& w, double L) {

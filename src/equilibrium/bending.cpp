@@ -13,15 +13,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kInnermost = 3;  // radius of the first shell, in spacings
 constexpr double kAround = 2;     // what the quadric of a cluster serves for, in its radii
 
-Facing over(const SurfacePoint& at, const Eigen::Vector3d& p, double bend) {
-  const Eigen::Vector3d d = p - at.c;
-  const double along = d.dot(at.n);
-  Facing facing{&at, bend, 0, d - along * at.n, along};
-  facing.error = 0.5 * bend * facing.beside.squaredNorm();
-  return facing;
-}
-
 }  // namespace
+
+Facing over_quadric(const SurfacePoint& at, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d d = point - at.c;
+  const double along = d.dot(at.n);
+  return {&at, 0, 0, d - along * at.n, along};
+}
 
 Bending::Radii Bending::shells(double spacing, double greatest) {
   const double least = kInnermost * spacing;
@@ -63,29 +61,32 @@ Rise Bending::in_shell(int level, int sample, const Eigen::Matrix3d& K) {
 const SurfaceCell& Bending::around(int cluster) {
   SurfaceCell& cell = around_[static_cast<std::size_t>(cluster)];
   if (cell.radius == 0) {
-    const double radius = cover_->clusters()[static_cast<std::size_t>(cluster)].cell.radius;
+    const double radius = cover_->cluster(cluster).cell.radius;
     cell = cover_->around(cluster, kAround * radius, scratch_);
   }
   return cell;
 }
 
 Facing Bending::facing_cell(const Eigen::Vector3d& p, int near) const {
-  return over(cover_->sample(near), p, cover_->cell_change(near));
+  Facing facing = over_quadric(cover_->sample(near), p);
+  facing.bend = cover_->cell_change(near);
+  facing.error = 0.5 * facing.bend * facing.beside.squaredNorm();
+  return facing;
 }
 
 Facing Bending::facing(const Eigen::Vector3d& p, double r, int near) {
   for (int index = cover_->leaf(near); index >= 0;) {
-    const SurfaceCover::Cluster& cluster = cover_->clusters()[static_cast<std::size_t>(index)];
+    const SurfaceCover::Cluster& cluster = cover_->cluster(index);
     if (r < kAround * cluster.cell.radius) {
       const SurfaceCell& cell = around(index);
-      const Eigen::Vector3d d = p - cell.at.c;
-      const double along = d.dot(cell.at.n), room = cell.radius - r;
-      const Eigen::Vector3d beside = d - along * cell.at.n;
-      if (beside.squaredNorm() < room * room) return {&cell.at, 0, cell.rise, beside, along};
+      const double room = cell.radius - r;
+      Facing facing = over_quadric(cell.at, p);
+      facing.error = cell.rise;
+      if (facing.beside.squaredNorm() < room * room) return facing;
     }
     // Every second size will do.
     index = cluster.parent;
-    if (index >= 0) index = cover_->clusters()[static_cast<std::size_t>(index)].parent;
+    if (index >= 0) index = cover_->cluster(index).parent;
   }
   return {};
 }

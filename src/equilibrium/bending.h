@@ -20,6 +20,9 @@ struct Facing {
   double along = 0;                                  ///< of the point over the tangent plane [mm]
 };
 
+/// A point over the quadric at a place; nothing is allowed for yet.
+[[nodiscard]] Facing over_quadric(const SurfacePoint& at, const Eigen::Vector3d& point);
+
 class Bending {
  public:
   static constexpr int kLevels = 9;

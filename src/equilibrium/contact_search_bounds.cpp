@@ -126,15 +126,14 @@ bool ContactSearch::is_beside(const Eigen::Vector3d& p, double r, const Closest&
 /// Point p over the quadric at its closest point.
 Facing ContactSearch::face_closest(const Eigen::Vector3d& p, double r, Closest& closest) {
   if (!is_beside(p, r, closest)) find_closest(p, kClose * spacing_, closest);
-  const Eigen::Vector3d d = p - closest.at.c;
-  const double along = d.dot(closest.at.n);
-  Facing facing{&closest.at, kInfinity, 0, Eigen::Vector3d::Zero(), along};
+  Facing facing = over_quadric(closest.at, p);
+  facing.bend = kInfinity;
   // Where no tangent steps lead to it, all that is known is the distance.
   if (!closest.close) {
-    facing.along = std::copysign(d.norm(), along);
+    facing.along = std::copysign((p - closest.at.c).norm(), facing.along);
+    facing.beside.setZero();
     return facing;
   }
-  facing.beside = d - along * closest.at.n;
   if (other().bends_evenly())
     facing.bend = even_rise(facing.beside.norm() + r, closest.at.K).over_quadric;
   else if (closest.near >= 0)
@@ -177,7 +176,7 @@ ContactSearch::Sight ContactSearch::look(const SurfaceCover::Cluster& cluster,
 
 /// Is the whole cluster shown to stay above the cutoff, by the way to its centre or by a quadric?
 bool ContactSearch::is_clear(int index, const RigidTransform& X_from_to, double cutoff) {
-  const SurfaceCover::Cluster& cluster = sampled().clusters()[static_cast<std::size_t>(index)];
+  const SurfaceCover::Cluster& cluster = sampled().cluster(index);
   const SurfacePoint& center = cluster.cell.at;
   const double r = cluster.cell.radius;
   const Eigen::Vector3d p = X_from_to * center.c;
@@ -204,7 +203,7 @@ bool ContactSearch::is_clear(int index, const RigidTransform& X_from_to, double 
 /// True where the cluster's own bound shows it to be clear. One that was not goes straight to its
 /// children until both of them are.
 bool ContactSearch::visit(int index, const RigidTransform& X_from_to, double cutoff) {
-  const SurfaceCover::Cluster& cluster = sampled().clusters()[static_cast<std::size_t>(index)];
+  const SurfaceCover::Cluster& cluster = sampled().cluster(index);
   const Eigen::Vector3d& center = cluster.cell.at.c;
   for (const Disc& disc : discs_) {
     const double room = disc.radius - cluster.cell.radius;

@@ -54,6 +54,7 @@ class SurfaceCover {
   [[nodiscard]] double cell_radius(int sample) const { return cells_[at(sample)].radius; }
   [[nodiscard]] double cell_change(int sample) const { return change_[at(sample)]; }
   [[nodiscard]] const std::vector<Cluster>& clusters() const { return clusters_; }
+  [[nodiscard]] const Cluster& cluster(int index) const { return clusters_[at(index)]; }
   [[nodiscard]] int in_order(int k) const { return order_[at(k)]; }
   [[nodiscard]] bool bends_evenly() const { return even_; }
   /// No two samples are farther apart [mm].

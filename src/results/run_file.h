@@ -68,10 +68,9 @@ struct Run {
   /// Null for runs of another kind.
   [[nodiscard]] const Comparison* comparison() const { return held<Comparison>(); }
   [[nodiscard]] const LaxityResult* laxity() const { return held<LaxityResult>(); }
-  [[nodiscard]] const Simulation* simulation() const {
-    return held<Simulation>();
-  }  ///< read back
-     ///< no poses
+  /// Read back it has no poses of its own.
+  [[nodiscard]] const Simulation* simulation() const { return held<Simulation>(); }
+
  private:
   template <typename T>
   [[nodiscard]] const T* held() const {
