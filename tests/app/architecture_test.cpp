@@ -13,6 +13,7 @@ namespace condyle::test {
 namespace {
 
 const std::filesystem::path kRoot = CONDYLE_SOURCE_DIR;
+const std::string kSources = "src/condyle";
 
 const std::vector<Include>& includes() {
   static const std::vector<Include> all = includes_of_project(kRoot);
@@ -24,11 +25,11 @@ const std::vector<std::string>& rooms() {
   return all;
 }
 
-/// Place of a source's room in the table; -1 for what stands in src itself and serves every room.
+/// Place of a source's room in the table; -1 for what stands beside the rooms and serves every room.
 int row_of(const std::string& file) {
-  const std::string room = folder(file, 2);
-  if (room == "src") return -1;
-  const auto at = std::find(rooms().begin(), rooms().end(), room.substr(4));
+  const std::string room = folder(file, 3);
+  if (room == kSources) return -1;
+  const auto at = std::find(rooms().begin(), rooms().end(), room.substr(kSources.size() + 1));
   return static_cast<int>(at - rooms().begin());
 }
 
@@ -38,7 +39,7 @@ bool starts_with(const std::string& text, const std::string& begin) {
 
 TEST(Architecture, EveryRoomHasARowOfTheTableAndEveryRowARoom) {
   std::set<std::string> folders;
-  for (const auto& entry : std::filesystem::directory_iterator(kRoot / "src"))
+  for (const auto& entry : std::filesystem::directory_iterator(kRoot / kSources))
     if (entry.is_directory()) folders.insert(entry.path().filename().string());
   EXPECT_EQ(folders, std::set<std::string>(rooms().begin(), rooms().end()));
   EXPECT_GT(includes().size(), 2000U);
@@ -72,10 +73,11 @@ TEST(Architecture, ToolsIncludeNoTestsAndWhatBothShareIncludesNeither) {
 /// one that is gone has to go from this list too.
 TEST(Architecture, NoFilesGoInACircleButThoseThatAreKnown) {
   const std::vector<std::string> known = {
-      "src/equilibrium/closing_event, src/equilibrium/events",
-      "src/equilibrium/contact_search, src/equilibrium/line_contact",
-      "src/equilibrium/dependence, src/equilibrium/motion_name, src/equilibrium/stability",
-      "src/equilibrium/sweep, src/equilibrium/sweep_walk"};
+      "src/condyle/contact/contact_search, src/condyle/contact/line_contact",
+      "src/condyle/equilibrium/closing_event, src/condyle/equilibrium/events",
+      "src/condyle/equilibrium/dependence, src/condyle/equilibrium/motion_name, "
+      "src/condyle/equilibrium/stability",
+      "src/condyle/equilibrium/sweep, src/condyle/equilibrium/sweep_walk"};
   EXPECT_EQ(circles(includes()), known);
 }
 
@@ -101,7 +103,8 @@ TEST(Architecture, EachLibraryIsIncludedInOneRoom) {
     for (const auto& [library, room] : room_of) {
       if (!starts_with(include.to, library)) continue;
       seen.insert(library);
-      EXPECT_EQ(folder(include.from, 2), "src/" + room) << include.from << " has " << include.to;
+      EXPECT_EQ(folder(include.from, 3), "src/condyle/" + room)
+          << include.from << " has " << include.to;
     }
   }
   EXPECT_EQ(seen.size(), room_of.size());
@@ -109,18 +112,19 @@ TEST(Architecture, EachLibraryIsIncludedInOneRoom) {
 
 /// A second way to the answer is one only as long as it borrows no solver; a check likewise.
 TEST(Architecture, TheReferenceModelAndTheVerifierShareNoLineOfASolver) {
-  const std::set<std::string> of_the_verifier = {"src/surface/patch.h",
-                                                 "src/math/rigid_transform.h"};
+  const std::set<std::string> of_the_verifier = {"src/condyle/surface/patch.h",
+                                                 "src/condyle/math/rigid_transform.h"};
   int files = 0;
   for (const Include& include : includes()) {
-    const std::string room = folder(include.from, 2), other = folder(include.to, 2);
-    if (room == "src/reference" && other == "src/equilibrium") {
+    const std::string room = folder(include.from, 3), other = folder(include.to, 3);
+    if (room == "src/condyle/reference" && other == "src/condyle/equilibrium") {
       ++files;
-      EXPECT_EQ(include.to, "src/equilibrium/pose_result.h") << include.from;
+      EXPECT_EQ(include.to, "src/condyle/equilibrium/pose_result.h") << include.from;
     }
-    if (room != "src/verify" || !include.of_project()) continue;
-    const bool free = other == "src" || other == "src/verify" || other == "src/scene" ||
-                      other == "src/results" || other == "src/mesh";
+    if (room != "src/condyle/verify" || !include.of_project()) continue;
+    const bool free = other == kSources || other == "src/condyle/verify" ||
+                      other == "src/condyle/scene" || other == "src/condyle/results" ||
+                      other == "src/condyle/mesh";
     EXPECT_TRUE(free || of_the_verifier.count(include.to) == 1)
         << include.from << " includes " << include.to;
   }
@@ -129,13 +133,15 @@ TEST(Architecture, TheReferenceModelAndTheVerifierShareNoLineOfASolver) {
 
 /// The equations of a network know nothing of the other solver.
 TEST(Architecture, OnlyWhatMakesStartsAndTellsAMotionOfTheNetworkKnowsTheEquilibrium) {
-  const std::set<std::string> doors = {"src/network/contact_scout", "src/network/knee_network",
-                                       "src/network/motion_poses", "src/network/simulate"};
+  const std::set<std::string> doors = {
+      "src/condyle/network/contact_scout", "src/condyle/network/knee_network",
+      "src/condyle/network/motion_poses", "src/condyle/network/simulate"};
   for (const Include& include : includes()) {
-    if (folder(include.from, 2) != "src/network" || folder(include.to, 2) != "src/equilibrium")
+    if (folder(include.from, 3) != "src/condyle/network" ||
+        folder(include.to, 3) != "src/condyle/equilibrium")
       continue;
     EXPECT_TRUE(doors.count(include.from.substr(0, include.from.rfind('.'))) == 1 ||
-                include.to == "src/equilibrium/pose_result.h")
+                include.to == "src/condyle/equilibrium/pose_result.h")
         << include.from << " includes " << include.to;
   }
 }
@@ -146,14 +152,16 @@ TEST(Architecture, WhoShowsARunIncludesNothingOfTheNetworkOverHoweverManyFiles) 
   for (const Include& include : includes())
     if (include.of_project()) next[include.from].push_back(include.to);
   for (const auto& entry : next) {
-    const std::string room = folder(entry.first, 2);
-    if (room != "src/pictures" && room != "src/exchange" && room != "src/report") continue;
+    const std::string room = folder(entry.first, 3);
+    if (room != "src/condyle/pictures" && room != "src/condyle/exchange" &&
+        room != "src/condyle/report")
+      continue;
     std::set<std::string> seen;
     std::vector<std::string> open = {entry.first};
     while (!open.empty()) {
       const std::string file = open.back();
       open.pop_back();
-      EXPECT_NE(folder(file, 2), "src/network") << file << " reached from " << entry.first;
+      EXPECT_NE(folder(file, 3), "src/condyle/network") << file << " reached from " << entry.first;
       for (const std::string& other : next[file])
         if (seen.insert(other).second) open.push_back(other);
     }

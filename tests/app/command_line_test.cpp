@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/run_file.h"
+#include "condyle/results/run_file.h"
 
 namespace condyle {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/progress.h"
+#include "condyle/app/progress.h"
 
 #include <pty.h>
 

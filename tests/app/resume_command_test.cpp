@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "app/run_program.h"
-#include "results/run_file.h"
+#include "condyle/results/run_file.h"
 #include "support/same_sweep.h"
 
 namespace condyle {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/run_program.h"
-#include "results/run_file.h"
+#include "condyle/results/run_file.h"
 
 namespace condyle {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "app/run_program.h"
-#include "compare/compare.h"
-#include "results/run_file.h"
+#include "condyle/compare/compare.h"
+#include "condyle/results/run_file.h"
 
 namespace condyle {
 namespace {

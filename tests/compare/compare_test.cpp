@@ -1,6 +1,6 @@
 /// Both models on one specimen: what is compared, where differences come from, and the file.
 
-#include "compare/compare.h"
+#include "condyle/compare/compare.h"
 
 #include <gtest/gtest.h>
 
@@ -8,13 +8,13 @@
 #include <cmath>
 #include <filesystem>
 
-#include "compare/one_contact_each.h"
-#include "equilibrium/sweep.h"
-#include "input_error.h"
-#include "reference/fit_heights.h"
-#include "reference/polynomial_surface.h"
-#include "results/run_file.h"
-#include "scene/read_scene.h"
+#include "condyle/compare/one_contact_each.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/input_error.h"
+#include "condyle/reference/fit_heights.h"
+#include "condyle/reference/polynomial_surface.h"
+#include "condyle/results/run_file.h"
+#include "condyle/scene/read_scene.h"
 #include "support/scratch_folder.h"
 
 namespace condyle {

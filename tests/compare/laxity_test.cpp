@@ -1,14 +1,14 @@
-#include "compare/laxity.h"
+#include "condyle/compare/laxity.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 
-#include "equilibrium/sweep.h"
-#include "input_error.h"
-#include "results/run_file.h"
-#include "scene/read_scene.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/input_error.h"
+#include "condyle/results/run_file.h"
+#include "condyle/scene/read_scene.h"
 #include "scene/small_scene.h"
 #include "support/scratch_folder.h"
 

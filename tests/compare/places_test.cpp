@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "compare/compare.h"
-#include "compare/laxity.h"
-#include "equilibrium/sweep.h"
-#include "network/simulate.h"
-#include "scene/read_scene.h"
+#include "condyle/compare/compare.h"
+#include "condyle/compare/laxity.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/network/simulate.h"
+#include "condyle/scene/read_scene.h"
 #include "support/moved_scene.h"
 
 namespace condyle {

@@ -1,4 +1,4 @@
-#include "elements/force_law.h"
+#include "condyle/elements/force_law.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "input_error.h"
+#include "condyle/input_error.h"
 #include "support/allocation_count.h"
 
 namespace condyle {

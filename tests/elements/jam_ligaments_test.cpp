@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "elements/joint_coordinates.h"
-#include "elements/line_element.h"
+#include "condyle/elements/joint_coordinates.h"
+#include "condyle/elements/line_element.h"
 
 namespace condyle {
 namespace {

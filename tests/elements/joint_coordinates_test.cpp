@@ -1,4 +1,4 @@
-#include "elements/joint_coordinates.h"
+#include "condyle/elements/joint_coordinates.h"
 
 #include <gtest/gtest.h>
 

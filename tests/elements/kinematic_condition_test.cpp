@@ -1,4 +1,4 @@
-#include "elements/kinematic_condition.h"
+#include "condyle/elements/kinematic_condition.h"
 
 #include <gtest/gtest.h>
 

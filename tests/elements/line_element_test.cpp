@@ -1,4 +1,4 @@
-#include "elements/line_element.h"
+#include "condyle/elements/line_element.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "elements/load.h"
+#include "condyle/elements/load.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "equilibrium/arc_length.h"
+#include "condyle/equilibrium/arc_length.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
-#include "equilibrium/sweep.h"
-#include "scene/read_scene.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/scene/read_scene.h"
 
 namespace condyle {
 namespace {

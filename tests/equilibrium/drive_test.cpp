@@ -1,7 +1,8 @@
 /// A pose is a function of a constant model, a drive and the pose before: solvers share the model,
 /// and one that is reset knows nothing of what it solved before.
 
-#include "equilibrium/drive.h"
+#include "condyle/equilibrium/drive.h"
+#include "condyle/equilibrium/model_covers.h"
 
 #include <gtest/gtest.h>
 
@@ -16,10 +17,10 @@
 #include <thread>
 #include <vector>
 
-#include "equilibrium/arc_length.h"
-#include "equilibrium/carried_pose.h"
-#include "equilibrium/equilibrium_solver.h"
-#include "equilibrium/sweep.h"
+#include "condyle/equilibrium/arc_length.h"
+#include "condyle/equilibrium/carried_pose.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/sweep.h"
 #include "support/allocation_count.h"
 #include "support/counted_model.h"
 #include "support/patch_knee.h"

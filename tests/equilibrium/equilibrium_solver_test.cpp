@@ -1,4 +1,4 @@
-#include "equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -6,12 +6,12 @@
 
 #include <cmath>
 
-#include "math/rotation.h"
+#include "condyle/math/rotation.h"
+#include "condyle/surface/exact_surfaces.h"
 #include "support/ball_on_floor.h"
 #include "support/hold.h"
 #include "support/report_problems.h"
 #include "support/spring_knee.h"
-#include "surface/exact_surfaces.h"
 
 namespace condyle {
 namespace {

@@ -1,11 +1,11 @@
-#include "equilibrium/events.h"
+#include "condyle/equilibrium/events.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "equilibrium/sweep.h"
-#include "math/rotation.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/math/rotation.h"
 #include "support/hold.h"
 #include "support/report_problems.h"
 #include "support/truss.h"

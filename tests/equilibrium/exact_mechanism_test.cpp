@@ -11,8 +11,8 @@
 #include <map>
 #include <sstream>
 
-#include "equilibrium/equilibrium_solver.h"
-#include "surface/exact_surfaces.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/surface/exact_surfaces.h"
 
 namespace condyle {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
 #include "support/allocation_count.h"
 #include "support/quadric_knee.h"
 #include "support/random.h"

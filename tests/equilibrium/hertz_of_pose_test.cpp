@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "equilibrium/equilibrium_solver.h"
-#include "math/rotation.h"
-#include "surface/exact_surfaces.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/math/rotation.h"
+#include "condyle/surface/exact_surfaces.h"
 
 namespace condyle {
 namespace {

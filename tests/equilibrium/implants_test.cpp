@@ -8,8 +8,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "equilibrium/sweep.h"
-#include "scene/read_scene.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/scene/read_scene.h"
 #include "support/scratch_folder.h"
 
 namespace condyle {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
 #include "support/quadric_knee.h"
 
 namespace condyle {

@@ -1,8 +1,8 @@
-#include "equilibrium/joint_stiffness.h"
+#include "condyle/equilibrium/joint_stiffness.h"
 
 #include <gtest/gtest.h>
 
-#include "equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
 #include "support/quadric_knee.h"
 
 namespace condyle {

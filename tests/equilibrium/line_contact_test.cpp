@@ -1,4 +1,4 @@
-#include "equilibrium/line_contact.h"
+#include "condyle/contact/line_contact.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,11 @@
 
 #include <cmath>
 
-#include "equilibrium/contact_shape.h"
-#include "equilibrium/equilibrium_solver.h"
-#include "math/rotation.h"
-#include "surface/exact_surfaces.h"
+#include "condyle/equilibrium/contact_shape.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/model_covers.h"
+#include "condyle/math/rotation.h"
+#include "condyle/surface/exact_surfaces.h"
 
 namespace condyle {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <map>
 
-#include "equilibrium/carried_pose.h"
-#include "equilibrium/sweep.h"
+#include "condyle/equilibrium/carried_pose.h"
+#include "condyle/equilibrium/sweep.h"
 #include "support/known_part.h"
 #include "support/quadric_knee.h"
 #include "support/truss.h"

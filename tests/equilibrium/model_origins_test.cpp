@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "equilibrium/equilibrium_solver.h"
-#include "equilibrium/model_origins.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/model_origins.h"
 #include "support/ball_on_floor.h"
 #include "support/hold.h"
 #include "support/quadric_knee.h"

@@ -1,11 +1,11 @@
-#include "equilibrium/newton.h"
+#include "condyle/equilibrium/newton.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "equilibrium/equilibrium_solver.h"
-#include "math/rotation.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/math/rotation.h"
 #include "support/hold.h"
 #include "support/report_problems.h"
 #include "support/spring_knee.h"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <string>
 
-#include "equilibrium/events.h"
-#include "equilibrium/sweep.h"
-#include "scene/read_scene.h"
+#include "condyle/equilibrium/events.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/scene/read_scene.h"
 #include "support/knee_scenes.h"
 #include "support/moved_scene.h"
 #include "support/scratch_folder.h"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "equilibrium/sweep.h"
-#include "math/rotation.h"
-#include "scene/read_scene.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/math/rotation.h"
+#include "condyle/scene/read_scene.h"
 #include "support/report_problems.h"
 
 namespace condyle {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "equilibrium/restore_state.h"
-#include "equilibrium/sweep.h"
-#include "math/rotation.h"
-#include "scene/read_scene.h"
+#include "condyle/equilibrium/restore_state.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/math/rotation.h"
+#include "condyle/scene/read_scene.h"
 #include "support/report_problems.h"
 #include "support/same_sweep.h"
 #include "support/truss.h"

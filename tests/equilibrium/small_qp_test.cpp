@@ -1,4 +1,4 @@
-#include "equilibrium/small_qp.h"
+#include "condyle/equilibrium/small_qp.h"
 
 #include <gtest/gtest.h>
 

@@ -10,10 +10,10 @@
 #include <filesystem>
 #include <map>
 
-#include "equilibrium/build_model.h"
-#include "equilibrium/sweep.h"
-#include "math/rotation.h"
-#include "scene/read_scene.h"
+#include "condyle/equilibrium/build_model.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/math/rotation.h"
+#include "condyle/scene/read_scene.h"
 #include "support/random.h"
 
 namespace condyle {

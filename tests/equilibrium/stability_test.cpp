@@ -1,11 +1,11 @@
-#include "equilibrium/stability.h"
+#include "condyle/equilibrium/stability.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "equilibrium/equilibrium_solver.h"
-#include "equilibrium/motion_name.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/motion_name.h"
 #include "support/ball_on_floor.h"
 #include "support/hold.h"
 #include "support/quadric_knee.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
 #include "support/ball_on_floor.h"
 #include "support/hold.h"
 #include "support/known_part.h"

@@ -1,13 +1,13 @@
-#include "equilibrium/sweep.h"
+#include "condyle/equilibrium/sweep.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 
-#include "equilibrium/contact_search.h"
-#include "scene/read_scene.h"
-#include "surface/patch.h"
+#include "condyle/contact/contact_search.h"
+#include "condyle/scene/read_scene.h"
+#include "condyle/surface/patch.h"
 
 namespace condyle {
 namespace {

@@ -1,13 +1,13 @@
 /// The animated scene, read back by a reader of its own: where things are at each keyframe.
 
-#include "exchange/glb_run.h"
+#include "condyle/exchange/glb_run.h"
 
 #include <gtest/gtest.h>
 
+#include "condyle/exchange/shown_poses.h"
+#include "condyle/input_error.h"
 #include "exchange/glb_reader.h"
 #include "exchange/phantom_run.h"
-#include "exchange/shown_poses.h"
-#include "input_error.h"
 #include "results/made_up_run.h"
 
 namespace condyle {

@@ -10,11 +10,11 @@
 #include <functional>
 #include <iterator>
 
-#include "exchange/osim_scene.h"
-#include "exchange/ply_file.h"
-#include "input_error.h"
-#include "mesh/load_mesh.h"
-#include "scene/read_scene.h"
+#include "condyle/exchange/osim_scene.h"
+#include "condyle/exchange/ply_file.h"
+#include "condyle/input_error.h"
+#include "condyle/mesh/load_mesh.h"
+#include "condyle/scene/read_scene.h"
 #include "scene/small_scene.h"
 #include "support/scratch_folder.h"
 

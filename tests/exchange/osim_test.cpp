@@ -6,10 +6,10 @@
 #include <fstream>
 #include <iterator>
 
-#include "equilibrium/sweep.h"
-#include "exchange/osim_scene.h"
-#include "input_error.h"
-#include "scene/read_scene.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/exchange/osim_scene.h"
+#include "condyle/input_error.h"
+#include "condyle/scene/read_scene.h"
 #include "scene/small_scene.h"
 #include "support/scratch_folder.h"
 

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "equilibrium/sweep.h"
-#include "results/run_file.h"
-#include "scene/read_scene.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/results/run_file.h"
+#include "condyle/scene/read_scene.h"
 
 namespace condyle::test {
 

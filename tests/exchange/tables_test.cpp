@@ -8,11 +8,11 @@
 #include <map>
 #include <sstream>
 
-#include "exchange/csv_run.h"
-#include "exchange/opensim_run.h"
+#include "condyle/exchange/csv_run.h"
+#include "condyle/exchange/opensim_run.h"
+#include "condyle/exchange/stl_run.h"
+#include "condyle/input_error.h"
 #include "exchange/phantom_run.h"
-#include "exchange/stl_run.h"
-#include "input_error.h"
 #include "results/made_up_run.h"
 
 namespace condyle {

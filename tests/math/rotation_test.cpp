@@ -1,4 +1,4 @@
-#include "math/rotation.h"
+#include "condyle/math/rotation.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "math/rigid_transform.h"
+#include "condyle/math/rigid_transform.h"
 #include "support/random.h"
 
 namespace condyle {

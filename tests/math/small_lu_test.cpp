@@ -1,4 +1,4 @@
-#include "math/small_lu.h"
+#include "condyle/math/small_lu.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "mesh/clean_mesh.h"
+#include "condyle/mesh/clean_mesh.h"
 
 #include <gtest/gtest.h>
 
-#include "mesh/mesh_measures.h"
+#include "condyle/mesh/mesh_measures.h"
 #include "support/mesh_shapes.h"
 
 namespace condyle {

@@ -1,14 +1,14 @@
-#include "mesh/isolated_import.h"
+#include "condyle/mesh/isolated_import.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "input_error.h"
-#include "mesh/load_mesh.h"
+#include "condyle/input_error.h"
+#include "condyle/mesh/load_mesh.h"
+#include "condyle/mesh/mesh_readers.h"
 #include "mesh/made_mesh.h"
-#include "mesh/mesh_readers.h"
 #include "support/mesh_shapes.h"
 #include "support/scratch_folder.h"
 

@@ -1,4 +1,4 @@
-#include "mesh/load_mesh.h"
+#include "condyle/mesh/load_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <sstream>
 #include <string>
 
-#include "input_error.h"
-#include "mesh/clean_mesh.h"
+#include "condyle/input_error.h"
+#include "condyle/mesh/clean_mesh.h"
 #include "support/mesh_shapes.h"
 #include "support/scratch_folder.h"
 

@@ -7,9 +7,9 @@
 #include <ostream>
 #include <string>
 
-#include "input_error.h"
+#include "condyle/input_error.h"
+#include "condyle/mesh/mesh_readers.h"
 #include "mesh/made_mesh.h"
-#include "mesh/mesh_readers.h"
 
 namespace condyle {
 namespace {

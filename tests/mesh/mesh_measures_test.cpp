@@ -1,4 +1,4 @@
-#include "mesh/mesh_measures.h"
+#include "condyle/mesh/mesh_measures.h"
 
 #include <gtest/gtest.h>
 

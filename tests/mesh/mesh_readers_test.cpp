@@ -1,12 +1,12 @@
-#include "mesh/mesh_readers.h"
+#include "condyle/mesh/mesh_readers.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cstdint>
 
-#include "input_error.h"
-#include "mesh/polygon_faces.h"
+#include "condyle/input_error.h"
+#include "condyle/mesh/polygon_faces.h"
 
 namespace condyle {
 namespace {

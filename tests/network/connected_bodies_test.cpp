@@ -6,11 +6,11 @@
 
 #include <cmath>
 
-#include "input_error.h"
-#include "math/rotation.h"
-#include "network/integrate.h"
+#include "condyle/input_error.h"
+#include "condyle/math/rotation.h"
+#include "condyle/network/integrate.h"
+#include "condyle/network/network_equations.h"
 #include "network/integration_options.h"
-#include "network/network_equations.h"
 #include "support/random.h"
 
 namespace condyle {

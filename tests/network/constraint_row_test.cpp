@@ -1,16 +1,17 @@
 /// Rows of constraints where the bodies are moved a little: tangents against differences.
 
-#include "network/constraint_row.h"
+#include "condyle/network/constraint_row.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
-#include "equilibrium/equilibrium_solver.h"
-#include "math/rotation.h"
-#include "network/knee_network.h"
-#include "network/network_equations.h"
-#include "network/project.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/model_covers.h"
+#include "condyle/math/rotation.h"
+#include "condyle/network/knee_network.h"
+#include "condyle/network/network_equations.h"
+#include "condyle/network/project.h"
 #include "support/leg.h"
 #include "support/quadric_knee.h"
 #include "support/random.h"

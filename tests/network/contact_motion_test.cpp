@@ -6,10 +6,10 @@
 
 #include <cmath>
 
-#include "math/rotation.h"
-#include "network/integrate.h"
+#include "condyle/math/rotation.h"
+#include "condyle/network/integrate.h"
+#include "condyle/surface/exact_surfaces.h"
 #include "network/integration_options.h"
-#include "surface/exact_surfaces.h"
 
 namespace condyle {
 namespace {

@@ -1,14 +1,15 @@
 /// Points of contact that come and go while the phantom's shank is struck.
 
-#include "network/contact_scout.h"
+#include "condyle/network/contact_scout.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "equilibrium/build_model.h"
-#include "network/simulate.h"
-#include "scene/read_scene.h"
+#include "condyle/equilibrium/build_model.h"
+#include "condyle/equilibrium/model_covers.h"
+#include "condyle/network/simulate.h"
+#include "condyle/scene/read_scene.h"
 
 namespace condyle {
 namespace {

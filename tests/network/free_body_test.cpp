@@ -4,9 +4,9 @@
 
 #include <Eigen/Geometry>
 
-#include "input_error.h"
-#include "math/rotation.h"
-#include "network/integrate.h"
+#include "condyle/input_error.h"
+#include "condyle/math/rotation.h"
+#include "condyle/network/integrate.h"
 #include "network/integration_options.h"
 #include "support/jacobi.h"
 #include "support/random.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "network/integrate.h"
+#include "condyle/network/integrate.h"
 
 namespace condyle {
 

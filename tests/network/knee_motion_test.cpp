@@ -4,13 +4,14 @@
 
 #include <Eigen/Geometry>
 
-#include "equilibrium/equilibrium_solver.h"
-#include "network/drive.h"
-#include "network/integrate.h"
-#include "network/knee_network.h"
-#include "network/network_equations.h"
-#include "network/simulate.h"
-#include "scene/read_scene.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/model_covers.h"
+#include "condyle/network/drive.h"
+#include "condyle/network/integrate.h"
+#include "condyle/network/knee_network.h"
+#include "condyle/network/network_equations.h"
+#include "condyle/network/simulate.h"
+#include "condyle/scene/read_scene.h"
 #include "support/leg.h"
 #include "support/quadric_knee.h"
 

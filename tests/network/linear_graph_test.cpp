@@ -1,10 +1,10 @@
-#include "network/linear_graph.h"
+#include "condyle/network/linear_graph.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "input_error.h"
+#include "condyle/input_error.h"
 #include "support/random.h"
 
 namespace condyle {

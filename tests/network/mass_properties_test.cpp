@@ -1,12 +1,12 @@
-#include "network/mass_properties.h"
+#include "condyle/network/mass_properties.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
-#include "input_error.h"
-#include "math/rotation.h"
+#include "condyle/input_error.h"
+#include "condyle/math/rotation.h"
 #include "support/mesh_shapes.h"
 #include "support/random.h"
 

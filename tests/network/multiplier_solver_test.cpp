@@ -1,4 +1,4 @@
-#include "network/multiplier_solver.h"
+#include "condyle/network/multiplier_solver.h"
 
 #include <gtest/gtest.h>
 

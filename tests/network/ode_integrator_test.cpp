@@ -1,4 +1,4 @@
-#include "network/ode_integrator.h"
+#include "condyle/network/ode_integrator.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "network/rigid_body_component.h"
+#include "condyle/network/rigid_body_component.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "math/rotation.h"
-#include "network/linear_graph.h"
+#include "condyle/math/rotation.h"
+#include "condyle/network/linear_graph.h"
 #include "support/random.h"
 
 namespace condyle {

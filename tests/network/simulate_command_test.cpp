@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/hdf5_file.h"
-#include "results/run_view.h"
-#include "scene/read_scene.h"
+#include "condyle/results/hdf5_file.h"
+#include "condyle/results/run_view.h"
+#include "condyle/scene/read_scene.h"
 
 namespace condyle::test {
 namespace {

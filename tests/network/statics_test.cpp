@@ -2,11 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "equilibrium/equilibrium_solver.h"
-#include "math/rotation.h"
-#include "network/knee_network.h"
-#include "network/network_equations.h"
-#include "network/settle_contacts.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/model_covers.h"
+#include "condyle/math/rotation.h"
+#include "condyle/network/knee_network.h"
+#include "condyle/network/network_equations.h"
+#include "condyle/network/settle_contacts.h"
 #include "support/quadric_knee.h"
 #include "support/random.h"
 

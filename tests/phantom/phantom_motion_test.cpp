@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <numeric>
 
-#include "equilibrium/sweep.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/scene/read_scene.h"
 #include "phantom/exact_motion.h"
-#include "scene/read_scene.h"
 
 namespace condyle::phantom {
 namespace {

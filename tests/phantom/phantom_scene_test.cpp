@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <set>
 
+#include "condyle/scene/read_scene.h"
 #include "phantom/phantom_shape.h"
-#include "scene/read_scene.h"
 
 namespace condyle::phantom {
 namespace {

@@ -1,12 +1,12 @@
-#include "pictures/animated_png.h"
+#include "condyle/pictures/animated_png.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "pictures/movie.h"
-#include "pictures/png_file.h"
-#include "pictures/run_program.h"
+#include "condyle/pictures/movie.h"
+#include "condyle/pictures/png_file.h"
+#include "condyle/pictures/run_program.h"
 #include "support/scratch_folder.h"
 
 namespace condyle {

@@ -1,10 +1,10 @@
-#include "pictures/camera.h"
+#include "condyle/pictures/camera.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 
-#include "input_error.h"
+#include "condyle/input_error.h"
 #include "support/block_knee.h"
 
 namespace condyle {

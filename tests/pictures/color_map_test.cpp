@@ -1,10 +1,10 @@
-#include "pictures/color_map.h"
+#include "condyle/pictures/color_map.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "results/strain_scale.h"
+#include "condyle/results/strain_scale.h"
 
 namespace condyle {
 namespace {

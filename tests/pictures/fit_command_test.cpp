@@ -1,7 +1,7 @@
 /// Pictures of a fit, as a user asks for them.
 
 #include "app/run_program.h"
-#include "pictures/png_file.h"
+#include "condyle/pictures/png_file.h"
 
 namespace condyle {
 namespace {

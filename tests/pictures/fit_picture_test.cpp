@@ -1,14 +1,14 @@
-#include "pictures/fit_picture.h"
+#include "condyle/pictures/fit_picture.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/mesh_measures.h"
-#include "pictures/fit_map.h"
+#include "condyle/mesh/mesh_measures.h"
+#include "condyle/pictures/fit_map.h"
+#include "condyle/surface/fit_patch.h"
 #include "support/mesh_shapes.h"
-#include "surface/fit_patch.h"
 
 namespace condyle {
 namespace {

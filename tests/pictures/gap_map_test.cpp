@@ -1,11 +1,11 @@
-#include "pictures/gap_map.h"
+#include "condyle/pictures/gap_map.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pictures/color_map.h"
-#include "pictures/knee_shapes.h"
+#include "condyle/pictures/color_map.h"
+#include "condyle/pictures/knee_shapes.h"
 #include "support/block_knee.h"
 
 namespace condyle {

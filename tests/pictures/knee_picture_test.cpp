@@ -1,10 +1,10 @@
-#include "pictures/knee_picture.h"
+#include "condyle/pictures/knee_picture.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "input_error.h"
+#include "condyle/input_error.h"
 #include "support/block_knee.h"
 
 namespace condyle {

@@ -1,10 +1,10 @@
-#include "pictures/knee_shapes.h"
+#include "condyle/pictures/knee_shapes.h"
 
 #include <gtest/gtest.h>
 
-#include "pictures/ligament_groups.h"
-#include "pictures/seen_insertions.h"
-#include "results/run_view.h"
+#include "condyle/pictures/ligament_groups.h"
+#include "condyle/pictures/seen_insertions.h"
+#include "condyle/results/run_view.h"
 #include "support/block_knee.h"
 
 namespace condyle {

@@ -1,11 +1,11 @@
-#include "pictures/label_layout.h"
+#include "condyle/pictures/label_layout.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <utility>
 
-#include "pictures/page_scales.h"
+#include "condyle/pictures/page_scales.h"
 
 namespace condyle {
 namespace {

@@ -1,4 +1,4 @@
-#include "pictures/plot_run.h"
+#include "condyle/pictures/plot_run.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "input_error.h"
-#include "network/simulate.h"
-#include "pictures/png_file.h"
-#include "pictures/run_program.h"
+#include "condyle/input_error.h"
+#include "condyle/network/simulate.h"
+#include "condyle/pictures/png_file.h"
+#include "condyle/pictures/run_program.h"
 #include "support/block_knee.h"
 #include "support/scratch_folder.h"
 

@@ -1,11 +1,11 @@
-#include "pictures/png_file.h"
+#include "condyle/pictures/png_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <fstream>
 
-#include "input_error.h"
+#include "condyle/input_error.h"
 #include "support/scratch_folder.h"
 
 namespace condyle {

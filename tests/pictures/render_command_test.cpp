@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "app/run_program.h"
-#include "network/simulate.h"
-#include "pictures/png_file.h"
-#include "results/run_file.h"
+#include "condyle/network/simulate.h"
+#include "condyle/pictures/png_file.h"
+#include "condyle/results/run_file.h"
 
 namespace condyle {
 namespace {

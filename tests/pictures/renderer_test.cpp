@@ -1,10 +1,10 @@
-#include "pictures/renderer.h"
+#include "condyle/pictures/renderer.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
-#include "pictures/solids.h"
+#include "condyle/pictures/solids.h"
 #include "support/block_knee.h"
 
 namespace condyle {

@@ -1,4 +1,4 @@
-#include "pictures/solids.h"
+#include "condyle/pictures/solids.h"
 
 #include <gtest/gtest.h>
 

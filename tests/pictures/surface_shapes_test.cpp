@@ -1,4 +1,4 @@
-#include "pictures/surface_shapes.h"
+#include "condyle/pictures/surface_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/fit_surfaces.h"
+#include "condyle/scene/fit_surfaces.h"
 
 namespace condyle {
 namespace {

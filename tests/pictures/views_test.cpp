@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "pictures/annotate.h"
-#include "pictures/knee_picture.h"
-#include "pictures/page_scales.h"
-#include "pictures/png_file.h"
-#include "pictures/strip.h"
+#include "condyle/pictures/annotate.h"
+#include "condyle/pictures/knee_picture.h"
+#include "condyle/pictures/page_scales.h"
+#include "condyle/pictures/png_file.h"
+#include "condyle/pictures/strip.h"
 #include "support/block_knee.h"
 
 namespace condyle {

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "equilibrium/sweep.h"
-#include "reference/build_wismans.h"
-#include "reference/polynomial_surface.h"
-#include "reference/wismans_solver.h"
-#include "scene/read_scene.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/reference/build_wismans.h"
+#include "condyle/reference/polynomial_surface.h"
+#include "condyle/reference/wismans_solver.h"
+#include "condyle/scene/read_scene.h"
 
 namespace condyle {
 namespace {

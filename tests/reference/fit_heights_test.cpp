@@ -1,11 +1,11 @@
-#include "reference/fit_heights.h"
+#include "condyle/reference/fit_heights.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "input_error.h"
-#include "scene/read_scene.h"
+#include "condyle/input_error.h"
+#include "condyle/scene/read_scene.h"
 #include "support/random.h"
 
 namespace condyle {

@@ -1,14 +1,14 @@
 /// The 16 equations: their derivatives against differences, their angles against the engine's, and
 /// their number.
 
-#include "reference/wismans_system.h"
+#include "condyle/reference/wismans_system.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "math/rotation.h"
-#include "reference/joint_rotation.h"
+#include "condyle/math/rotation.h"
+#include "condyle/reference/joint_rotation.h"
 #include "support/random.h"
 
 namespace condyle {

@@ -1,7 +1,7 @@
 /// The page as a text: what stands in it and where, that it is whole, and that no scene can break
 /// it.
 
-#include "report/report_page.h"
+#include "condyle/report/report_page.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <array>
 #include <regex>
 
-#include "report/embedded.h"
-#include "results/digest.h"
+#include "condyle/report/embedded.h"
+#include "condyle/results/digest.h"
 #include "results/made_up_run.h"
 #include "support/block_knee.h"
 

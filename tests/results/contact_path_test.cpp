@@ -1,6 +1,6 @@
 /// Which points of contact may be joined by a line.
 
-#include "results/contact_path.h"
+#include "condyle/results/contact_path.h"
 
 #include <gtest/gtest.h>
 

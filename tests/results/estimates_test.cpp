@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "results/hdf5_file.h"
+#include "condyle/results/hdf5_file.h"
 #include "results/made_up_run.h"
 
 namespace condyle {

@@ -1,4 +1,4 @@
-#include "results/journal.h"
+#include "condyle/results/journal.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <iterator>
 #include <limits>
 
-#include "equilibrium/sweep.h"
-#include "input_error.h"
-#include "results/journal_line.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/input_error.h"
+#include "condyle/results/journal_line.h"
 #include "results/made_up_run.h"
 #include "support/same_sweep.h"
 #include "support/scratch_folder.h"

@@ -2,8 +2,8 @@
 
 /// A run that nobody computed: numbers that are easy to recognise in a file.
 
-#include "results/run_file.h"
-#include "scene/read_scene.h"
+#include "condyle/results/run_file.h"
+#include "condyle/scene/read_scene.h"
 #include "scene/small_scene.h"
 
 namespace condyle {

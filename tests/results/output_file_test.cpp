@@ -1,4 +1,4 @@
-#include "results/output_file.h"
+#include "condyle/results/output_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "input_error.h"
+#include "condyle/input_error.h"
 
 namespace condyle {
 namespace {

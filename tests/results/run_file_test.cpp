@@ -1,4 +1,4 @@
-#include "results/run_file.h"
+#include "condyle/results/run_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "input_error.h"
-#include "results/hdf5_file.h"
+#include "condyle/input_error.h"
+#include "condyle/results/hdf5_file.h"
 #include "results/made_up_run.h"
 
 namespace condyle {

@@ -1,16 +1,16 @@
 /// What is asked of a run by all who show it.
 
-#include "results/run_view.h"
+#include "condyle/results/run_view.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "compare/laxity.h"
-#include "input_error.h"
-#include "network/simulate.h"
+#include "condyle/compare/laxity.h"
+#include "condyle/input_error.h"
+#include "condyle/network/simulate.h"
+#include "condyle/results/strain_scale.h"
 #include "results/made_up_run.h"
-#include "results/strain_scale.h"
 
 namespace condyle {
 namespace {

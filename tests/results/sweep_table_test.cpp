@@ -1,11 +1,11 @@
-#include "results/sweep_table.h"
+#include "condyle/results/sweep_table.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "condyle/results/run_view.h"
 #include "results/made_up_run.h"
-#include "results/run_view.h"
 
 namespace condyle {
 namespace {

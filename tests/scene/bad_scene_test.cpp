@@ -8,8 +8,8 @@
 #include <ostream>
 #include <vector>
 
-#include "input_error.h"
-#include "scene/read_scene.h"
+#include "condyle/input_error.h"
+#include "condyle/scene/read_scene.h"
 #include "scene/small_scene.h"
 #include "support/scratch_folder.h"
 

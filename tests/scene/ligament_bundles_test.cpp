@@ -1,4 +1,4 @@
-#include "scene/ligament_bundles.h"
+#include "condyle/scene/ligament_bundles.h"
 
 #include <gtest/gtest.h>
 

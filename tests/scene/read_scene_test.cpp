@@ -1,12 +1,12 @@
-#include "scene/read_scene.h"
+#include "condyle/scene/read_scene.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "scene/describe.h"
+#include "condyle/scene/describe.h"
+#include "condyle/scene/start_pose.h"
 #include "scene/small_scene.h"
-#include "scene/start_pose.h"
 
 namespace condyle {
 namespace {

@@ -1,11 +1,11 @@
-#include "scene/start_warnings.h"
+#include "condyle/scene/start_warnings.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "scene/read_scene.h"
+#include "condyle/scene/read_scene.h"
 
 namespace condyle {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/sweep_range.h"
+#include "condyle/scene/sweep_range.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "input_error.h"
+#include "condyle/input_error.h"
 
 namespace condyle {
 namespace {

@@ -1,10 +1,10 @@
-#include "scene/swept_quantity.h"
+#include "condyle/scene/swept_quantity.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "scene/read_scene.h"
+#include "condyle/scene/read_scene.h"
 #include "scene/small_scene.h"
 
 namespace condyle {

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "scene/read_scene.h"
+#include "condyle/scene/read_scene.h"
 
 namespace condyle {
 namespace {

@@ -2,8 +2,8 @@
 
 /// A ball of radius 10 about A's origin over the floor z = 0, under a vertical load.
 
-#include "equilibrium/model.h"
-#include "surface/exact_surfaces.h"
+#include "condyle/equilibrium/model.h"
+#include "condyle/surface/exact_surfaces.h"
 
 namespace condyle::test {
 

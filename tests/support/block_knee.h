@@ -4,7 +4,7 @@
 /// anterior, y proximal, z to the right of the body; the tibia's block lies below y = 0, the
 /// femur's above. A left knee is the mirror image of the right one.
 
-#include "results/run_file.h"
+#include "condyle/results/run_file.h"
 
 namespace condyle {
 

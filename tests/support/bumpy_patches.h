@@ -11,10 +11,10 @@
 #include <memory>
 #include <vector>
 
-#include "equilibrium/contact_search.h"
+#include "condyle/contact/contact_search.h"
+#include "condyle/surface/bspline_basis.h"
+#include "condyle/surface/patch.h"
 #include "support/random.h"
-#include "surface/bspline_basis.h"
-#include "surface/patch.h"
 
 namespace condyle::test {
 

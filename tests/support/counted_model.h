@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "equilibrium/model.h"
+#include "condyle/equilibrium/model.h"
 
 namespace condyle::test {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "equilibrium/pose_result.h"
+#include "condyle/equilibrium/pose_result.h"
 
 namespace condyle::hard {
 

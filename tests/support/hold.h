@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "equilibrium/model.h"
+#include "condyle/equilibrium/model.h"
 
 namespace condyle::test {
 

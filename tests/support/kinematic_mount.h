@@ -7,9 +7,9 @@
 
 #include <cmath>
 
-#include "equilibrium/model.h"
-#include "equilibrium/pose_result.h"
-#include "surface/exact_surfaces.h"
+#include "condyle/equilibrium/model.h"
+#include "condyle/equilibrium/pose_result.h"
+#include "condyle/surface/exact_surfaces.h"
 
 namespace condyle::test {
 

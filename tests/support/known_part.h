@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "surface/surface.h"
+#include "condyle/surface/surface.h"
 
 namespace condyle::test {
 

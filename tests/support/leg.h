@@ -1,6 +1,6 @@
 #pragma once
 
-#include "network/mass_properties.h"
+#include "condyle/network/mass_properties.h"
 
 namespace condyle::test {
 

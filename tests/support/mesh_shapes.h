@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 
-#include "mesh/triangle_mesh.h"
+#include "condyle/mesh/triangle_mesh.h"
 
 namespace condyle::testing {
 

@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "equilibrium/pose_result.h"
-#include "math/rotation.h"
-#include "mesh/load_mesh.h"
-#include "scene/fit_surfaces.h"
-#include "scene/scene.h"
-#include "scene/start_pose.h"
-#include "surface/patch.h"
+#include "condyle/equilibrium/pose_result.h"
+#include "condyle/math/rotation.h"
+#include "condyle/mesh/load_mesh.h"
+#include "condyle/scene/fit_surfaces.h"
+#include "condyle/scene/scene.h"
+#include "condyle/scene/start_pose.h"
+#include "condyle/surface/patch.h"
 
 namespace condyle::test {
 

@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "math/rigid_transform.h"
-#include "math/rotation.h"
+#include "condyle/math/rigid_transform.h"
+#include "condyle/math/rotation.h"
 
 namespace condyle::test {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
 
 namespace condyle::accuracy {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <functional>
 
-#include "surface/fit_system.h"
-#include "surface/patch.h"
+#include "condyle/surface/fit_system.h"
+#include "condyle/surface/patch.h"
 
 namespace condyle::benchmarks {
 namespace {

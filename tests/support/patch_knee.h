@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "equilibrium/model.h"
+#include "condyle/equilibrium/model.h"
 #include "support/quadric_knee.h"
 
 namespace condyle::benchmarks {

@@ -9,9 +9,9 @@
 
 #include <cmath>
 
-#include "equilibrium/model.h"
-#include "math/rotation.h"
-#include "surface/exact_surfaces.h"
+#include "condyle/equilibrium/model.h"
+#include "condyle/math/rotation.h"
+#include "condyle/surface/exact_surfaces.h"
 
 namespace condyle::test {
 

@@ -6,8 +6,8 @@
 
 #include <random>
 
-#include "math/rigid_transform.h"
-#include "math/rotation.h"
+#include "condyle/math/rigid_transform.h"
+#include "condyle/math/rotation.h"
 
 namespace condyle::test {
 

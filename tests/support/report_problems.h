@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "equilibrium/model.h"
-#include "surface/exact_surfaces.h"
+#include "condyle/equilibrium/model.h"
+#include "condyle/surface/exact_surfaces.h"
 
 namespace condyle::test {
 

@@ -8,11 +8,11 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "equilibrium/build_model.h"
-#include "equilibrium/path_system.h"
-#include "equilibrium/restore_state.h"
-#include "equilibrium/sweep.h"
-#include "scene/read_scene.h"
+#include "condyle/equilibrium/build_model.h"
+#include "condyle/equilibrium/path_system.h"
+#include "condyle/equilibrium/restore_state.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/scene/read_scene.h"
 #include "support/hard_cases.h"
 
 namespace condyle::hard {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "equilibrium/pose_result.h"
+#include "condyle/equilibrium/pose_result.h"
 
 namespace condyle::test {
 

@@ -3,8 +3,8 @@
 /// The twelve-spring knee with spheres on planes of Abdel-Rahman and Hefzy 1998, for tests. Its
 /// numbers are recalled from the literature and cross-checked, not read from a printed table.
 
-#include "equilibrium/model.h"
-#include "surface/exact_surfaces.h"
+#include "condyle/equilibrium/model.h"
+#include "condyle/surface/exact_surfaces.h"
 
 namespace condyle::test {
 

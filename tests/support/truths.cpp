@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "math/rotation.h"
+#include "condyle/math/rotation.h"
 
 namespace condyle::hard {
 namespace {

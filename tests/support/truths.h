@@ -3,7 +3,7 @@
 /// What is known of the hard cases in closed form: the largest error of a sweep, lengths divided by
 /// the size of the thing, forces by the load.
 
-#include "equilibrium/pose_result.h"
+#include "condyle/equilibrium/pose_result.h"
 
 namespace condyle::hard {
 

@@ -1,16 +1,16 @@
-#include "surface/bone_check.h"
+#include "condyle/surface/bone_check.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 
-#include "input_error.h"
-#include "mesh/clean_mesh.h"
-#include "mesh/load_mesh.h"
-#include "mesh/mesh_measures.h"
+#include "condyle/input_error.h"
+#include "condyle/mesh/clean_mesh.h"
+#include "condyle/mesh/load_mesh.h"
+#include "condyle/mesh/mesh_measures.h"
+#include "condyle/surface/mesh_distance.h"
 #include "support/mesh_shapes.h"
-#include "surface/mesh_distance.h"
 
 namespace condyle {
 namespace {

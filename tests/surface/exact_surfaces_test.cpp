@@ -1,4 +1,4 @@
-#include "surface/exact_surfaces.h"
+#include "condyle/surface/exact_surfaces.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "input_error.h"
+#include "condyle/input_error.h"
 #include "support/allocation_count.h"
 #include "support/numerical_jacobian.h"
 #include "support/random.h"

@@ -8,10 +8,10 @@
 #include <functional>
 #include <memory>
 
-#include "mesh/mesh_measures.h"
+#include "condyle/mesh/mesh_measures.h"
+#include "condyle/surface/exact_surfaces.h"
+#include "condyle/surface/fit_patch.h"
 #include "support/mesh_shapes.h"
-#include "surface/exact_surfaces.h"
-#include "surface/fit_patch.h"
 
 namespace condyle {
 namespace {

@@ -1,13 +1,13 @@
-#include "surface/fit_patch.h"
+#include "condyle/surface/fit_patch.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "input_error.h"
-#include "mesh/mesh_measures.h"
+#include "condyle/input_error.h"
+#include "condyle/mesh/mesh_measures.h"
+#include "condyle/surface/fit_figures.h"
 #include "support/mesh_shapes.h"
-#include "surface/fit_figures.h"
 
 namespace condyle {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/fit_surfaces.h"
+#include "condyle/scene/fit_surfaces.h"
 
 #include <gtest/gtest.h>
 
@@ -6,15 +6,15 @@
 
 #include <filesystem>
 
-#include "input_error.h"
-#include "mesh/clean_mesh.h"
-#include "mesh/load_mesh.h"
-#include "mesh/mesh_measures.h"
+#include "condyle/input_error.h"
+#include "condyle/mesh/clean_mesh.h"
+#include "condyle/mesh/load_mesh.h"
+#include "condyle/mesh/mesh_measures.h"
+#include "condyle/scene/read_scene.h"
+#include "condyle/surface/articular_region.h"
+#include "condyle/surface/fit_patch.h"
+#include "condyle/surface/patch.h"
 #include "phantom/phantom_shape.h"
-#include "scene/read_scene.h"
-#include "surface/articular_region.h"
-#include "surface/fit_patch.h"
-#include "surface/patch.h"
 
 namespace condyle {
 namespace {

@@ -3,9 +3,9 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "surface/banded_cholesky.h"
-#include "surface/fit_smoothing.h"
-#include "surface/fit_system.h"
+#include "condyle/surface/banded_cholesky.h"
+#include "condyle/surface/fit_smoothing.h"
+#include "condyle/surface/fit_system.h"
 
 namespace condyle {
 namespace {

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "mesh/clean_mesh.h"
-#include "mesh/load_mesh.h"
-#include "scene/fit_surfaces.h"
+#include "condyle/mesh/clean_mesh.h"
+#include "condyle/mesh/load_mesh.h"
+#include "condyle/scene/fit_surfaces.h"
 #include "support/mesh_shapes.h"
 #include "support/scratch_folder.h"
 

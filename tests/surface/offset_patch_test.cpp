@@ -1,13 +1,13 @@
 /// Patches moved along their normal: a ball grows, a socket shrinks, and a fold is refused.
 
-#include "surface/offset_patch.h"
+#include "condyle/surface/offset_patch.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "input_error.h"
-#include "mesh/mesh_measures.h"
+#include "condyle/input_error.h"
+#include "condyle/mesh/mesh_measures.h"
 #include "support/mesh_shapes.h"
 
 namespace condyle {

@@ -1,12 +1,12 @@
-#include "surface/patch.h"
+#include "condyle/surface/patch.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "condyle/surface/bspline_basis.h"
 #include "support/numerical_jacobian.h"
-#include "surface/bspline_basis.h"
 
 namespace condyle {
 namespace {

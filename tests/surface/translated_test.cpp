@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "surface/exact_surfaces.h"
-#include "surface/patch.h"
+#include "condyle/surface/exact_surfaces.h"
+#include "condyle/surface/patch.h"
 
 namespace condyle {
 namespace {

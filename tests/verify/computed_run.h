@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-#include "results/run_file.h"
+#include "condyle/results/run_file.h"
 #include "support/scratch_folder.h"
 
 namespace condyle::test {

@@ -1,6 +1,6 @@
 /// The lowest gap of two surfaces, against exact distances and brute force.
 
-#include "verify/gap_probe.h"
+#include "condyle/verify/gap_probe.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <random>
 
-#include "math/rotation.h"
-#include "surface/bspline_basis.h"
+#include "condyle/math/rotation.h"
+#include "condyle/surface/bspline_basis.h"
 
 namespace condyle::verification {
 namespace {

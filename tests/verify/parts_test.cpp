@@ -7,17 +7,17 @@
 #include <cmath>
 #include <random>
 
-#include "elements/force_law.h"
-#include "elements/kinematic_condition.h"
-#include "math/rotation.h"
-#include "scene/read_scene.h"
+#include "condyle/elements/force_law.h"
+#include "condyle/elements/kinematic_condition.h"
+#include "condyle/math/rotation.h"
+#include "condyle/scene/read_scene.h"
+#include "condyle/scene/start_pose.h"
+#include "condyle/surface/bspline_basis.h"
+#include "condyle/verify/coordinates.h"
+#include "condyle/verify/laws.h"
+#include "condyle/verify/side.h"
+#include "condyle/verify/spline.h"
 #include "scene/small_scene.h"
-#include "scene/start_pose.h"
-#include "surface/bspline_basis.h"
-#include "verify/coordinates.h"
-#include "verify/laws.h"
-#include "verify/side.h"
-#include "verify/spline.h"
 
 namespace condyle {
 namespace {

@@ -5,11 +5,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "input_error.h"
-#include "math/rotation.h"
-#include "scene/read_scene.h"
+#include "condyle/input_error.h"
+#include "condyle/math/rotation.h"
+#include "condyle/scene/read_scene.h"
+#include "condyle/verify/verify.h"
 #include "verify/computed_run.h"
-#include "verify/verify.h"
 
 namespace condyle {
 namespace {

@@ -1,4 +1,4 @@
-#include "verify/winding.h"
+#include "condyle/verify/winding.h"
 
 #include <gtest/gtest.h>
 

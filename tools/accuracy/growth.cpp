@@ -11,7 +11,7 @@
 #include "accuracy/clock.h"
 #include "accuracy/phantom_truth.h"
 #include "accuracy/study.h"
-#include "equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
 #include "support/kinematic_mount.h"
 #include "support/patch_knee.h"
 #include "support/quadric_knee.h"

@@ -14,9 +14,9 @@
 #include <array>
 #include <cmath>
 
-#include "elements/force_law.h"
-#include "equilibrium/model.h"
-#include "equilibrium/newton.h"
+#include "condyle/elements/force_law.h"
+#include "condyle/equilibrium/model.h"
+#include "condyle/equilibrium/newton.h"
 #include "support/quadric_knee.h"
 
 namespace condyle::accuracy {

@@ -1,7 +1,7 @@
 #include "accuracy/phantom_regions.h"
 
-#include "mesh/mesh_measures.h"
-#include "surface/condylar_axis.h"
+#include "condyle/mesh/mesh_measures.h"
+#include "condyle/surface/condylar_axis.h"
 
 namespace condyle::accuracy {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "condyle/surface/articular_region.h"
 #include "phantom/phantom_shape.h"
-#include "surface/articular_region.h"
 
 namespace condyle::accuracy {
 

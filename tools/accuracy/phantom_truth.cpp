@@ -7,12 +7,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "math/rotation.h"
+#include "condyle/math/rotation.h"
+#include "condyle/scene/read_scene.h"
 #include "phantom/exact_bone.h"
 #include "phantom/mesh_shape.h"
 #include "phantom/roughness.h"
 #include "phantom/stl.h"
-#include "scene/read_scene.h"
 
 namespace condyle::accuracy {
 

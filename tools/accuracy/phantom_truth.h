@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "equilibrium/sweep.h"
-#include "mesh/triangle_mesh.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/mesh/triangle_mesh.h"
+#include "condyle/scene/fit_surfaces.h"
 #include "phantom/phantom_shape.h"
-#include "scene/fit_surfaces.h"
 
 namespace condyle::accuracy {
 

@@ -6,10 +6,10 @@
 
 #include "accuracy/phantom_regions.h"
 #include "accuracy/phantom_truth.h"
-#include "mesh/mesh_measures.h"
+#include "condyle/mesh/mesh_measures.h"
+#include "condyle/surface/exact_surfaces.h"
 #include "phantom/mesh_shape.h"
 #include "support/mesh_shapes.h"
-#include "surface/exact_surfaces.h"
 
 namespace condyle::accuracy {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "surface/fit_patch.h"
+#include "condyle/surface/fit_patch.h"
 
 namespace condyle::accuracy {
 

@@ -12,9 +12,9 @@
 #include "accuracy/phantom_regions.h"
 #include "accuracy/phantom_truth.h"
 #include "accuracy/study.h"
+#include "condyle/surface/fit_patch.h"
 #include "phantom/mesh_shape.h"
 #include "phantom/roughness.h"
-#include "surface/fit_patch.h"
 
 namespace condyle::accuracy {
 namespace {

@@ -8,7 +8,7 @@
 #include "accuracy/clock.h"
 #include "accuracy/peers.h"
 #include "accuracy/study.h"
-#include "equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
 
 namespace condyle::accuracy {
 namespace {

@@ -11,7 +11,7 @@
 #include "accuracy/phantom_truth.h"
 #include "accuracy/study.h"
 #include "accuracy/whole_way.h"
-#include "input_error.h"
+#include "condyle/input_error.h"
 
 namespace condyle::accuracy {
 namespace {

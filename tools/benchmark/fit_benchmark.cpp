@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "surface/fit_system.h"
+#include "condyle/surface/fit_system.h"
 
 namespace condyle::benchmarks {
 namespace {

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <string>
 
-#include "equilibrium/sweep.h"
-#include "scene/read_scene.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/scene/read_scene.h"
 
 namespace condyle::benchmarks {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "input_error.h"
-#include "network/network_equations.h"
-#include "network/simulate.h"
-#include "scene/read_scene.h"
+#include "condyle/input_error.h"
+#include "condyle/network/network_equations.h"
+#include "condyle/network/simulate.h"
+#include "condyle/scene/read_scene.h"
 
 namespace condyle::benchmarks {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "pictures/knee_picture.h"
-#include "pictures/png_file.h"
-#include "pictures/shaded_mesh.h"
+#include "condyle/pictures/knee_picture.h"
+#include "condyle/pictures/png_file.h"
+#include "condyle/pictures/shaded_mesh.h"
 #include "support/block_knee.h"
 
 namespace condyle::benchmarks {

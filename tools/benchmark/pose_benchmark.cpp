@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "elements/line_element_block.h"
-#include "equilibrium/equilibrium_solver.h"
-#include "math/small_lu.h"
+#include "condyle/elements/line_element_block.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/math/small_lu.h"
 #include "support/patch_knee.h"
 
 namespace condyle::benchmarks {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "equilibrium/pose_result.h"
-#include "scene/fit_surfaces.h"
+#include "condyle/equilibrium/pose_result.h"
+#include "condyle/scene/fit_surfaces.h"
 
 namespace condyle::phantom {
 

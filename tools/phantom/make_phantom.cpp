@@ -16,13 +16,13 @@
 #include <fstream>
 #include <utility>
 
-#include "equilibrium/sweep.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/scene/read_scene.h"
 #include "phantom/exact_motion.h"
 #include "phantom/mesh_shape.h"
 #include "phantom/roughness.h"
 #include "phantom/split_triangles.h"
 #include "phantom/stl.h"
-#include "scene/read_scene.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 /// Triangle meshes of the implicit bones: closed, two-manifold, facing outward, every vertex on the
 /// exact surface.
 
-#include "mesh/triangle_mesh.h"
+#include "condyle/mesh/triangle_mesh.h"
 #include "phantom/phantom_shape.h"
 
 namespace condyle::phantom {

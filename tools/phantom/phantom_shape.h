@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "surface/surface.h"
+#include "condyle/surface/surface.h"
 
 namespace condyle::phantom {
 

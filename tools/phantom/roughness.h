@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "mesh/triangle_mesh.h"
+#include "condyle/mesh/triangle_mesh.h"
 #include "phantom/phantom_shape.h"
 
 namespace condyle::phantom {

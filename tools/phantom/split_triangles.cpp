@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "mesh/mesh_measures.h"
+#include "condyle/mesh/mesh_measures.h"
 
 namespace condyle::phantom {
 namespace {

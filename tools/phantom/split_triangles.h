@@ -2,7 +2,7 @@
 
 /// Finer meshes of the same surface, for measuring what large files cost.
 
-#include "mesh/triangle_mesh.h"
+#include "condyle/mesh/triangle_mesh.h"
 
 namespace condyle::phantom {
 

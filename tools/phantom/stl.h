@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "mesh/triangle_mesh.h"
+#include "condyle/mesh/triangle_mesh.h"
 
 namespace condyle::phantom {
 

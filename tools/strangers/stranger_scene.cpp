@@ -7,13 +7,13 @@
 #include <fstream>
 #include <random>
 
-#include "input_error.h"
-#include "math/rotation.h"
-#include "mesh/clean_mesh.h"
-#include "mesh/load_mesh.h"
-#include "mesh/mesh_measures.h"
-#include "scene/read_scene.h"
-#include "scene/start_pose.h"
+#include "condyle/input_error.h"
+#include "condyle/math/rotation.h"
+#include "condyle/mesh/clean_mesh.h"
+#include "condyle/mesh/load_mesh.h"
+#include "condyle/mesh/mesh_measures.h"
+#include "condyle/scene/read_scene.h"
+#include "condyle/scene/start_pose.h"
 
 namespace condyle::strangers {
 namespace {

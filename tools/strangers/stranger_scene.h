@@ -8,9 +8,9 @@
 #include <map>
 #include <string>
 
-#include "math/rigid_transform.h"
-#include "mesh/triangle_mesh.h"
-#include "scene/scene.h"
+#include "condyle/math/rigid_transform.h"
+#include "condyle/mesh/triangle_mesh.h"
+#include "condyle/scene/scene.h"
 
 namespace condyle::strangers {
 

@@ -17,7 +17,7 @@
 #include <iterator>
 #include <thread>
 
-#include "math/rotation.h"
+#include "condyle/math/rotation.h"
 #include "strangers/stranger_jobs.h"
 
 namespace condyle::strangers {

@@ -1,0 +1,86 @@
+#include "condyle/compare/compare.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "condyle/app/commands.h"
+#include "condyle/app/make_run.h"
+#include "condyle/app/progress.h"
+#include "condyle/app/range_options.h"
+#include "condyle/app/reference_options.h"
+#include "condyle/app/summary.h"
+#include "condyle/app/talk.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/input_error.h"
+#include "condyle/results/output_file.h"
+#include "condyle/results/run_view.h"
+#include "condyle/results/sweep_table.h"
+#include "condyle/scene/read_scene.h"
+
+namespace condyle {
+namespace {
+
+constexpr int kSomePoseFailed = 2;
+
+struct CompareCommand {
+  Talk talk;
+  std::string scene, output;
+  RangeOptions range;
+  CompareOptions options;
+};
+
+int run_compare(const CompareCommand& command) {
+  const Talk& talk = command.talk;
+  CommandClock clock;
+  check_output_file(command.output);
+  Scene scene = read_scene(command.scene);
+  refuse_to_overwrite_inputs(command.output, scene);
+  override_range(command.scene, command.range, scene);
+  check_wismans_scene(scene);
+  if (scene.sweep->arc_length)
+    throw InputError(command.scene +
+                     ": [sweep]: path = \"arc length\", expected \"steps\" for a comparison");
+  const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
+  Run run = make_run(scene, surfaces);
+  tell_warnings(talk, run);
+  run.sweep = sweep(scene, surfaces);
+  const SweepResult& ours = run.sweep;
+  Progress progress(talk, "sweeps");
+  const auto comparison = std::make_shared<const Comparison>(
+      compare(scene, surfaces, ours, command.options,
+              [&](int done, int total) { progress.at(done, total); }));
+  run.study = comparison;
+  progress.clear();
+  for (const std::string& line : summary_lines(scene, surfaces, ours, *comparison))
+    say(talk, "{}\n", line);
+  write_run(command.output, run);
+  say(talk, "wrote {}\n", command.output);
+  const SweptQuantity swept = swept_quantity(run);
+  for (const std::string& line : failures(swept, ours)) fmt::print(stderr, "condyle: {}\n", line);
+  for (const std::string& line : failures(swept, comparison->reference))
+    fmt::print(stderr, "condyle: reference: {}\n", line);
+  const auto all = static_cast<int>(ours.poses.size());
+  const bool both = ours.count_converged() == all && comparison->reference.count_converged() == all;
+  return finish(talk, clock.summary(talk, command.output, both ? 0 : kSomePoseFailed), run);
+}
+
+}  // namespace
+
+void setup_compare(CLI::App& program, int& status) {
+  const auto options = std::make_shared<CompareCommand>();
+  CLI::App* command = program.add_subcommand(
+      "compare", "Set Wismans' model of the same specimen beside ours, over the scene's sweep");
+  command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
+  command->add_option("-o,--output", options->output, "result file to write (HDF5)")->required();
+  add_range_options(*command, options->range);
+  add_reference_options(*command, options->options);
+  add_talk_options(*command, options->talk);
+  command->footer("Example: condyle compare data/wismans-type/knee.toml -o out/compare.h5");
+  command->callback([options, &status] {
+    status = run_telling_errors(options->talk, [&] { return run_compare(*options); });
+  });
+}
+
+}  // namespace condyle

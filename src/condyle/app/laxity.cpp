@@ -1,0 +1,85 @@
+#include "condyle/compare/laxity.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+
+#include "condyle/app/commands.h"
+#include "condyle/app/make_run.h"
+#include "condyle/app/progress.h"
+#include "condyle/app/reference_options.h"
+#include "condyle/app/summary.h"
+#include "condyle/app/talk.h"
+#include "condyle/input_error.h"
+#include "condyle/results/run_view.h"
+#include "condyle/results/sweep_table.h"
+
+namespace condyle {
+namespace {
+
+constexpr int kSomePoseFailed = 2;
+constexpr double kDegree = M_PI / 180;
+
+struct LaxityCommand {
+  Talk talk;
+  std::string scene, output;
+  CompareOptions options;
+};
+
+int report_failures(const SweptQuantity& swept, const LaxityResult& result) {
+  int status = 0;
+  const auto report = [&](const LaxityCurve& curve, const SweepResult& sweep, const char* model) {
+    for (const std::string& line : failures(swept, sweep)) {
+      fmt::print(stderr, "condyle: {} deg, {}{}: {}\n",
+                 std::round(1e6 * curve.flexion / kDegree) / 1e6, curve.cut ? "cut" : "intact",
+                 model, line);
+      status = kSomePoseFailed;
+    }
+  };
+  for (const LaxityCurve& curve : result.curves) {
+    report(curve, curve.ours, "");
+    if (curve.reference) report(curve, *curve.reference, ", reference");
+  }
+  return status;
+}
+
+int run_laxity(const LaxityCommand& command) {
+  const Talk& talk = command.talk;
+  CommandClock clock;
+  auto [scene, surfaces, run] =
+      begin_study(talk, command.scene, command.output, [](const Scene& s) {
+        if (!s.laxity)
+          throw InputError(s.file.string() +
+                           ": [laxity] is missing, expected the angles of flexion of the test");
+      });
+  Progress progress(talk, "curves");
+  const auto laxity = std::make_shared<const LaxityResult>(test_laxity(
+      scene, surfaces, command.options, [&](int done, int total) { progress.at(done, total); }));
+  run.study = laxity;
+  progress.clear();
+  for (const std::string& line : laxity_lines(scene, *laxity)) say(talk, "{}\n", line);
+  write_run(command.output, run);
+  say(talk, "wrote {}\n", command.output);
+  const int status = report_failures(swept_quantity(run), *laxity);
+  return finish(talk, clock.summary(talk, command.output, status), run);
+}
+
+}  // namespace
+
+void setup_laxity(CLI::App& program, int& status) {
+  const auto options = std::make_shared<LaxityCommand>();
+  CLI::App* command = program.add_subcommand(
+      "laxity", "Vary a load at several angles of flexion, with and without some ligaments");
+  command->add_option("SCENE", options->scene, "scene file (TOML) with [laxity]")->required();
+  command->add_option("-o,--output", options->output, "result file to write (HDF5)")->required();
+  add_reference_options(*command, options->options);
+  add_talk_options(*command, options->talk);
+  command->footer("Example: condyle laxity data/wismans-type/drawer.toml -o out/laxity.h5");
+  command->callback([options, &status] {
+    status = run_telling_errors(options->talk, [&] { return run_laxity(*options); });
+  });
+}
+
+}  // namespace condyle

@@ -1,0 +1,85 @@
+#include "condyle/app/make_run.h"
+
+#include <system_error>
+#include <utility>
+
+#include "condyle/app/summary.h"
+#include "condyle/input_error.h"
+#include "condyle/results/digest.h"
+#include "condyle/results/output_file.h"
+#include "condyle/scene/read_scene.h"
+#include "condyle/scene/start_warnings.h"
+
+namespace condyle {
+namespace {
+
+std::vector<RunPatch> patches_of(const Scene& scene, const std::vector<FittedSurface>& surfaces) {
+  std::vector<RunPatch> patches;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const auto* patch = dynamic_cast<const Patch*>(surfaces[i].surface.get());
+    if (patch == nullptr) continue;
+    const SurfaceDescription& description = scene.surfaces[i];
+    patches.push_back({description.name, description.body, patch->data(),
+                       surfaces[i].report.value_or(FitReport{})});
+  }
+  return patches;
+}
+
+/// Each mesh of the scene once.
+std::vector<InputFile> mesh_files(const Scene& scene) {
+  std::vector<InputFile> inputs;
+  const auto add = [&](const std::optional<MeshFile>& mesh) {
+    if (!mesh) return;
+    const std::string file = mesh->path.string();
+    for (const InputFile& known : inputs)
+      if (known.file == file) return;
+    inputs.push_back({file, sha256_of_file(mesh->path)});
+  };
+  for (const BodyDescription& body : scene.bodies) add(body.mesh);
+  for (const SurfaceDescription& surface : scene.surfaces) add(surface.patch.mesh);
+  return inputs;
+}
+
+}  // namespace
+
+void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene& scene) {
+  const auto check = [&](const std::filesystem::path& input) {
+    std::error_code unknown;
+    if (std::filesystem::equivalent(output, input, unknown))
+      throw InputError(output.string() +
+                       ": is read by this command, expected another file to write");
+  };
+  check(scene.file);
+  for (const BodyDescription& body : scene.bodies)
+    if (body.mesh) check(body.mesh->path);
+  for (const SurfaceDescription& surface : scene.surfaces)
+    if (surface.patch.mesh) check(surface.patch.mesh->path);
+}
+
+Study begin_study(const Talk& talk,
+                  const std::string& scene,
+                  const std::string& output,
+                  const std::function<void(const Scene&)>& check) {
+  check_output_file(output);
+  Study study{read_scene(scene), {}, {}};
+  refuse_to_overwrite_inputs(output, study.scene);
+  check(study.scene);
+  study.surfaces = fit_aloud(talk, study.scene);
+  study.run = make_run(study.scene, study.surfaces);
+  tell_warnings(talk, study.run);
+  return study;
+}
+
+Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces) {
+  Run run{scene, {}, patches_of(scene, surfaces), {}, {}};
+  std::vector<TriangleMesh> bones;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    bones.push_back(body_mesh(scene, static_cast<int>(b), surfaces));
+  run.start = start_warnings(scene, surfaces, bones);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    if (scene.bodies[b].mesh) run.bodies.push_back({scene.bodies[b].name, std::move(bones[b])});
+  run.inputs = mesh_files(scene);
+  return run;
+}
+
+}  // namespace condyle

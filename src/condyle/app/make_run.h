@@ -1,0 +1,37 @@
+#pragma once
+
+/// Puts together what a result file holds.
+
+#include <vector>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "condyle/app/talk.h"
+#include "condyle/results/run_file.h"
+#include "condyle/scene/fit_surfaces.h"
+
+namespace condyle {
+
+/// Scene, patches, what there is to know of the start, and the meshes of the bodies; nothing
+/// computed yet, a sweep until it is said to be something else.
+[[nodiscard]] Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces);
+
+/// What a command starts from that computes something from a scene.
+struct Study {
+  Scene scene;
+  std::vector<FittedSurface> surfaces;
+  Run run;
+};
+/// Reads the scene of a command that writes `output`, lets `check` look at it, and fits its
+/// surfaces aloud. Throws InputError, also where `output` cannot be written.
+[[nodiscard]] Study begin_study(const Talk& talk,
+                                const std::string& scene,
+                                const std::string& output,
+                                const std::function<void(const Scene&)>& check);
+
+/// Throws InputError where the file to write is the scene or one of its meshes.
+void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene& scene);
+
+}  // namespace condyle

@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "condyle/app/commands.h"
+#include "condyle/app/summary.h"
+#include "condyle/app/talk.h"
+#include "condyle/input_error.h"
+#include "condyle/pictures/picture_folder.h"
+#include "condyle/pictures/plot_run.h"
+#include "condyle/results/run_file.h"
+
+namespace condyle {
+namespace {
+
+struct PlotCommand {
+  Talk talk;
+  std::vector<std::string> runs;
+  std::string folder;
+  std::vector<std::string> formats = {"png"};
+};
+
+PlotFormat format_from_name(const std::string& text) {
+  for (const PlotFormat format : {PlotFormat::kPng, PlotFormat::kSvg, PlotFormat::kPdf})
+    if (text == ending(format)) return format;
+  throw InputError("--format " + text + ": expected png, svg or pdf");
+}
+
+Run read_plottable(const std::string& file) {
+  Run run = read_run(file);
+  if (run.sweep.poses.empty() && !run.laxity())
+    throw InputError(file + ": holds no poses, expected the result of condyle sweep");
+  return run;
+}
+
+/// Names for the legend: those of the files, with their folders where files have the same name.
+std::vector<std::string> run_names(const std::vector<std::string>& files) {
+  std::vector<std::string> names;
+  for (const std::string& file : files) {
+    const std::filesystem::path path(file);
+    const auto alike = [&](const std::string& other) {
+      return std::filesystem::path(other).stem() == path.stem();
+    };
+    const bool unique = std::count_if(files.begin(), files.end(), alike) == 1;
+    names.push_back(unique ? path.stem().string() : file);
+  }
+  return names;
+}
+
+std::vector<std::filesystem::path> plot_all(const PlotCommand& command,
+                                            const std::vector<PlotFormat>& formats) {
+  if (command.runs.size() == 1) {
+    const Run run = read_plottable(command.runs.front());
+    return plot_run(run, make_picture_folder(command.folder), formats);
+  }
+  std::vector<Run> runs;
+  for (const std::string& file : command.runs) runs.push_back(read_plottable(file));
+  const std::vector<std::string> names = run_names(command.runs);
+  std::vector<NamedRun> named;
+  for (std::size_t i = 0; i < runs.size(); ++i) named.push_back({names[i], &runs[i]});
+  const std::vector<NamedChart> charts = overlay(named);  // refuses before a folder is made
+  return plot_charts(charts, make_picture_folder(command.folder), formats);
+}
+
+int run_plot(const PlotCommand& command) {
+  std::vector<PlotFormat> formats;
+  for (const std::string& text : command.formats) formats.push_back(format_from_name(text));
+  CommandClock clock;
+  const std::vector<std::filesystem::path> files = plot_all(command, formats);
+  for (const auto& file : files) say(command.talk, "wrote {}\n", file.string());
+  CommandSummary facts =
+      clock.summary(command.talk, fmt::format("{}", fmt::join(command.runs, " ")), 0);
+  facts.files = files;
+  return finish(command.talk, facts, {});
+}
+
+}  // namespace
+
+void setup_plot(CLI::App& program, int& status) {
+  const auto options = std::make_shared<PlotCommand>();
+  CLI::App* command = program.add_subcommand(
+      "plot", "Plot what a run holds over what it sweeps; several runs over each other");
+  command->add_option("RUN", options->runs, "result files (HDF5)")->required();
+  command->add_option("-o,--output", options->folder, "folder for the plots")->required();
+  command->add_option("--format", options->formats, "png, svg, pdf, or several of them")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  command->footer("Example: condyle plot out/phantom.h5 -o out --format png,svg");
+  add_talk_options(*command, options->talk);
+  command->callback([options, &status] {
+    status = run_telling_errors(options->talk, [&] { return run_plot(*options); });
+  });
+}
+
+}  // namespace condyle

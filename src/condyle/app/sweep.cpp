@@ -1,0 +1,135 @@
+#include "condyle/equilibrium/sweep.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <utility>
+
+#include "condyle/app/commands.h"
+#include "condyle/app/make_run.h"
+#include "condyle/app/print_fit.h"
+#include "condyle/app/progress.h"
+#include "condyle/app/range_options.h"
+#include "condyle/app/resume.h"
+#include "condyle/app/summary.h"
+#include "condyle/app/talk.h"
+#include "condyle/input_error.h"
+#include "condyle/results/journal.h"
+#include "condyle/results/output_file.h"
+#include "condyle/results/run_view.h"
+#include "condyle/results/sweep_table.h"
+#include "condyle/scene/read_scene.h"
+
+namespace condyle {
+namespace {
+
+constexpr int kSomePoseFailed = 2;
+
+struct SweepCommand {
+  Talk talk;
+  std::string scene, output;
+  RangeOptions range;
+  bool resume = false;
+};
+
+// The sweep with its table; each pose goes into the journal as soon as it is known.
+SweepResult sweep_aloud(const Talk& talk,
+                        const Scene& scene,
+                        const std::vector<FittedSurface>& surfaces,
+                        std::vector<KnownPose> known,
+                        Journal& journal) {
+  const SweepTable table(scene, quantity_of_sweep(scene));
+  say(talk, "{}", table.head());
+  const bool resumed = !known.empty();
+  std::size_t computed = 0;
+  int done = 0;
+  const int total = scene.sweep->arc_length ? 0 : static_cast<int>(scene.sweep->values.size());
+  Progress progress(talk, "poses");
+  SweepOptions options;
+  options.known = std::move(known);
+  options.on_pose = [&](const PoseResult& pose) {
+    if (talk.plain()) {
+      progress.clear();
+      fmt::print("{}", table.row(pose));
+      std::fflush(stdout);
+    }
+    progress.at(++done, total);
+  };
+  options.on_computed = [&](const KnownPose& pose) {
+    journal.append(pose);
+    ++computed;
+  };
+  SweepResult result = sweep(scene, surfaces, options);
+  progress.clear();
+  say(talk, "\n{}\n", summary(result));
+  if (resumed)
+    say(talk, "{} poses taken over, {} computed\n", result.poses.size() - computed, computed);
+  return result;
+}
+
+void write_result(const SweepCommand& command, const Run& run, Journal& journal) {
+  try {
+    write_run(command.output, run);
+  } catch (const InputError& error) {
+    if (!journal.failure().empty()) throw;
+    throw InputError(fmt::format("{} (its poses are in {}: --resume takes them over)", error.what(),
+                                 journal_path(command.output).string()));
+  }
+  journal.remove();
+  say(command.talk, "wrote {}\n", command.output);
+  std::fflush(stdout);
+}
+
+int run_sweep(const SweepCommand& command) {
+  const Talk& talk = command.talk;
+  CommandClock clock;
+  check_output_file(command.output);
+  Scene scene = read_scene(command.scene);
+  if (command.resume && scene.sweep && scene.sweep->arc_length) {
+    throw InputError(command.scene +
+                     ": [sweep]: path = \"arc length\", expected \"steps\" for --resume");
+  }
+  refuse_to_overwrite_inputs(command.output, scene);
+  refuse_to_overwrite_inputs(journal_path(command.output), scene);
+  override_range(command.scene, command.range, scene);
+  const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
+  Run run = make_run(scene, surfaces);
+  tell_warnings(talk, run);
+  EarlierPoses earlier = earlier_poses(command.output, command.resume, scene, surfaces);
+  if (!earlier.message.empty()) say(talk, "{}\n\n", earlier.message);
+  Journal journal(journal_path(command.output), identity(scene, surfaces), earlier.journal_bytes);
+  run.sweep = sweep_aloud(talk, scene, surfaces, std::move(earlier.poses), journal);
+  const SweepResult& result = run.sweep;
+  for (const std::string& line : event_lines(scene, swept_quantity(run), result))
+    say(talk, "{}\n", line);
+  write_result(command, run, journal);
+  if (!journal.failure().empty()) fmt::print(stderr, "condyle: {}\n", journal.failure());
+  for (const std::string& line : failures(swept_quantity(run), result))
+    fmt::print(stderr, "condyle: {}\n", line);
+  const bool all = result.count_converged() == static_cast<int>(result.poses.size());
+  CommandSummary facts = clock.summary(talk, command.output, all ? 0 : kSomePoseFailed);
+  if (!journal.failure().empty()) facts.warnings.push_back(journal.failure());
+  return finish(talk, facts, run);
+}
+
+}  // namespace
+
+void setup_sweep(CLI::App& program, int& status) {
+  const auto options = std::make_shared<SweepCommand>();
+  CLI::App* command = program.add_subcommand(
+      "sweep", "Find the positions of equilibrium over a range of motion or load");
+  command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
+  command->add_option("-o,--output", options->output, "result file to write (HDF5)")->required();
+  add_range_options(*command, options->range);
+  command->add_flag("--resume", options->resume,
+                    "take over what RUN.h5 and the journal of a stopped run hold");
+  add_talk_options(*command, options->talk);
+  command->footer("Example: condyle sweep data/phantom/knee.toml -o out/phantom.h5");
+  command->callback([options, &status] {
+    status = run_telling_errors(options->talk, [&] { return run_sweep(*options); });
+  });
+}
+
+}  // namespace condyle

@@ -1,0 +1,105 @@
+#include "condyle/compare/compare.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/compare/one_contact_each.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/reference/polynomial_surface.h"
+#include "condyle/reference/wismans_solver.h"
+
+namespace condyle {
+namespace {
+
+constexpr std::array<const char*, kVariantCount> kVariantNames = {
+    "ours", "reference", "surfaces", "springs", "closed", "all three"};
+
+double median_seconds(const SweepResult& sweep) {
+  std::vector<double> seconds;
+  for (const PoseResult& pose : sweep.poses)
+    if (pose.converged()) seconds.push_back(pose.seconds);
+  if (seconds.empty()) return std::nan("");
+  std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
+  return seconds[seconds.size() / 2];
+}
+
+double mean_iterations(const SweepResult& sweep) {
+  double sum = 0;
+  int count = 0;
+  for (const PoseResult& pose : sweep.poses) {
+    if (!pose.converged()) continue;
+    sum += pose.iterations;
+    ++count;
+  }
+  return count > 0 ? sum / count : std::nan("");
+}
+
+SweepResult plain_sweep(const Scene& scene, const std::vector<FittedSurface>& surfaces) {
+  SweepOptions options;
+  options.stability = options.events = false;
+  return sweep(scene, surfaces, options);
+}
+
+}  // namespace
+
+const char* name(Variant variant) { return kVariantNames[static_cast<std::size_t>(variant)]; }
+
+SweepResult reference_sweep(const Scene& scene,
+                            const WismansModel& model,
+                            const SweepResult& ours) {
+  std::vector<RigidTransform> starts;
+  for (const PoseResult& pose : ours.poses) {
+    if (!pose.converged()) continue;
+    starts.push_back(pose.X_BA);
+    break;
+  }
+  const std::optional<std::size_t> load =
+      scene.sweep->varies_load ? std::optional<std::size_t>(scene.sweep->index) : std::nullopt;
+  return sweep(model, load, scene.sweep->values, starts);
+}
+
+Comparison compare(const Scene& scene,
+                   const std::vector<FittedSurface>& surfaces,
+                   const SweepResult& ours,
+                   const CompareOptions& options,
+                   const OnProgress& on_sweep) {
+  check_wismans_scene(scene);
+  int sweeps_done = 0;
+  const auto counted = [&](SweepResult sweep) {
+    ++sweeps_done;
+    if (on_sweep)
+      on_sweep(sweeps_done, kVariantCount);  // all but ours, and ours again for the time
+    return sweep;
+  };
+  Comparison result;
+  result.options = options;
+  result.heights = fit_heights(scene, surfaces, options.degree);
+  const Scene quadratic = with_quadratic_springs(scene, options.strain);
+  for (const LigamentDescription& ligament : quadratic.ligaments)
+    result.springs.push_back(ligament.law);
+  const WismansModel model = build_wismans_model(quadratic, result.heights);
+  const std::vector<FittedSurface> polynomials = with_polynomials(surfaces, result.heights);
+
+  result.reference = counted(reference_sweep(scene, model, ours));
+  const std::array<SweepResult, kVariantCount> sweeps = {
+      ours,
+      result.reference,
+      counted(plain_sweep(scene, polynomials)),
+      counted(plain_sweep(quadratic, surfaces)),
+      counted(plain_sweep(with_closed_contacts(scene), surfaces)),
+      counted(sweep_one_contact_each(quadratic, polynomials, result.reference))};
+  for (int v = 0; v < kVariantCount; ++v) result.converged[v] = sweeps[v].count_converged();
+  for (const Quantity& quantity : compared_quantities(scene)) {
+    ComparedQuantity compared{quantity.name, quantity.units, {}};
+    for (int v = 0; v < kVariantCount; ++v) compared.values[v] = series(quantity, sweeps[v]);
+    result.quantities.push_back(std::move(compared));
+  }
+  const SweepResult again = counted(plain_sweep(scene, surfaces));
+  result.seconds_ours = median_seconds(again);
+  result.iterations_ours = mean_iterations(again);
+  result.seconds_reference = median_seconds(result.reference);
+  result.iterations_reference = mean_iterations(result.reference);
+  return result;
+}
+
+}  // namespace condyle

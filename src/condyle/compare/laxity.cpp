@@ -1,0 +1,197 @@
+#include "condyle/compare/laxity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "condyle/elements/joint_table.h"
+#include "condyle/equilibrium/build_model.h"
+#include "condyle/equilibrium/model_covers.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/input_error.h"
+#include "condyle/reference/wismans_solver.h"
+#include "condyle/scene/start_pose.h"
+
+namespace condyle {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+constexpr double kFlexionStep = 5 * kDegree, kLoadStep = 0.1;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// From one value to another in steps of at most `step`, both ends included.
+std::vector<double> way(double from, double to, double step) {
+  const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(to - from) / step)));
+  std::vector<double> values;
+  for (int i = 0; i <= parts; ++i) values.push_back(from + (to - from) * i / parts);
+  return values;
+}
+
+/// What all curves of one knee share.
+struct PreparedKnee {
+  std::shared_ptr<const Model> model;
+  ContactCovers covers;
+  PreparedKnee(const Scene& scene, const std::vector<FittedSurface>& surfaces)
+      : model(std::make_shared<const Model>(build_model(scene, surfaces))),
+        covers(cover_pairs(*model)) {}
+};
+
+/// The ways to each flexion of the test, and there to the first value of the load.
+struct Ways {
+  double start;  ///< flexion that the scene describes
+  std::vector<double> to_load, loads;
+  explicit Ways(const Scene& scene)
+      : start(scene.conditions[scene.laxity->condition].value),
+        to_load(way(0, scene.sweep->values.front(), kLoadStep)),
+        loads(scene.sweep->values) {}
+};
+
+SweepResult by_engine(const Scene& scene,
+                      const PreparedKnee& knee,
+                      const Ways& ways,
+                      double flexion) {
+  EquilibriumOptions options;
+  options.description.stability = false;
+  EquilibriumSolver solver(knee.model, knee.covers, options);
+  SweepOptions plain;
+  plain.stability = plain.events = false;
+  const Swept angle = condition_value(static_cast<std::size_t>(scene.laxity->condition));
+  const Swept load = swept_of(*scene.sweep);
+  plain.drive = load.with(drive_of(solver.model()), 0);
+  (void)sweep(solver, angle, way(ways.start, flexion, kFlexionStep), plain);
+  plain.drive = angle.with(*plain.drive, flexion);
+  (void)sweep(solver, load, ways.to_load, plain);
+  return sweep(solver, load, ways.loads, plain);
+}
+
+/// Each way starts where the one before it ended.
+SweepResult by_reference(WismansModel model,
+                         const Scene& scene,
+                         const Ways& ways,
+                         double flexion,
+                         const std::vector<RigidTransform>& other_starts) {
+  const auto load = static_cast<std::size_t>(scene.sweep->index);
+  const auto follow = [&](std::optional<std::size_t> swept, const std::vector<double>& values) {
+    const SweepResult result = sweep(model, swept, values, other_starts);
+    if (result.poses.back().converged()) model.start = result.poses.back().X_BA;
+  };
+  model.loads[load].scale = 0;
+  follow(std::nullopt, way(ways.start, flexion, kFlexionStep));
+  model.flexion = flexion;
+  follow(load, ways.to_load);
+  return sweep(model, load, ways.loads, other_starts);
+}
+
+Scene without(Scene scene, const std::vector<int>& cut) {
+  for (const int i : cut) scene.ligaments[i].law = PolynomialLaw{{0.0}, true};
+  return scene;
+}
+
+bool wismans_can_hold(const Scene& scene) {
+  try {
+    check_wismans_scene(scene);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+std::size_t least_load(const std::vector<PoseResult>& poses) {
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (std::abs(poses[i].value) < std::abs(poses[best].value)) best = i;
+  }
+  return best;
+}
+
+double coordinate(const Scene& scene, const PoseResult& pose) {
+  const std::size_t k = loaded_coordinate(scene);
+  return pose.converged() ? pose.joint.*kJointCoordinates[k].member / (k < 3 ? kDegree : 1) : kNone;
+}
+
+}  // namespace
+
+std::size_t loaded_coordinate(const Scene& scene) {
+  const LoadDescription& load = scene.loads.at(scene.sweep->index);
+  const bool tibial = scene.joint->tibia.body == load.body;
+  const AnatomicalFrame& bone = tibial ? scene.joint->tibia : scene.joint->femur;
+  // Along lateral, anterior, proximal; a moment about the anterior axis adducts, about the proximal
+  // one rotates.
+  const Eigen::Vector3d parts(std::abs(load.vector.dot(bone.lateral)),
+                              std::abs(load.vector.dot(bone.anterior)),
+                              std::abs(load.vector.dot(bone.proximal)));
+  Eigen::Index k = 0;
+  parts.maxCoeff(&k);
+  return static_cast<std::size_t>(k) + (load.moment ? 0 : 3);
+}
+
+LaxityResult test_laxity(const Scene& scene,
+                         const std::vector<FittedSurface>& surfaces,
+                         const CompareOptions& options,
+                         const OnProgress& on_curve) {
+  const Ways ways(scene);
+  const int total =
+      static_cast<int>(scene.laxity->flexions.size()) * (scene.laxity->cut.empty() ? 1 : 2);
+  LaxityResult result;
+  const bool by_both = wismans_can_hold(scene);
+  const std::vector<HeightFit> heights =
+      by_both ? fit_heights(scene, surfaces, options.degree) : std::vector<HeightFit>{};
+  for (const bool cut : {false, true}) {
+    if (cut && scene.laxity->cut.empty()) continue;
+    const Scene knee = cut ? without(scene, scene.laxity->cut) : scene;
+    const PreparedKnee prepared(knee, surfaces);
+    for (const double flexion : scene.laxity->flexions) {
+      LaxityCurve curve{flexion, cut, by_engine(knee, prepared, ways, flexion), {}};
+      if (by_both) {
+        std::vector<RigidTransform> starts;
+        const PoseResult& middle = curve.ours.poses[least_load(curve.ours.poses)];
+        if (middle.converged()) starts.push_back(middle.X_BA);
+        const Scene quadratic = with_quadratic_springs(knee, options.strain);
+        curve.reference =
+            by_reference(build_wismans_model(quadratic, heights), knee, ways, flexion, starts);
+      }
+      result.curves.push_back(std::move(curve));
+      if (on_curve) on_curve(static_cast<int>(result.curves.size()), total);
+    }
+  }
+  return result;
+}
+
+std::vector<double> displacements(const Scene& scene, const SweepResult& sweep) {
+  std::vector<double> values;
+  if (sweep.poses.empty()) return values;
+  const double zero = coordinate(scene, sweep.poses[least_load(sweep.poses)]);
+  for (const PoseResult& pose : sweep.poses) values.push_back(coordinate(scene, pose) - zero);
+  return values;
+}
+
+double laxity_of(const Scene& scene, const SweepResult& sweep) {
+  if (sweep.poses.empty()) return kNone;
+  return coordinate(scene, sweep.poses.back()) - coordinate(scene, sweep.poses.front());
+}
+
+std::vector<std::string> laxity_lines(const Scene& scene, const LaxityResult& result) {
+  const std::size_t k = loaded_coordinate(scene);
+  const LoadDescription& load = scene.loads[scene.sweep->index];
+  const double size = load.vector.norm();
+  std::vector<std::string> lines = {
+      fmt::format("{} [{}] from {:g} to {:g} {} of {}", kJointCoordinates[k].words,
+                  k < 3 ? "deg" : "mm", size * scene.sweep->values.front(),
+                  size * scene.sweep->values.back(), load.moment ? "N mm" : "N", load.name),
+      fmt::format("{:<10}{:<10}{:>10}{:>12}{:>12}", "knee", "flexion", "ours", "reference",
+                  "poses")};
+  for (const LaxityCurve& curve : result.curves) {
+    const std::string reference =
+        curve.reference ? fmt::format("{:.2f}", laxity_of(scene, *curve.reference)) : "-";
+    lines.push_back(
+        fmt::format("{:<10}{:<10g}{:>10.2f}{:>12}{:>8} of {}", curve.cut ? "cut" : "intact",
+                    std::round(1e6 * curve.flexion / kDegree) / 1e6, laxity_of(scene, curve.ours),
+                    reference, curve.ours.count_converged(), curve.ours.poses.size()));
+  }
+  return lines;
+}
+
+}  // namespace condyle

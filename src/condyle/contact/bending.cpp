@@ -1,0 +1,94 @@
+#include "condyle/contact/bending.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "condyle/contact/curvature_tensor.h"
+
+namespace condyle {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInnermost = 3;  // radius of the first shell, in spacings
+constexpr double kAround = 2;     // what the quadric of a cluster serves for, in its radii
+
+}  // namespace
+
+Facing over_quadric(const SurfacePoint& at, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d d = point - at.c;
+  const double along = d.dot(at.n);
+  return {&at, 0, 0, d - along * at.n, along};
+}
+
+Bending::Radii Bending::shells(double spacing, double greatest) {
+  const double least = kInnermost * spacing;
+  const double ratio = std::pow(std::max(greatest / least, 1.0), 1.0 / (kLevels - 1));
+  Radii radii;
+  for (std::size_t level = 0; level < kLevels; ++level)
+    radii[level] = least * std::pow(ratio, static_cast<double>(level));
+  return radii;
+}
+
+Bending::Bending(const SurfaceCover& cover, const Radii& radii) : cover_(&cover), radii_(radii) {
+  if (cover.bends_evenly()) return;
+  shells_.resize(static_cast<std::size_t>(cover.size()));
+  around_.resize(cover.clusters().size());
+  scratch_.reserve(shells_.size());
+}
+
+/// Its curvature differs from the sample's, and so do height and slope on the way there, by less
+/// than half as much again.
+double Bending::shift(int sample, const Eigen::Matrix3d& K) const {
+  if (cover_->bends_evenly() || sample < 0) return 0;
+  const SurfacePoint& at = cover_->sample(sample);
+  return 1.5 * tangent_change(K, at.K, at.n);
+}
+
+Rise Bending::in_shell(int level, int sample, const Eigen::Matrix3d& K) {
+  const auto shell = static_cast<std::size_t>(level);
+  if (cover_->bends_evenly()) return even_rise(radii_[shell], K);
+  if (sample < 0) return {kInfinity, kInfinity};
+  Shells& shells = shells_[static_cast<std::size_t>(sample)];
+  for (; shells.measured <= level; ++shells.measured) {
+    const auto next = static_cast<std::size_t>(shells.measured);
+    shells.of[next] = cover_->rise(cover_->sample(sample), cover_->cell_radius(sample),
+                                   next == 0 ? 0 : radii_[next - 1], radii_[next]);
+  }
+  return shells.of[shell];
+}
+
+const SurfaceCell& Bending::around(int cluster) {
+  SurfaceCell& cell = around_[static_cast<std::size_t>(cluster)];
+  if (cell.radius == 0) {
+    const double radius = cover_->cluster(cluster).cell.radius;
+    cell = cover_->around(cluster, kAround * radius, scratch_);
+  }
+  return cell;
+}
+
+Facing Bending::facing_cell(const Eigen::Vector3d& p, int near) const {
+  Facing facing = over_quadric(cover_->sample(near), p);
+  facing.bend = cover_->cell_change(near);
+  facing.error = 0.5 * facing.bend * facing.beside.squaredNorm();
+  return facing;
+}
+
+Facing Bending::facing(const Eigen::Vector3d& p, double r, int near) {
+  for (int index = cover_->leaf(near); index >= 0;) {
+    const SurfaceCover::Cluster& cluster = cover_->cluster(index);
+    if (r < kAround * cluster.cell.radius) {
+      const SurfaceCell& cell = around(index);
+      const double room = cell.radius - r;
+      Facing facing = over_quadric(cell.at, p);
+      facing.error = cell.rise;
+      if (facing.beside.squaredNorm() < room * room) return facing;
+    }
+    // Every second size will do.
+    index = cluster.parent;
+    if (index >= 0) index = cover_->cluster(index).parent;
+  }
+  return {};
+}
+
+}  // namespace condyle

@@ -1,0 +1,66 @@
+#pragma once
+
+/// How far a surface rises over its osculating quadrics, as far as a search asks: about known
+/// contacts shell by shell, about samples and clusters within a ball. What was measured once is
+/// kept.
+
+#include <array>
+#include <vector>
+
+#include "condyle/contact/surface_cover.h"
+
+namespace condyle {
+
+/// A point over an osculating quadric nearby.
+struct Facing {
+  const SurfacePoint* at = nullptr;  ///< the quadric's origin
+  double bend = 0;                   ///< a >= 0 with h - ½ tᵀ K t <= ½ a t² [1/mm]
+  double error = 0;                  ///< of the gap at the point itself [mm]
+  Eigen::Vector3d beside = Eigen::Vector3d::Zero();  ///< of the origin, in the tangent plane [mm]
+  double along = 0;                                  ///< of the point over the tangent plane [mm]
+};
+
+/// A point over the quadric at a place; nothing is allowed for yet.
+[[nodiscard]] Facing over_quadric(const SurfacePoint& at, const Eigen::Vector3d& point);
+
+class Bending {
+ public:
+  static constexpr int kLevels = 9;
+  /// Outer radii of the shells [mm], ascending.
+  using Radii = std::array<double, kLevels>;
+
+  Bending(const SurfaceCover& cover, const Radii& radii);
+
+  /// Shells in equal ratios, from one that holds the neighbours of a sample to one of radius
+  /// `greatest` [mm].
+  [[nodiscard]] static Radii shells(double spacing, double greatest);
+
+  /// Of shell `level` about a sample (-1: none), over its own quadric; where the surface bends
+  /// evenly, over that with the curvature tensor K. Measured when it is first asked for.
+  [[nodiscard]] Rise in_shell(int level, int sample, const Eigen::Matrix3d& K);
+
+  /// What is added for a point in the cell of the sample, where the curvature tensor is K [1/mm].
+  [[nodiscard]] double shift(int sample, const Eigen::Matrix3d& K) const;
+
+  /// Point p, whose nearest sample is `near`, over a quadric that serves as far as r [mm] about its
+  /// closest point; `at` is null where there is none.
+  [[nodiscard]] Facing facing(const Eigen::Vector3d& p, double r, int near);
+
+  /// The same point over the quadric of that sample, for its cell and as far as its neighbours.
+  [[nodiscard]] Facing facing_cell(const Eigen::Vector3d& p, int near) const;
+
+ private:
+  struct Shells {
+    std::array<Rise, kLevels> of;
+    int measured = 0;
+  };
+  [[nodiscard]] const SurfaceCell& around(int cluster);
+
+  const SurfaceCover* cover_;
+  Radii radii_;
+  std::vector<Shells> shells_;       ///< of each sample
+  std::vector<SurfaceCell> around_;  ///< about each cluster; radius 0: not fitted yet
+  std::vector<const SurfaceCell*> scratch_;
+};
+
+}  // namespace condyle

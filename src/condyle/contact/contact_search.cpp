@@ -1,0 +1,259 @@
+#include "condyle/contact/contact_search.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "condyle/contact/contact.h"
+#include "condyle/contact/contact_scales.h"
+#include "condyle/contact/gap_paraboloid.h"
+#include "condyle/contact/line_contact.h"
+
+namespace condyle {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// All in sample spacings:
+constexpr double kFacingSpacing = 1.5;  // of the surface that the samples of the other one face
+constexpr double kDeepest = 12;     // overlap of a surface with an edge that is still taken for one
+constexpr double kNeighbour = 1.6;  // a sample nearer than this may be the lower one
+constexpr double kSame = 0.3;       // a minimum predicted nearer to one that is known is that one
+constexpr double kModel = 0.01;     // what the paraboloid of the gap may be wrong by in its reach
+
+/// The spacing that is wanted, or a wider one where that would take too many samples: a small model
+/// on a large ball. The area is told by a coarse cover.
+double affordable_spacing(const Surface& surface, double wanted) {
+  constexpr std::size_t kEnough = 64, kMost = 20000;
+  const double size = surface.extent().radius;
+  if (!std::isfinite(size)) return wanted;
+  for (double coarse = std::max(4 * size, wanted); coarse > wanted; coarse /= 2) {
+    const std::size_t n = surface.samples(coarse).size();
+    if (n < kEnough) continue;
+    return std::max(wanted, coarse * std::sqrt(static_cast<double>(n) / kMost));
+  }
+  return wanted;
+}
+
+/// Does surface a take fewer samples than b? One without bounds has none.
+bool takes_fewer(const Surface& a, const Surface& b, double spacing) {
+  const std::size_t of_a = a.samples(spacing).size(), of_b = b.samples(spacing).size();
+  return of_a > 0 && (of_b == 0 || of_a <= of_b);
+}
+
+/// Behind a surface that ends somewhere is not yet inside.
+bool has_edge(const Surface& surface) {
+  const Place somewhere = surface.seed(Eigen::Vector3d::Zero());
+  return std::isfinite(surface.edge_distance(somewhere));
+}
+
+/// Lowest first; of minima nearer to each other than `merge` [mm] the lowest stays.
+void keep_isolated(std::vector<GapMinimum>& minima, double merge) {
+  std::sort(minima.begin(), minima.end(),
+            [](const GapMinimum& a, const GapMinimum& b) { return a.gap < b.gap; });
+  std::size_t kept = 0;
+  for (const GapMinimum& minimum : minima) {
+    bool isolated = true;
+    for (std::size_t k = 0; k < kept && isolated; ++k)
+      isolated = (minima[k].point_B - minimum.point_B).norm() > merge;
+    if (isolated) minima[kept++] = minimum;
+  }
+  minima.resize(kept);
+}
+
+}  // namespace
+
+ContactCover::ContactCover(const ContactPair& pair, double wanted)
+    : surface_B(pair.on_B),
+      surface_A(pair.on_A),
+      spacing(
+          std::max(affordable_spacing(*pair.on_B, wanted), affordable_spacing(*pair.on_A, wanted))),
+      sampled_on_A(takes_fewer(*pair.on_A, *pair.on_B, spacing)),
+      on_B(*pair.on_B, sampled_on_A ? kFacingSpacing * spacing : spacing),
+      on_A(*pair.on_A, sampled_on_A ? spacing : kFacingSpacing * spacing),
+      lines(have_straight_lines(*pair.on_B, *pair.on_A, spacing)) {}
+
+ContactSearch::ContactSearch(std::shared_ptr<const ContactCover> cover)
+    : cover_(std::move(cover)),
+      on_B_(cover_->surface_B.get()),
+      on_A_(cover_->surface_A.get()),
+      spacing_(cover_->spacing),
+      sampled_on_A_(cover_->sampled_on_A),
+      deepest_(has_edge(other().surface()) ? kDeepest * spacing_ : kInfinity),
+      shells_(Bending::shells(spacing_, sampled().extent())),
+      bending_B_(cover_->on_B, shells_),
+      bending_A_(cover_->on_A, shells_) {
+  const auto n = static_cast<std::size_t>(sampled().size());
+  closest_.resize(n);
+  seen_.resize(n);
+  cluster_closest_.resize(sampled().clusters().size());
+  split_.resize(sampled().clusters().size());
+  near_.reserve(n);
+  found_.reserve(n + kMaxConstraints);
+  discs_.reserve(kMaxConstraints);
+}
+
+void ContactSearch::reset() {
+  std::fill(closest_.begin(), closest_.end(), Closest());
+  std::fill(seen_.begin(), seen_.end(), Seen());
+  std::fill(cluster_closest_.begin(), cluster_closest_.end(), Closest());
+  std::fill(split_.begin(), split_.end(), char{0});
+  near_contact_B_ = near_contact_A_ = -1;
+  now_ = 0;
+  nearest_reach_ = nearest_merge_ = -1;
+}
+
+/// No neighbour is lower for certain. One that was passed over is not, and one that faces nothing
+/// known stands for nothing, however low it is.
+bool ContactSearch::is_lowest_of_neighbours(int sample) const {
+  const Seen& own = seen(sample);
+  const Eigen::Vector3d& c = sampled().sample(sample).c;
+  for (const int other : sampled().neighbours(sample)) {
+    if (other < 0) break;
+    const Seen& neighbour = seen(other);
+    if (neighbour.stamp != now_ || !faces_known_part(other)) continue;
+    const double above = neighbour.gap + neighbour.error - (own.gap - own.error);
+    if (above > 0 || (above == 0 && other > sample)) continue;
+    if ((sampled().sample(other).c - c).squaredNorm() <
+        kNeighbour * kNeighbour * spacing_ * spacing_)
+      return false;
+  }
+  return true;
+}
+
+/// Newton to the minimum near a sample. Where that does not settle, or leads beyond the known part
+/// while the sample itself is within, the sample stands for it.
+GapMinimum ContactSearch::refine(int sample, const RigidTransform& X_BA) const {
+  GapMinimum minimum;
+  const Place& own = sampled().place(sample);
+  minimum.on_A = sampled_on_A_ ? own : closest(sample).place;
+  minimum.on_B = sampled_on_A_ ? closest(sample).place : own;
+  Place refined_B = minimum.on_B, refined_A = minimum.on_A;
+  minimum.refined = refine_minimum(*on_B_, refined_B, *on_A_, refined_A, X_BA, 4 * spacing_) &&
+                    edge_of(refined_B, refined_A) > -kBeyondEdge * spacing_;
+  if (minimum.refined) {
+    minimum.on_B = refined_B;
+    minimum.on_A = refined_A;
+  } else if (sampled_on_A_) {
+    minimum.on_B = on_B_->closest(X_BA * sampled().sample(sample).c, minimum.on_B);
+  } else {
+    minimum.on_A = on_A_->closest(X_BA.inverse() * sampled().sample(sample).c, minimum.on_A);
+  }
+  const SurfacePoint B = on_B_->evaluate(minimum.on_B);
+  const SurfacePoint A = on_A_->evaluate(minimum.on_A);
+  minimum.point_B = B.c;
+  minimum.n = B.n;
+  minimum.gap = B.n.dot(X_BA * A.c - B.c);
+  minimum.edge = edge_of(minimum.on_B, minimum.on_A);
+  return minimum;
+}
+
+void ContactSearch::add_minimum(int sample,
+                                const RigidTransform& X_BA,
+                                double cutoff,
+                                bool lowest,
+                                std::vector<GapMinimum>& minima) {
+  const GapMinimum minimum = refine(sample, X_BA);
+  // A sample stands for a minimum of its own only where it is the lowest and faces what is known.
+  if (!minimum.refined && !(lowest && faces_known_part(sample))) return;
+  found_.push_back(sampled_on_A_ ? minimum.point_B : X_BA.inverse() * minimum.point_B);
+  if (cover_->lines && add_line_ends(*on_B_, *on_A_, X_BA, minimum, spacing_, cutoff, minima))
+    return;
+  if (minimum.gap < cutoff) minima.push_back(minimum);
+}
+
+/// For certain, where its closest point was not found yet.
+bool ContactSearch::faces_known_part(int sample) const {
+  const Closest& there = closest(sample);
+  if (seen(sample).measured) return other().surface().edge_distance(there.place) >= 0;
+  return other().edge_distance(there.near) > 2 * other().cell_radius(there.near);
+}
+
+/// A measured sample whose closest point lies less than a cell beyond the edge may stand for a
+/// minimum within.
+bool ContactSearch::nearly_faces_known_part(int sample) const {
+  return other().surface().edge_distance(closest(sample).place) >= -spacing_;
+}
+
+/// In a shallow valley a second minimum may have no sample that is lowest of its neighbours. Does
+/// the paraboloid at this one lead below the cutoff at a place that is not known yet?
+bool ContactSearch::leads_elsewhere(int sample, const RigidTransform& X_BA, double cutoff) const {
+  if (!closest(sample).close) return false;
+  const RigidTransform X = from_to(X_BA);
+  const SurfacePoint& at = sampled().sample(sample);
+  const auto minimum = predict_minimum(X * at.c, X.R * at.n, X.R * at.K * X.R.transpose(),
+                                       closest(sample).at, seen(sample).gap, 1.5 * spacing_);
+  if (!minimum || minimum->gap > cutoff + kModel * spacing_) return false;
+  const double near = kSame * spacing_;
+  return std::none_of(found_.begin(), found_.end(), [&](const Eigen::Vector3d& known) {
+    return (known - minimum->point).squaredNorm() < near * near;
+  });
+}
+
+RigidTransform ContactSearch::from_to(const RigidTransform& X_BA) const {
+  return sampled_on_A_ ? X_BA : X_BA.inverse();
+}
+
+double ContactSearch::edge_of(const Place& on_B, const Place& on_A) const {
+  return std::min(on_B_->edge_distance(on_B), on_A_->edge_distance(on_A));
+}
+
+void ContactSearch::find(const RigidTransform& X_BA,
+                         double cutoff,
+                         std::vector<GapMinimum>& minima,
+                         double merge,
+                         const std::vector<KnownContact>& known) {
+  minima.clear();
+  near_.clear();
+  ++now_;
+  if (!has_samples()) return;
+  set_discs(known);
+  const RigidTransform X = from_to(X_BA);
+  visit(0, X, cutoff);
+  found_.clear();
+  for (const KnownContact& contact : known)
+    found_.push_back(sampled_on_A_ ? contact.on_B : contact.on_A);
+  for (const int sample : near_)
+    if (is_lowest_of_neighbours(sample)) measure(sample, X);
+  for (const int sample : near_)
+    if (seen(sample).measured && nearly_faces_known_part(sample) && is_lowest_of_neighbours(sample))
+      add_minimum(sample, X_BA, cutoff, /*lowest=*/true, minima);
+  for (const int sample : near_) {
+    if (seen(sample).lower > 0) continue;
+    measure(sample, X);
+    if (nearly_faces_known_part(sample) && leads_elsewhere(sample, X_BA, cutoff))
+      add_minimum(sample, X_BA, cutoff, /*lowest=*/false, minima);
+  }
+  keep_isolated(minima, merge);
+}
+
+void ContactSearch::find_nearest(const RigidTransform& X_BA,
+                                 double reach,
+                                 std::vector<GapMinimum>& minima,
+                                 double merge) {
+  const bool asked_before = nearest_reach_ == reach && nearest_merge_ == merge &&
+                            nearest_X_.p == X_BA.p && nearest_X_.R == X_BA.R;
+  if (!asked_before) {
+    find_within(X_BA, reach, nearest_, merge);
+    nearest_X_ = X_BA;
+    nearest_reach_ = reach;
+    nearest_merge_ = merge;
+  }
+  minima = nearest_;
+}
+
+void ContactSearch::find_within(const RigidTransform& X_BA,
+                                double reach,
+                                std::vector<GapMinimum>& minima,
+                                double merge) {
+  for (double cutoff = spacing_;; cutoff *= 4) {
+    find(X_BA, std::min(cutoff, reach), minima, merge);
+    if (!minima.empty() || cutoff >= reach) return;
+  }
+}
+
+}  // namespace condyle

@@ -1,0 +1,193 @@
+#pragma once
+
+/// Where two surfaces come near each other: all local minima of the gap between them at a given
+/// pose.
+///
+/// Both surfaces of the pair are covered with samples (surface_cover.h). The samples of one hang in
+/// a tree of clusters: with an osculating quadric of the other surface near a cluster the gap over
+/// all of it is bounded from below, and so it is over the cell of a single sample. Clusters and
+/// samples whose bound stays above the cutoff are passed over, and so are those within a ball about
+/// a known contact in which the surfaces are shown to be apart (bending.h). Samples that are left
+/// and nearer than all their neighbours, or lead to an overlap of their own by the paraboloid of
+/// the gap (gap_paraboloid.h), are refined by Newton on the contact conditions at a fixed pose. No
+/// pose is trusted that this search has not seen.
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "condyle/contact/bending.h"
+#include "condyle/contact/contact_pair.h"
+#include "condyle/math/rigid_transform.h"
+
+namespace condyle {
+
+/// A local minimum of the gap, or, where the refinement did not settle, the lowest sample.
+struct GapMinimum {
+  Place on_B, on_A;
+  double gap = 0;              ///< [mm], < 0 overlap
+  Eigen::Vector3d point_B, n;  ///< point and normal on B, ground frame
+  bool refined = false;  ///< normals parallel, an isolated minimum (relative curvature positive)
+  double edge = 0;       ///< smaller of the two edge distances [mm]
+};
+
+/// A contact that has been solved already: gap zero, normals opposite.
+struct KnownContact {
+  Eigen::Vector3d on_B, on_A;  ///< the point in either body's frame [mm]
+  Eigen::Matrix3d K_B, K_A;    ///< curvature tensors there, each in its body's frame [1/mm]
+  double least_curvature = 0;  ///< smaller principal relative curvature [1/mm]
+};
+
+/// What does not change of the searches of one pair, shared by all of them.
+struct ContactCover {
+  /// `wanted`: spacing of the samples [mm].
+  ContactCover(const ContactPair& pair, double wanted);
+
+  std::shared_ptr<const Surface> surface_B, surface_A;
+  double spacing;     ///< that can be afforded [mm]
+  bool sampled_on_A;  ///< the surface that takes fewer samples; one without bounds has none
+  SurfaceCover on_B, on_A;
+  bool lines;  ///< the surfaces may touch along a line (line_contact.h)
+};
+
+/// One for each pair.
+using ContactCovers = std::vector<std::shared_ptr<const ContactCover>>;
+
+/// A search is warm: it begins where it last was, and belongs to one thread.
+class ContactSearch {
+ public:
+  explicit ContactSearch(std::shared_ptr<const ContactCover> cover);
+  /// `spacing` of the samples [mm].
+  explicit ContactSearch(const ContactPair& pair, double spacing = 1.2)
+      : ContactSearch(std::make_shared<const ContactCover>(pair, spacing)) {}
+
+  /// As newly made. Allocates nothing.
+  void reset();
+
+  /// All minima with gap < cutoff [mm], lowest first; nearer than `merge` [mm] to a lower one are
+  /// left out, and so may be the known contacts.
+  void find(const RigidTransform& X_BA,
+            double cutoff,
+            std::vector<GapMinimum>& minima,
+            double merge = 0.3,
+            const std::vector<KnownContact>& known = {});
+
+  /// The same for the lowest minimum within `reach` [mm] and whatever else lies as low. Asked again
+  /// at the same pose it gives the same answer without a search.
+  void find_nearest(const RigidTransform& X_BA,
+                    double reach,
+                    std::vector<GapMinimum>& minima,
+                    double merge = 0.3);
+
+  /// False for a pair of surfaces without bounds: nothing can be searched there.
+  [[nodiscard]] bool has_samples() const { return sampled().size() > 0; }
+
+ private:
+  /// How far beyond the known part a minimum may lie, in sample spacings.
+  static constexpr double kBeyondEdge = 2;
+  /// Where the other surface is nearest to a point, kept from pose to pose.
+  struct Closest {
+    Place place = Place::Zero();
+    SurfacePoint at = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(),
+                       Eigen::Matrix<double, 3, 2>::Zero()};
+    int near = -1;       ///< sample of the other surface
+    bool known = false;  ///< `place` and `at` were found, at this or an earlier pose
+    bool close = false;  ///< by tangent steps, so the quadric there means something
+  };
+  /// A sample of the present pose.
+  struct Seen {
+    double gap = 0;         ///< [mm]
+    double error = 0;       ///< of it
+    double lower = 0;       ///< bound of the gap in its cell
+    int stamp = -1;         ///< pose at which it was computed
+    bool measured = false;  ///< to the closest point, not by a quadric nearby
+  };
+  /// A ball about a known contact in which the surfaces touch nowhere else.
+  struct Disc {
+    Eigen::Vector3d center;  ///< on the sampled surface, in its body's frame
+    double radius;           ///< [mm]
+  };
+
+  void find_within(const RigidTransform& X_BA,
+                   double reach,
+                   std::vector<GapMinimum>& minima,
+                   double merge);
+  void set_discs(const std::vector<KnownContact>& known);
+  /// What a sample tells about a cluster, before anything is fitted for it.
+  enum class Sight { kClear, kNotClear, kPerhaps };
+  [[nodiscard]] Sight look(const SurfaceCover::Cluster& cluster,
+                           const Eigen::Vector3d& p,
+                           const RigidTransform& X_from_to,
+                           double cutoff,
+                           int near) const;
+  [[nodiscard]] bool is_clear(int cluster, const RigidTransform& X_from_to, double cutoff);
+  bool visit(int cluster, const RigidTransform& X_from_to, double cutoff);
+  void estimate(int sample, int near, const RigidTransform& X_from_to);
+  void measure(int sample, const RigidTransform& X_from_to);
+  [[nodiscard]] Facing face(const Eigen::Vector3d& p, double r, Closest& closest);
+  [[nodiscard]] bool is_beside(const Eigen::Vector3d& p, double r, const Closest& closest) const;
+  [[nodiscard]] Facing face_closest(const Eigen::Vector3d& p, double r, Closest& closest);
+  void find_closest(const Eigen::Vector3d& p, double close, Closest& closest) const;
+  [[nodiscard]] bool is_lowest_of_neighbours(int sample) const;
+  [[nodiscard]] bool faces_known_part(int sample) const;
+  [[nodiscard]] bool nearly_faces_known_part(int sample) const;
+  [[nodiscard]] bool leads_elsewhere(int sample, const RigidTransform& X_BA, double cutoff) const;
+  void add_minimum(int sample,
+                   const RigidTransform& X_BA,
+                   double cutoff,
+                   bool lowest,
+                   std::vector<GapMinimum>& minima);
+  [[nodiscard]] RigidTransform from_to(const RigidTransform& X_BA) const;
+  [[nodiscard]] double edge_of(const Place& on_B, const Place& on_A) const;
+  [[nodiscard]] GapMinimum refine(int sample, const RigidTransform& X_BA) const;
+  [[nodiscard]] const SurfaceCover& sampled() const {
+    return sampled_on_A_ ? cover_->on_A : cover_->on_B;
+  }
+  [[nodiscard]] const SurfaceCover& other() const {
+    return sampled_on_A_ ? cover_->on_B : cover_->on_A;
+  }
+  [[nodiscard]] const Bending& bending_of_other() const {
+    return sampled_on_A_ ? bending_B_ : bending_A_;
+  }
+  [[nodiscard]] Bending& bending_of_other() { return sampled_on_A_ ? bending_B_ : bending_A_; }
+  [[nodiscard]] Seen& seen(int sample) { return seen_[static_cast<std::size_t>(sample)]; }
+  [[nodiscard]] const Seen& seen(int sample) const {
+    return seen_[static_cast<std::size_t>(sample)];
+  }
+  [[nodiscard]] Closest& closest(int sample) { return closest_[static_cast<std::size_t>(sample)]; }
+  [[nodiscard]] const Closest& closest(int sample) const {
+    return closest_[static_cast<std::size_t>(sample)];
+  }
+
+  std::shared_ptr<const ContactCover> cover_;
+  const Surface* on_B_;
+  const Surface* on_A_;
+  double spacing_;
+  bool sampled_on_A_;
+  double deepest_;  ///< overlap that is still taken for one [mm]
+  Bending::Radii shells_;
+  Bending bending_B_, bending_A_;
+  std::vector<Closest> closest_;          ///< to each sample
+  std::vector<Closest> cluster_closest_;  ///< to the centre of each cluster
+  std::vector<char> split_;               ///< the cluster's own bound was of no use the last time
+  std::vector<Seen> seen_;
+  std::vector<Disc> discs_;
+  int near_contact_B_ = -1, near_contact_A_ = -1;  ///< samples
+  std::vector<int> near_;                          ///< samples whose cell may reach the cutoff
+  std::vector<Eigen::Vector3d> found_;             ///< minima, in the frame of the other body
+  int now_ = 0;
+  std::vector<GapMinimum> nearest_;  ///< the last answer of find_nearest, and to what
+  RigidTransform nearest_X_;
+  double nearest_reach_ = -1, nearest_merge_ = -1;
+};
+
+/// Refines two places to a local minimum of the gap at a fixed pose: Newton on g tangential = 0, h
+/// = 0. False where it does not settle on an isolated minimum within `reach` [mm] of the start.
+bool refine_minimum(const Surface& on_B,
+                    Place& place_B,
+                    const Surface& on_A,
+                    Place& place_A,
+                    const RigidTransform& X_BA,
+                    double reach);
+
+}  // namespace condyle

@@ -1,0 +1,268 @@
+/// The bounds by which a search passes over most of its samples.
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "condyle/contact/contact_search.h"
+#include "condyle/contact/curvature_tensor.h"
+#include "condyle/math/simd.h"
+
+namespace condyle {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLargest = 40;     // radius of a cluster that is worth a look [sample spacings]
+constexpr double kDoubt = 0.05;     // of the curvatures: a paraboloid is that of a sample nearby
+constexpr double kSteep = 0.7;      // cosine between two normals below which quadrics say nothing
+constexpr double kWay = 1.05;       // a distance changes by no more than the way, a chord of it
+constexpr double kLeastRoom = 0.5;  // of 1 - gap × curvature, where closest points are unique
+constexpr double kCell = 1.5;    // how far beside a sample its quadric is used [radii of its cell]
+constexpr double kBeside = 0.3;  // of a radius: how far from its origin a quadric serves as well
+constexpr double kClose = 0.2;   // from a closest point, where its quadric is used [spacings]
+
+/// Signed distance of the point from the quadric.
+double gap_over(const Facing& facing) {
+  return facing.along - 0.5 * facing.beside.dot(facing.at->K * facing.beside);
+}
+
+/// A deepest point of s u + ½ q u² within |u| <= r, as a drop >= 0 (s >= 0).
+double drop_along(double s, double q, double r) {
+  return q > 0 && s < q * r ? s * s / (2 * q) : s * r - 0.5 * q * r * r;
+}
+
+/// By how much the gap may be lower than over the quadric at the point, where a surface with the
+/// normal n and the tensor K (in a frame turned by R), within r [mm] of the point, rises over its
+/// own quadric by ½ `bend` u²; infinite where the surfaces are too steep for that. With u in the
+/// tangent plane of that surface the gap changes by s·u + ½ uᵀ Q u; a direction in which it opens
+/// may be left to its own minimum.
+CONDYLE_FMA_CLONE
+double drop_within(const Facing& facing,
+                   const Eigen::Vector3d& n,
+                   const Eigen::Matrix3d& K,
+                   const Eigen::Matrix3d& R,
+                   double r,
+                   double bend) {
+  const SurfacePoint& at = *facing.at;
+  const Eigen::Vector3d up = at.n - at.K * facing.beside;
+  const double opposite = -up.dot(n);
+  if (opposite < kSteep) return kInfinity;
+  const Eigen::Vector3d slope = off_normal(up, n);
+  // The other surface departs from its quadric by ½ a (t + r)² at most; ½ a r² counts as curvature.
+  const double a = facing.bend, size = slope.norm();
+  const double s = size + a * facing.beside.norm();
+  const Eigen::Vector3d e1 = size > 0 ? Eigen::Vector3d(slope / size) : n.unitOrthogonal();
+  const Eigen::Vector3d e2 = n.cross(e1);
+  const Eigen::Vector3d own1 = R.transpose() * e1, own2 = R.transpose() * e2;
+  const Eigen::Vector3d K1 = opposite * (K * own1), B1 = at.K * e1;
+  const double q11 = -K1.dot(own1) - B1.dot(e1) - bend - a, q12 = -K1.dot(own2) - B1.dot(e2);
+  const double q22 = -opposite * own2.dot(K * own2) - e2.dot(at.K * e2) - bend - a;
+  const double half = 0.5 * (q11 - q22);
+  const double least = 0.5 * (q11 + q22) - std::sqrt(half * half + q12 * q12);
+  const double drop = drop_along(s, least, r);
+  if (q22 <= 0 || a > 0) return drop;
+  return std::min(drop, drop_along(s, q11 - q12 * q12 / q22, r));
+}
+
+}  // namespace
+
+/// About a contact the surfaces are apart as far, shell by shell, as its relative curvature
+/// outweighs what both rise over their quadrics, or as a paraboloid of revolution between them has
+/// both on its own sides.
+void ContactSearch::set_discs(const std::vector<KnownContact>& known) {
+  discs_.clear();
+  for (const KnownContact& contact : known) {
+    near_contact_B_ = cover_->on_B.nearest(contact.on_B, near_contact_B_);
+    near_contact_A_ = cover_->on_A.nearest(contact.on_A, near_contact_A_);
+    const double doubt = kDoubt * (contact.K_B.norm() + contact.K_A.norm());
+    const double shift = bending_B_.shift(near_contact_B_, contact.K_B) +
+                         bending_A_.shift(near_contact_A_, contact.K_A);
+    double radius = 0;
+    for (int level = 0; level < Bending::kLevels; ++level) {
+      const Rise B = bending_B_.in_shell(level, near_contact_B_, contact.K_B);
+      const Rise A = bending_A_.in_shell(level, near_contact_A_, contact.K_A);
+      if (!(B.over_quadric + A.over_quadric + shift < contact.least_curvature) &&
+          !(B.over_plane + A.over_plane + shift < -doubt))
+        break;
+      radius = shells_[static_cast<std::size_t>(level)];
+    }
+    if (radius > 0) discs_.push_back({sampled_on_A_ ? contact.on_A : contact.on_B, radius});
+  }
+}
+
+/// Tangent steps from the place that is known, or else from a seed, until the point closest to p is
+/// within `close` [mm].
+void ContactSearch::find_closest(const Eigen::Vector3d& p, double close, Closest& closest) const {
+  const Surface& surface = other().surface();
+  double slide = kInfinity;
+  for (int attempt = closest.known ? 0 : 1; attempt < 2 && slide > close; ++attempt) {
+    if (attempt == 1) {
+      closest.place = closest.near >= 0 ? other().place(closest.near) : surface.seed(p);
+      closest.at = surface.evaluate(closest.place);
+    }
+    for (int step = 0; step < 5 && slide > close; ++step) {
+      const Eigen::Vector3d beside = off_normal(p - closest.at.c, closest.at.n);
+      closest.place = surface.moved(closest.place, closest.at, beside);
+      closest.at = surface.evaluate(closest.place);
+      slide = off_normal(p - closest.at.c, closest.at.n).norm();
+    }
+  }
+  closest.known = true;
+  closest.close = slide <= close;
+  if (closest.close) return;
+  closest.place = surface.closest(p, surface.seed(p));
+  closest.at = surface.evaluate(closest.place);
+}
+
+/// Where a surface bends evenly, a quadric of an earlier pose serves as well, not far beside.
+bool ContactSearch::is_beside(const Eigen::Vector3d& p, double r, const Closest& closest) const {
+  if (!closest.close || !other().bends_evenly()) return false;
+  const double reach = kBeside * r;
+  return off_normal(p - closest.at.c, closest.at.n).squaredNorm() < reach * reach;
+}
+
+/// Point p over the quadric at its closest point.
+Facing ContactSearch::face_closest(const Eigen::Vector3d& p, double r, Closest& closest) {
+  if (!is_beside(p, r, closest)) find_closest(p, kClose * spacing_, closest);
+  Facing facing = over_quadric(closest.at, p);
+  facing.bend = kInfinity;
+  // Where no tangent steps lead to it, all that is known is the distance.
+  if (!closest.close) {
+    facing.along = std::copysign((p - closest.at.c).norm(), facing.along);
+    facing.beside.setZero();
+    return facing;
+  }
+  if (other().bends_evenly())
+    facing.bend = even_rise(facing.beside.norm() + r, closest.at.K).over_quadric;
+  else if (closest.near >= 0)
+    facing.bend = other().cell_change(closest.near);
+  return facing;
+}
+
+/// Point p, whose nearest sample is known, over a quadric of the other surface that serves as far
+/// as r [mm] about its closest point: that of a cluster, or where there is none, of the closest
+/// point itself.
+Facing ContactSearch::face(const Eigen::Vector3d& p, double r, Closest& closest) {
+  if (closest.near >= 0) {
+    const Facing facing = bending_of_other().facing(p, r, closest.near);
+    if (facing.at) return facing;
+  }
+  return face_closest(p, r, closest);
+}
+
+/// By the quadric of the sample nearest to the centre p: clear by the way alone, or not to be shown
+/// clear by a quadric like this one.
+ContactSearch::Sight ContactSearch::look(const SurfaceCover::Cluster& cluster,
+                                         const Eigen::Vector3d& p,
+                                         const RigidTransform& X_from_to,
+                                         double cutoff,
+                                         int near) const {
+  Facing facing = bending_of_other().facing_cell(p, near);
+  const double r = cluster.cell.radius, cell = kCell * other().cell_radius(near);
+  const double square = facing.beside.squaredNorm();
+  const double far = cutoff + kWay * (r + cell) + kBeyondEdge * spacing_;
+  if (facing.along > 0 && square + facing.along * facing.along > far * far) return Sight::kClear;
+  if (square > cell * cell) return Sight::kPerhaps;
+  const double gap = gap_over(facing);
+  if (gap - facing.error - kWay * r > cutoff) return Sight::kClear;
+  if (gap < cutoff && gap > -deepest_) return Sight::kNotClear;
+  facing.bend = 0;
+  const SurfacePoint& center = cluster.cell.at;
+  const double drop = drop_within(facing, X_from_to.R * center.n, center.K, X_from_to.R, r, 0);
+  return gap - drop < cutoff ? Sight::kNotClear : Sight::kPerhaps;
+}
+
+/// Is the whole cluster shown to stay above the cutoff, by the way to its centre or by a quadric?
+bool ContactSearch::is_clear(int index, const RigidTransform& X_from_to, double cutoff) {
+  const SurfaceCover::Cluster& cluster = sampled().cluster(index);
+  const SurfacePoint& center = cluster.cell.at;
+  const double r = cluster.cell.radius;
+  const Eigen::Vector3d p = X_from_to * center.c;
+  Closest& closest = cluster_closest_[static_cast<std::size_t>(index)];
+  if (!other().bends_evenly()) closest.near = other().nearest(p, closest.near);
+  if (closest.near >= 0) {
+    const Sight sight = look(cluster, p, X_from_to, cutoff, closest.near);
+    if (sight != Sight::kPerhaps) return sight == Sight::kClear;
+  }
+  const Facing facing = face(p, r, closest);
+  const double gap = gap_over(facing), way = kWay * r + facing.error;
+  if (gap - way > cutoff || gap + way < -deepest_) return true;
+  if (facing.at == &closest.at) {
+    // Beyond an edge they face nothing.
+    const double room = 1 - std::abs(gap) * closest.at.K.norm();
+    const double edge = other().surface().edge_distance(closest.place);
+    if (edge < -way / std::max(room, kLeastRoom) - kBeyondEdge * spacing_) return true;
+    if (!closest.close) return false;
+  }
+  const double drop = drop_within(facing, X_from_to.R * center.n, center.K, X_from_to.R, r, 0);
+  return gap - facing.error - kWay * cluster.cell.rise - drop > cutoff;
+}
+
+/// True where the cluster's own bound shows it to be clear. One that was not goes straight to its
+/// children until both of them are.
+bool ContactSearch::visit(int index, const RigidTransform& X_from_to, double cutoff) {
+  const SurfaceCover::Cluster& cluster = sampled().cluster(index);
+  const Eigen::Vector3d& center = cluster.cell.at.c;
+  for (const Disc& disc : discs_) {
+    const double room = disc.radius - cluster.cell.radius;
+    if (room > 0 && (center - disc.center).squaredNorm() < room * room) return true;
+  }
+  char& split = split_[static_cast<std::size_t>(index)];
+  if (!split && cluster.cell.radius < kLargest * spacing_ && is_clear(index, X_from_to, cutoff))
+    return true;
+  if (cluster.child[0] < 0) {
+    const int near = cluster_closest_[static_cast<std::size_t>(index)].near;
+    for (int k = cluster.first; k < cluster.last; ++k) {
+      const int sample = sampled().in_order(k);
+      estimate(sample, near, X_from_to);
+      const Seen& now = seen(sample);
+      if (now.stamp == now_ && now.lower < cutoff && now.gap > -deepest_) near_.push_back(sample);
+    }
+    return false;
+  }
+  const bool first = visit(cluster.child[0], X_from_to, cutoff);
+  const bool second = visit(cluster.child[1], X_from_to, cutoff);
+  split = !(first && second);
+  return false;
+}
+
+/// The gap at a sample, and how low it may be in its cell, by the quadric of the nearest sample of
+/// the other surface.
+void ContactSearch::estimate(int sample, int near, const RigidTransform& X_from_to) {
+  const SurfacePoint& own = sampled().sample(sample);
+  const Eigen::Vector3d p = X_from_to * own.c;
+  const double r = sampled().cell_radius(sample);
+  Closest& there = closest(sample);
+  Facing facing;
+  if (!other().bends_evenly() && other().size() > 0) {
+    there.near = other().nearest(p, there.near >= 0 ? there.near : near);
+    if (there.near < 0) return;  // beyond the edge of the other surface
+    facing = bending_of_other().facing_cell(p, there.near);
+    const double cell = kCell * other().cell_radius(there.near);
+    if (facing.beside.squaredNorm() > cell * cell) facing.at = nullptr;
+  }
+  Seen& now = seen(sample);
+  now.measured = !facing.at;
+  now.stamp = now_;
+  if (now.measured) facing = face_closest(p, r, there);
+  now.gap = gap_over(facing);
+  now.error = facing.error;
+  now.lower = now.gap - facing.error - kWay * r;
+  if (now.lower > 0) return;
+  const double drop = drop_within(facing, X_from_to.R * own.n, own.K, X_from_to.R, r,
+                                  sampled().cell_change(sample));
+  if (now.gap - drop > now.lower) now.lower = now.gap - drop;
+}
+
+/// To its closest point.
+void ContactSearch::measure(int sample, const RigidTransform& X_from_to) {
+  Seen& now = seen(sample);
+  if (now.measured) return;
+  now.gap = gap_over(face_closest(X_from_to * sampled().sample(sample).c, 0, closest(sample)));
+  now.error = 0;
+  now.measured = true;
+}
+
+}  // namespace condyle

@@ -1,0 +1,216 @@
+#include "condyle/contact/line_contact.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace condyle {
+namespace {
+
+constexpr double kLongest = 1e4;    // of a line, in sample spacings
+constexpr double kAligned = 0.05;   // sine between normals below which curvatures mean something
+constexpr double kFound = 1e-10;    // how exactly an end is found [mm]
+constexpr double kStraight = 1e-6;  // curvature of a straight line, in units of 1/spacing
+
+/// One of the two tangential principal curvatures vanishes.
+bool is_straight_at(const SurfacePoint& point, double spacing) {
+  const Eigen::Vector3d x = point.n.unitOrthogonal(), y = point.n.cross(x);
+  const double xx = x.dot(point.K * x), xy = x.dot(point.K * y), yy = y.dot(point.K * y);
+  const double mean = (xx + yy) / 2, spread = std::hypot((xx - yy) / 2, xy);
+  return std::min(std::abs(mean - spread), std::abs(mean + spread)) < kStraight / spacing;
+}
+
+bool is_ruled(const Surface& surface, double spacing) {
+  std::vector<Place> places = surface.samples(4 * spacing);
+  if (places.empty())
+    for (int k = 0; k < 3; ++k) places.push_back(surface.seed(spacing * Eigen::Vector3d(1, k, 2)));
+  const auto straight = std::count_if(places.begin(), places.end(), [&](const Place& place) {
+    return is_straight_at(surface.evaluate(place), spacing);
+  });
+  return 2 * static_cast<std::size_t>(straight) > places.size();
+}
+
+/// The pair of places that lies t [mm] along a line.
+class Line {
+ public:
+  Line(const Surface& on_B,
+       const Place& place_B,
+       const Surface& on_A,
+       const Place& place_A,
+       const ContactLinearization& at,
+       const Eigen::Vector3d& direction,
+       const RigidTransform& X_BA)
+      : on_B_(on_B), on_A_(on_A), place_B_(place_B), place_A_(place_A), B_(at.B), A_(at.A) {
+    direction_B_ = direction;
+    direction_A_ = X_BA.R.transpose() * (direction - direction.dot(at.m) * at.m).normalized();
+  }
+  [[nodiscard]] Place on_B(double t) const { return on_B_.moved(place_B_, B_, t * direction_B_); }
+  [[nodiscard]] Place on_A(double t) const { return on_A_.moved(place_A_, A_, t * direction_A_); }
+  /// The parallel line through two other places.
+  [[nodiscard]] Line from(const Place& place_B, const Place& place_A) const {
+    Line line = *this;
+    line.place_B_ = place_B;
+    line.place_A_ = place_A;
+    line.B_ = on_B_.evaluate(place_B);
+    line.A_ = on_A_.evaluate(place_A);
+    return line;
+  }
+  /// Distance of both places from the edges of their surfaces.
+  [[nodiscard]] double within(double t) const {
+    return std::min(on_B_.edge_distance(on_B(t)), on_A_.edge_distance(on_A(t))) - kWithinEdge;
+  }
+
+ private:
+  const Surface& on_B_;
+  const Surface& on_A_;
+  Place place_B_, place_A_;
+  SurfacePoint B_, A_;
+  Eigen::Vector3d direction_B_, direction_A_;
+};
+
+/// Some t within both surfaces near 0; samples on an edge lie a little beyond it.
+bool find_within(const Line& line, double spacing, double& t) {
+  t = 0;
+  if (line.within(t) > 0) return true;
+  for (double step = 1e-8; step < 2 * spacing; step *= 4)
+    for (const double sign : {1.0, -1.0})
+      if (line.within(t = sign * step) > 0) return true;
+  return false;
+}
+
+/// The last t within both surfaces in one direction, by the Illinois rule.
+bool find_end(const Line& line, double start, double sign, double spacing, double& end) {
+  double way = spacing;
+  double in = start;
+  while (line.within(start + sign * way) > 0) {
+    in = start + sign * way;
+    if ((way *= 2) > kLongest * spacing) return false;
+  }
+  double out = start + sign * way;
+  double f_in = line.within(in), f_out = line.within(out);
+  for (int side = 0, k = 0; k < 200 && f_in > kFound && std::abs(out - in) > kFound; ++k) {
+    const double middle = std::isfinite(f_in) && std::isfinite(f_out)
+                              ? (in * f_out - out * f_in) / (f_out - f_in)
+                              : 0.5 * (in + out);
+    const double f = line.within(middle);
+    if (f >= 0) {
+      in = middle;
+      f_in = f;
+      if (side == 1) f_out /= 2;
+      side = 1;
+    } else {
+      out = middle;
+      f_out = f;
+      if (side == -1) f_in /= 2;
+      side = -1;
+    }
+  }
+  end = in;
+  return true;
+}
+
+}  // namespace
+
+GapMinimum settle_across(const Surface& on_B,
+                         Place place_B,
+                         const Surface& on_A,
+                         Place place_A,
+                         const RigidTransform& X_BA) {
+  GapMinimum end;
+  for (int k = 0;; ++k) {
+    const ContactLinearization at = linearize_contact(on_B, place_B, on_A, place_A, X_BA);
+    const Eigen::Vector3d beside = at.g - at.gap() * at.B.n;
+    const Eigen::Vector3d dc = at.D0(), dc_A = dc - beside;
+    const double slide = std::max(dc.norm(), dc_A.norm());
+    end.point_B = at.B.c;
+    end.n = at.B.n;
+    end.gap = at.gap();
+    end.refined = at.h.norm() < kAligned;
+    if (k == 12 || slide < 1e-13 * (1 + at.B.c.norm())) break;
+    const double shorter = std::min(1.0, 0.5 / (slide * at.relative_curvature[1]));
+    place_B = on_B.moved(place_B, at.B, shorter * dc);
+    place_A = on_A.moved(place_A, at.A, X_BA.R.transpose() * (shorter * dc_A));
+  }
+  end.on_B = place_B;
+  end.on_A = place_A;
+  end.edge = std::min(on_B.edge_distance(place_B), on_A.edge_distance(place_A));
+  return end;
+}
+
+bool have_straight_lines(const Surface& on_B, const Surface& on_A, double spacing) {
+  return is_ruled(on_B, spacing) && is_ruled(on_A, spacing);
+}
+
+bool is_line(const ContactLinearization& contact, const Eigen::Matrix3d& R_BA) {
+  const auto [least, greatest] = contact.relative_curvature;
+  if (!(greatest > kFlatCurvature) || contact.B.n.dot(contact.m) > -0.5) return false;
+  const double flat = std::max(kFlatCurvature, kFlatAtEdge * greatest);
+  if (std::abs(least) > flat) return false;
+  const Eigen::Vector3d e = direction_of_least_curvature(contact, R_BA);
+  return std::abs(e.dot(contact.B.K * e)) < flat;
+}
+
+namespace {
+
+/// The end of a line near two places, settled across the line and back at the edge.
+GapMinimum settled_end(const Surface& on_B,
+                       const Surface& on_A,
+                       const Line& line,
+                       double t,
+                       double outwards,
+                       const RigidTransform& X_BA) {
+  GapMinimum end = settle_across(on_B, line.on_B(t), on_A, line.on_A(t), X_BA);
+  for (int k = 0; k < 8; ++k) {
+    const double beside = end.edge - kWithinEdge;
+    if (std::abs(beside) < kFound) break;
+    const Line here = line.from(end.on_B, end.on_A);
+    end =
+        settle_across(on_B, here.on_B(outwards * beside), on_A, here.on_A(outwards * beside), X_BA);
+  }
+  return end;
+}
+
+}  // namespace
+
+bool find_line_ends(const Surface& on_B,
+                    const Place& place_B,
+                    const Surface& on_A,
+                    const Place& place_A,
+                    const RigidTransform& X_BA,
+                    double spacing,
+                    std::array<GapMinimum, 2>& ends) {
+  const ContactLinearization at = linearize_contact(on_B, place_B, on_A, place_A, X_BA);
+  if (!is_line(at, X_BA.R)) return false;
+  const Line line(on_B, place_B, on_A, place_A, at, direction_of_least_curvature(at, X_BA.R), X_BA);
+  double start = 0;
+  if (!find_within(line, spacing, start)) return false;
+  for (const int k : {0, 1}) {
+    double t = 0;
+    const double outwards = k == 0 ? -1 : 1;
+    if (!find_end(line, start, outwards, spacing, t)) return false;
+    ends[static_cast<std::size_t>(k)] = settled_end(on_B, on_A, line, t, outwards, X_BA);
+  }
+  if (ends[1].gap < ends[0].gap) std::swap(ends[0], ends[1]);
+  return true;
+}
+
+bool add_line_ends(const Surface& on_B,
+                   const Surface& on_A,
+                   const RigidTransform& X_BA,
+                   const GapMinimum& minimum,
+                   double spacing,
+                   double cutoff,
+                   std::vector<GapMinimum>& minima) {
+  std::array<GapMinimum, 2> ends;
+  if (!find_line_ends(on_B, minimum.on_B, on_A, minimum.on_A, X_BA, spacing, ends)) return false;
+  for (const GapMinimum& end : ends)
+    if (end.gap < cutoff) minima.push_back(end);
+  // Where the surfaces cross a little, the lowest point between the ends counts as well.
+  constexpr double kLower = 1e-9;
+  return !minimum.refined || minimum.gap > ends[0].gap - kLower;
+}
+
+}  // namespace condyle

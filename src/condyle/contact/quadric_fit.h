@@ -1,0 +1,31 @@
+#pragma once
+
+/// A quadric through a piece of surface, and how far the surface may rise over it.
+///
+/// Where a surface is rough its osculating quadric says little beyond a wave: curvatures of 0.04
+/// per mm in waves of 5 mm are heights of 0.025 mm. A quadric with the mean curvature of a piece
+/// departs from it by such heights alone.
+
+#include <vector>
+
+#include "condyle/surface/surface.h"
+
+namespace condyle {
+
+/// A piece of surface about a point.
+struct SurfaceCell {
+  SurfacePoint at;    ///< c, n and K of its quadric
+  double radius = 0;  ///< [mm]
+  double rise = 0;    ///< of the surface over the quadric, greatest [mm]
+};
+
+/// The mean quadric of the cells near `about`; `radius` holds all of them and `rise` is that of all
+/// of them, infinite where the surface turns by more than 60 degrees.
+[[nodiscard]] SurfaceCell fit_mean(const SurfacePoint& about,
+                                   const std::vector<const SurfaceCell*>& cells);
+
+/// The same, or the quadric at `about` where the cells rise less over it.
+[[nodiscard]] SurfaceCell fit_quadric(const SurfacePoint& about,
+                                      const std::vector<const SurfaceCell*>& cells);
+
+}  // namespace condyle

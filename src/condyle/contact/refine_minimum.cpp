@@ -1,0 +1,56 @@
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+
+#include "condyle/contact/contact.h"
+#include "condyle/contact/contact_search.h"
+
+namespace condyle {
+namespace {
+
+/// How far the point slides towards the minimum: by Newton, or, where the gap bends downwards along
+/// a direction, downhill along it, so that no saddle attracts.
+Eigen::Vector3d slide_downhill(const ContactLinearization& contact, const RigidTransform& X_BA) {
+  if (contact.relative_curvature[0] > -kFlatCurvature) return contact.D0();
+  const Eigen::Matrix<double, 3, 2>& T = contact.T;
+  const Eigen::Matrix<double, 3, 2> Kr_T = X_BA.R * (contact.A.K * (X_BA.R.transpose() * T));
+  const Eigen::Matrix2d Q = T.transpose() * (contact.K_T + Kr_T);
+  const Eigen::Vector2d mismatch = T.transpose() * contact.h + Kr_T.transpose() * contact.g;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(Q);
+  const Eigen::Vector2d size = principal.eigenvalues().cwiseAbs();
+  const Eigen::Vector2d bend = size.cwiseMax(0.02 * size.maxCoeff());
+  const Eigen::Matrix2d& V = principal.eigenvectors();
+  return -(T * (V * (V.transpose() * mismatch).cwiseQuotient(bend)));
+}
+
+}  // namespace
+
+bool refine_minimum(const Surface& on_B,
+                    Place& place_B,
+                    const Surface& on_A,
+                    Place& place_A,
+                    const RigidTransform& X_BA,
+                    double reach) {
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    const ContactLinearization contact = linearize_contact(on_B, place_B, on_A, place_A, X_BA);
+    if (iteration == 0) start = contact.B.c;
+    if (!contact.g.allFinite() || (contact.B.c - start).norm() > reach) return false;
+    // At a finite gap only the tangential part of g is an error.
+    const Eigen::Vector3d along = contact.gap() * contact.B.n;
+    const double slide = (contact.g - along).norm() + contact.h.norm() / 0.05;
+    if (slide < 1e-11) return contact.relative_curvature[0] > 0;
+    Eigen::Vector3d dc = slide_downhill(contact, X_BA);
+    Eigen::Vector3d dc_A = dc - (contact.g - along);
+    const double longest = std::max(dc.norm(), dc_A.norm());
+    if (longest > reach) {
+      dc *= reach / longest;
+      dc_A *= reach / longest;
+    }
+    place_B = on_B.moved(place_B, contact.B, dc);
+    place_A = on_A.moved(place_A, contact.A, X_BA.R.transpose() * dc_A);
+  }
+  return false;
+}
+
+}  // namespace condyle

@@ -1,0 +1,40 @@
+#pragma once
+
+/// What an attempt to solve a pose leaves behind, whether it succeeds or not.
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "condyle/equilibrium/descent.h"
+#include "condyle/equilibrium/newton.h"
+#include "condyle/equilibrium/work.h"
+
+namespace condyle {
+
+/// An equilibrium off the known surfaces: a contact lies beyond an edge, or an open pair is not
+/// over each other.
+struct OffSurfaces {
+  EquilibriumState state;
+  double beyond = std::numeric_limits<double>::infinity();  ///< farthest beyond an edge [mm]
+  int contact = -1;  ///< of the state that lies there; -1 for an open pair
+};
+
+struct Attempt {
+  Work most;              ///< after which nothing more is begun
+  Work spent;             ///< over the whole attempt
+  NewtonReport newton;    ///< the last
+  DescentReport descent;  ///< the last
+  int zero_element = -1;  ///< that had no length on the way from the pose before
+  int passed_pair = -1;   ///< whose surfaces had passed through each other
+  double depth = 0;       ///< by which they had [mm]
+  /// Of those met with the values asked for the one least beyond an edge.
+  std::optional<OffSurfaces> off;
+  /// The first one met on the way to those values, else the last one the solver told of.
+  std::optional<OffSurfaces> off_on_the_way;
+  /// From where the descent has been tried in vain with the values asked for.
+  std::vector<RigidTransform> descended_from;
+  std::optional<RigidTransform> other;  ///< a second position of equilibrium at the same values
+};
+
+}  // namespace condyle

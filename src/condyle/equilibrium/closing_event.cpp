@@ -1,0 +1,54 @@
+#include "condyle/equilibrium/closing_event.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/contact/contact_scales.h"
+#include "condyle/contact/contact_search.h"
+
+namespace condyle {
+namespace {
+
+/// Does the state carry at that place of that pair?
+bool carries_at(const Model& model, const EquilibriumState& state, const ClosedContact& contact) {
+  const Surface& on_B = *model.pairs[static_cast<std::size_t>(contact.pair)].on_B;
+  const Eigen::Vector3d point = on_B.evaluate(contact.on_B).c;
+  return std::any_of(state.contacts.begin(), state.contacts.end(), [&](const ClosedContact& c) {
+    return c.pair == contact.pair &&
+           (on_B.evaluate(c.on_B).c - point).norm() < kMerge * model.length;
+  });
+}
+
+/// The lowest gap near the places of a contact, at another pose [mm].
+std::optional<double> gap_near(const Model& model,
+                               const ClosedContact& contact,
+                               const RigidTransform& X_BA) {
+  const ContactPair& pair = model.pairs[static_cast<std::size_t>(contact.pair)];
+  Place on_B = contact.on_B, on_A = contact.on_A;
+  if (!refine_minimum(*pair.on_B, on_B, *pair.on_A, on_A, X_BA, 0.1 * model.length))
+    return std::nullopt;
+  const SurfacePoint B = pair.on_B->evaluate(on_B);
+  return B.n.dot(X_BA * pair.on_A->evaluate(on_A).c - B.c);
+}
+
+}  // namespace
+
+std::optional<double> closing_value(const Model& model,
+                                    const SolvedPose& earlier,
+                                    const SolvedPose& before,
+                                    const SolvedPose& after) {
+  const double step = before.value - earlier.value;
+  std::optional<double> nearest;
+  for (const ClosedContact& contact : after.state.contacts) {
+    if (carries_at(model, before.state, contact)) continue;
+    const std::optional<double> first = gap_near(model, contact, earlier.state.X);
+    const std::optional<double> last = gap_near(model, contact, before.state.X);
+    if (!first || !last || !(*first > *last)) continue;
+    const double way = *last / (*first - *last) * step;
+    if (std::abs(way) > std::abs(step)) continue;
+    if (!nearest || std::abs(way) < std::abs(*nearest - before.value)) nearest = before.value + way;
+  }
+  return nearest;
+}
+
+}  // namespace condyle

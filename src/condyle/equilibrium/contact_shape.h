@@ -1,0 +1,57 @@
+#pragma once
+
+/// What kind of place two surfaces touch in, and what rigid contact cannot say about it.
+
+#include <optional>
+#include <string>
+
+#include "condyle/contact/line_contact.h"
+#include "condyle/equilibrium/newton.h"
+#include "condyle/equilibrium/pose_result.h"
+
+namespace condyle {
+
+enum class Touch {
+  kPoint,             ///< isolated
+  kLine,              ///< straight, with two ends
+  kEndlessLine,       ///< round a ring, or along a cylinder without ends
+  kConforming,        ///< over an area
+  kInterpenetrating,  ///< the gap is lower beside the point
+};
+
+struct TouchReport {
+  Touch kind = Touch::kPoint;
+  std::array<GapMinimum, 2> ends;  ///< kLine
+};
+
+/// Of a point of contact that is solved: gap zero, normals opposite. `L` is the model's length.
+[[nodiscard]] TouchReport examine_touch(const ContactPair& pair,
+                                        const ContactLinearization& contact,
+                                        const Place& on_B,
+                                        const Place& on_A,
+                                        const RigidTransform& X_BA,
+                                        double L);
+
+/// A sentence and a status where no pose with such a contact may be called converged.
+struct Objection {
+  PoseStatus status;
+  std::string reason;
+};
+[[nodiscard]] std::optional<Objection> objection(Touch kind, const std::string& contact);
+
+/// The resultant of a line contact lies beyond an end.
+[[nodiscard]] Objection tips_over(const std::string& contact);
+
+/// A pair whose surfaces, near each other, have the same curvature in every direction: a ball in a
+/// cup of its radius. Nothing says where they will touch.
+[[nodiscard]] std::optional<std::size_t> conforming_pair(const Model& model,
+                                                         std::vector<ContactSearch>& searches,
+                                                         const RigidTransform& X_BA);
+
+/// For a pose that was not solved: does some contact at the last pose that was tried conform, or
+/// stand on the end of its line? Then that is why. `searches`: one for each pair.
+[[nodiscard]] std::optional<Objection> objection_at(const Model& model,
+                                                    std::vector<ContactSearch>& searches,
+                                                    const RigidTransform& X_BA);
+
+}  // namespace condyle

@@ -1,0 +1,106 @@
+#include "condyle/equilibrium/dependence.h"
+
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/equilibrium/motion_name.h"
+#include "condyle/equilibrium/stability.h"
+
+namespace condyle {
+namespace {
+
+/// The pair whose two surfaces meet in a contact.
+const ContactPair& pair_of(const Model& model, const ContactLinearization& contact) {
+  const auto off = [&contact](const ContactPair& pair) {
+    const auto distance = [](const Surface& surface, const Eigen::Vector3d& p) {
+      return (surface.evaluate(surface.closest(p, surface.seed(p))).c - p).norm();
+    };
+    return distance(*pair.on_B, contact.B.c) + distance(*pair.on_A, contact.A.c);
+  };
+  return *std::min_element(
+      model.pairs.begin(), model.pairs.end(),
+      [&off](const ContactPair& a, const ContactPair& b) { return off(a) < off(b); });
+}
+
+/// 'conditions "a" and "b" and contact "c"': each name once.
+std::string name_constraints(const Model& model,
+                             const NewtonSystem& system,
+                             const std::vector<std::size_t>& constraints) {
+  std::vector<std::string> conditions, contacts;
+  const std::size_t n = system.contacts().size();
+  for (const std::size_t k : constraints) {
+    if (k >= n) {
+      conditions.push_back(quoted(model.condition_names[k - n]));
+      continue;
+    }
+    const std::string contact = quoted(pair_of(model, system.contacts()[k]).name);
+    if (std::find(contacts.begin(), contacts.end(), contact) == contacts.end())
+      contacts.push_back(contact);
+  }
+  std::vector<std::string> words;
+  const auto add = [&words](const char* one, const char* many,
+                            const std::vector<std::string>& names) {
+    if (!names.empty()) words.push_back((names.size() == 1 ? one : many) + joined(names));
+  };
+  add("condition ", "conditions ", conditions);
+  add("contact ", "contacts ", contacts);
+  return joined(words);
+}
+
+/// Signed distances by which the constraints are not met, contacts first [mm or rad, scaled as the
+/// unit directions are].
+double violation(const NewtonSystem& system, const Model& model, std::size_t k) {
+  const std::size_t n = system.contacts().size();
+  if (k < n) {
+    const ContactLinearization& contact = system.contacts()[k];
+    return contact.gap() / std::hypot(1.0, contact.arm.norm() / model.length);
+  }
+  const ConditionDerivatives& condition = system.conditions()[k - n];
+  return condition.k / std::hypot(condition.alpha.norm(), condition.eta.norm() / model.length);
+}
+
+}  // namespace
+
+Dependence find_dependence(const Model& model, const NewtonSystem& system) {
+  constexpr double kExact = 1e-9, kNear = 1e-4, kShare = 1e-3, kUnmet = 1e-6;
+  const std::size_t count = system.contacts().size() + system.conditions().size();
+  Eigen::MatrixXd columns(6, static_cast<Eigen::Index>(count));
+  for (std::size_t k = 0; k < count; ++k)
+    columns.col(static_cast<Eigen::Index>(k)) = constraint_direction(model, system, k);
+  if (count == 0 || !columns.allFinite()) return {};
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeFullV);
+  // Constraints that cannot all be met end where they oppose each other, as closely as the descent
+  // gets there.
+  const bool unmet = system.largest_distance() > kUnmet * model.length;
+  const double tolerance = (unmet ? kNear : kExact) * svd.singularValues()[0];
+  Dependence dependence;
+  for (Eigen::Index j = 0; j < svd.matrixV().cols(); ++j) {
+    if (j < svd.singularValues().size() && svd.singularValues()[j] > tolerance) continue;
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double share = svd.matrixV()(static_cast<Eigen::Index>(k), j);
+      sum += share * violation(system, model, k);
+      if (std::abs(share) > kShare) dependence.culprits.push_back(k);
+    }
+    dependence.contradiction |= std::abs(sum) > kUnmet * model.length;
+  }
+  std::vector<std::size_t>& culprits = dependence.culprits;
+  std::sort(culprits.begin(), culprits.end());
+  culprits.erase(std::unique(culprits.begin(), culprits.end()), culprits.end());
+  return dependence;
+}
+
+std::string in_words(const Model& model, const NewtonSystem& system, const Dependence& dependence) {
+  if (dependence.culprits.empty()) return {};
+  const std::string names = name_constraints(model, system, dependence.culprits);
+  if (dependence.culprits.size() == 1) return names + " prevents no motion here";
+  return names + " depend on each other" + (dependence.contradiction ? " and cannot all hold" : "");
+}
+
+std::string dependent_constraints(const Model& model, const NewtonSystem& system) {
+  return in_words(model, system, find_dependence(model, system));
+}
+
+}  // namespace condyle

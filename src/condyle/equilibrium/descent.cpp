@@ -1,0 +1,318 @@
+#include "condyle/equilibrium/descent.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/math/rotation.h"
+
+namespace condyle {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+constexpr std::size_t kMemorySize = 24;
+constexpr std::size_t kMostMinima = 12;  // of one pair
+constexpr double kNewtonReach = 0.05;  // a step shorter than this [L] is worth an attempt of Newton
+constexpr double kLeastReach = 1e-4;   // of a step [L]: below, nothing more is gained
+constexpr double kAtRest = 1e-6;       // nor where the programme asks for no more than this [L]
+
+/// X moved by a step in scaled components (da, L dπ).
+RigidTransform moved(const RigidTransform& X, const Vector6& step, double L) {
+  return {exp_rotation(step.tail<3>() / L) * X.R, X.p + step.head<3>()};
+}
+
+/// The step that leads from one pose to another.
+Vector6 step_between(const RigidTransform& from, const RigidTransform& to, double L) {
+  Vector6 step;
+  step << to.p - from.p, L * log_rotation(to.R * from.R.transpose());
+  return step;
+}
+
+}  // namespace
+
+Descent::Descent(const Model& model,
+                 std::vector<ContactSearch>& searches,
+                 Newton& newton,
+                 DescentOptions options)
+    : model_(model), searches_(searches), newton_(newton), options_(options) {}
+
+DescentReport Descent::solve(EquilibriumState& state,
+                             const Drive& drive,
+                             const Accept& accept,
+                             int most_steps,
+                             const Work& most) {
+  check_drive(drive, model_);
+  drive_ = &drive;
+  DescentReport report;
+  const Eigen::Vector3d origin = state.X.p;
+  start(state.X);
+  // Attempts of Newton's method within count as well.
+  while (report.steps < most_steps && report.spent.iterations < most.iterations &&
+         searches_made_ < most.searches && iterate(accept, report)) {
+    report.ran_away = (X_.p - origin).norm() > 50 * model_.length;
+    if (report.ran_away) break;
+  }
+  report.spent.searches = searches_made_;
+  state.X = X_;
+  if (report.converged) state = result_;
+  return report;
+}
+
+void Descent::start(const RigidTransform& X) {
+  X_ = X;
+  memory_.clear();
+  reach_ = options_.longest_step * model_.length;
+  penalty_ = 0;
+  patience_ = 0;
+  searches_made_ = 0;
+  has_forgotten_ = false;
+  refused_.reset();
+  gather(X_, constraints_);
+}
+
+/// Material points that are kept too long spoil the convergence: once more without them.
+bool Descent::start_anew() {
+  if (has_forgotten_ || memory_.empty()) return false;
+  has_forgotten_ = true;
+  memory_.clear();
+  gather(X_, constraints_);
+  reach_ = 0.1 * options_.longest_step * model_.length;
+  return true;
+}
+
+/// One quadratic programme and its step; false when there is nothing more to gain.
+bool Descent::iterate(const Accept& accept, DescentReport& report) {
+  ++report.steps;
+  ++report.spent.iterations;
+  const double L = model_.length;
+  Programme programme;
+  set_forces(programme);
+  set_rows(programme);
+  SmallQpSolution solution = solve_qp(programme.qp);
+  if (add_contact_curvature(programme, solution)) solution = solve_qp(programme.qp);
+  if (!solution.x.allFinite()) return false;
+  const Multipliers forces = multipliers(programme, solution);
+
+  const double full = solution.x.norm();
+  const bool settled = full < kNewtonReach * L && patience_-- <= 0;
+  if (settled || reach_ < kLeastReach * L) {
+    if (try_newton(forces, constraints_, accept, report)) return false;
+    patience_ = 2;
+    if (full < kAtRest * L) return false;
+  }
+  if (reach_ < kLeastReach * L) return start_anew();
+  const Vector6 step = full > reach_ ? step_within_reach(programme) : solution.x;
+  penalty_ = std::max(0.9 * penalty_, 1.5 * std::max(forces.largest, 0.1 * programme.force_scale));
+  remember(constraints_);
+  take_step(programme, step, report);
+  return true;
+}
+
+/// The programme for a step no longer than the reach: conditions and gaps are asked to close no
+/// farther than that, and the stiffness is raised until the step fits [Levenberg].
+Descent::Vector6 Descent::step_within_reach(Programme& programme) const {
+  SmallQp& qp = programme.qp;
+  const double demand = 0.7 * reach_;
+  if (qp.b.norm() > demand) qp.b *= demand / qp.b.norm();
+  qp.d = qp.d.cwiseMin(demand);
+  Vector6 step = solve_qp(qp).x;
+  qp.floor = std::max(qp.floor, 1e-2 * programme.stiffness_scale);
+  for (int k = 0; k < 12 && step.norm() > 1.1 * reach_; ++k) {
+    qp.floor *= 4;
+    step = solve_qp(qp).x;
+  }
+  if (step.norm() > reach_) step *= reach_ / step.norm();
+  return step;
+}
+
+Descent::Constraint Descent::constrain(int pair,
+                                       const Place& on_B,
+                                       const Place& on_A,
+                                       const RigidTransform& X) const {
+  const SurfacePoint B = model_.pairs[pair].on_B->evaluate(on_B);
+  const Eigen::Vector3d s = X.R * model_.pairs[pair].on_A->evaluate(on_A).c;
+  Constraint constraint{pair, on_B, on_A, B.n.dot(X.p + s - B.c), Vector6(), false, false};
+  constraint.row << B.n, s.cross(B.n) / model_.length;
+  return constraint;
+}
+
+void Descent::gather(const RigidTransform& X, std::vector<Constraint>& constraints) {
+  constraints.clear();
+  const double L = model_.length;
+  // The next step is at most twice as long as this one's reach, and must not pass through anything.
+  const double ahead = 2 * std::max(kNewtonReach * L, 2 * reach_);
+  for (int p = 0; p < static_cast<int>(model_.pairs.size()); ++p) {
+    const ContactMode mode = model_.pairs[p].mode;
+    if (mode == ContactMode::kOpen) continue;
+    const bool held = mode == ContactMode::kClosed;
+    searches_[p].find(X, held ? 20 * L : ahead, minima_, 0.003 * L);
+    ++searches_made_;
+    minima_.resize(std::min(minima_.size(), held ? 1 : kMostMinima));
+    const std::size_t first = constraints.size();
+    for (const GapMinimum& minimum : minima_) {
+      constraints.push_back(constrain(p, minimum.on_B, minimum.on_A, X));
+      constraints.back().refined = minimum.refined;
+      constraints.back().bilateral = held;
+    }
+    if (!held) add_memory(p, first, X, constraints);
+  }
+}
+
+void Descent::add_memory(int pair,
+                         std::size_t first,
+                         const RigidTransform& X,
+                         std::vector<Constraint>& constraints) {
+  const Surface& on_A = *model_.pairs[pair].on_A;
+  const Surface& on_B = *model_.pairs[pair].on_B;
+  for (const auto& [owner, place] : memory_) {
+    if (owner != pair) continue;
+    const Eigen::Vector3d point = X * on_A.evaluate(place).c;
+    const Place foot = on_B.closest(point, on_B.seed(point));
+    if (on_B.edge_distance(foot) < 0) continue;
+    const bool isolated =
+        std::all_of(constraints.begin() + static_cast<std::ptrdiff_t>(first), constraints.end(),
+                    [&](const Constraint& c) {
+                      return (X * on_A.evaluate(c.on_A).c - point).norm() > 0.01 * model_.length;
+                    });
+    const Constraint constraint = constrain(pair, foot, place, X);
+    if (isolated && constraint.gap < 2 * options_.longest_step * model_.length) {
+      constraints.push_back(constraint);
+    }
+  }
+}
+
+void Descent::remember(const std::vector<Constraint>& constraints) {
+  for (const Constraint& constraint : constraints) {
+    if (constraint.bilateral || !constraint.refined || constraint.gap > 0.02 * model_.length)
+      continue;
+    const Surface& on_A = *model_.pairs[constraint.pair].on_A;
+    const Eigen::Vector3d c = on_A.evaluate(constraint.on_A).c;
+    const bool known = std::any_of(memory_.begin(), memory_.end(), [&](const auto& entry) {
+      return entry.first == constraint.pair &&
+             (on_A.evaluate(entry.second).c - c).norm() < 0.02 * model_.length;
+    });
+    if (known) continue;
+    if (memory_.size() == kMemorySize) memory_.erase(memory_.begin());
+    memory_.emplace_back(constraint.pair, constraint.on_A);
+  }
+}
+
+double Descent::violation(const std::vector<Constraint>& constraints,
+                          const RigidTransform& X) const {
+  double sum = 0;
+  for (const Constraint& constraint : constraints)
+    sum += constraint.bilateral ? std::abs(constraint.gap) : std::max(0.0, -constraint.gap);
+  for (std::size_t i = 0; i < model_.conditions.size(); ++i)
+    sum += condition_weight(model_, i) * std::abs(condition(i, X).k);
+  return sum;
+}
+
+double Descent::energy_change(const RigidTransform& from, const RigidTransform& to) const {
+  double change = 0;
+  for (const LineElement& element : parameters().elements)
+    change += line_element_state(element, to).energy - line_element_state(element, from).energy;
+  Wrench before, after;
+  for (std::size_t i = 0; i < parameters().loads.size(); ++i) {
+    add_load(parameters().loads[i], drive_->scales[i], from, before);
+    add_load(parameters().loads[i], drive_->scales[i], to, after);
+  }
+  const Vector6 mean =
+      0.5 * (scaled_wrench(before, model_.length) + scaled_wrench(after, model_.length));
+  return change - mean.dot(step_between(from, to, model_.length));
+}
+
+/// Second-order correction: the same programme with the rows and gaps found at the end of the step.
+Vector6 Descent::corrected_step(const Programme& programme,
+                                const Vector6& step,
+                                const RigidTransform& to,
+                                const std::vector<Constraint>& there) const {
+  SmallQp qp = programme.qp;
+  for (std::size_t i = 0; i < model_.conditions.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    qp.b[row] = qp.C.row(row).dot(step) - condition_weight(model_, i) * condition(i, to).k;
+  }
+  qp.A.resize(static_cast<Eigen::Index>(there.size()), 6);
+  qp.d.resize(qp.A.rows());
+  for (std::size_t k = 0; k < there.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    qp.A.row(row) = there[k].row.transpose();
+    qp.d[row] = there[k].row.dot(step) - there[k].gap;
+  }
+  return solve_qp(qp).x;
+}
+
+/// Goes where the merit falls: the step itself, or with a second-order correction; else the reach
+/// shrinks.
+void Descent::take_step(const Programme& programme, const Vector6& step, DescentReport& report) {
+  const double L = model_.length;
+  const double violation_before = violation(constraints_, X_);
+  double energy = 0, violation_after = 0;
+  const auto improves = [&](const RigidTransform& to, double tolerance) {
+    gather(to, trial_);
+    energy = energy_change(X_, to);
+    violation_after = violation(trial_, to);
+    return energy + penalty_ * (violation_after - violation_before) < tolerance;
+  };
+  const auto accept = [&](const RigidTransform& to, double length) {
+    X_ = to;
+    constraints_.swap(trial_);
+    report.step = length;
+    // Where nothing is near, nothing limits the next step but patience.
+    const double longest = constraints_.empty() ? 10 * L : options_.longest_step * L;
+    reach_ = std::min(2 * reach_, longest);
+  };
+  const RigidTransform to = moved(X_, step, L);
+  if (improves(to, 1e-10 * programme.force_scale * step.norm())) return accept(to, step.norm());
+  // Restoring the constraints may cost more energy than the forces of this moment suggest.
+  if (violation_after < 0.9 * violation_before) {
+    penalty_ *= 2;
+    if (energy + penalty_ * (violation_after - violation_before) < 0)
+      return accept(to, step.norm());
+  }
+  const Vector6 second = corrected_step(programme, step, to, trial_);
+  if (second.allFinite() && second.norm() < 2 * step.norm()) {
+    const RigidTransform corrected = moved(X_, second, L);
+    if (improves(corrected, 0)) return accept(corrected, second.norm());
+  }
+  reach_ = 0.35 * std::min(reach_, step.norm());
+}
+
+/// True where there is nothing more to gain.
+bool Descent::try_newton(const Multipliers& multipliers,
+                         const std::vector<Constraint>& constraints,
+                         const Accept& accept,
+                         DescentReport& report) {
+  EquilibriumState trial;
+  trial.X = X_;
+  trial.sigma = multipliers.sigma;
+  for (std::size_t k = 0; k < constraints.size(); ++k) {
+    if (!constraints[k].bilateral && multipliers.p[k] <= 1e-9 * multipliers.largest) continue;
+    trial.contacts.push_back(
+        {constraints[k].pair, constraints[k].on_B, constraints[k].on_A, multipliers.p[k]});
+  }
+  if (trial.sigma.size() > kMaxConstraints) return false;
+  if (trial.contacts.size() > kMaxConstraints - trial.sigma.size()) {  // the strongest ones
+    std::sort(trial.contacts.begin(), trial.contacts.end(),
+              [](const ClosedContact& a, const ClosedContact& b) { return a.p > b.p; });
+    trial.contacts.resize(kMaxConstraints - trial.sigma.size());
+  }
+  report.newton = newton_.solve(trial, *drive_);
+  report.spent.iterations += report.newton.iterations;
+  report.converged = report.newton.outcome == NewtonOutcome::kConverged && accept(trial);
+  if (report.converged) result_ = trial;
+  const bool refused = !report.converged && report.newton.outcome == NewtonOutcome::kConverged;
+  return report.converged || (refused && stays_refused(trial.X));
+}
+
+/// Does Newton come to an equilibrium once more that was not accepted, from as good as there?
+bool Descent::stays_refused(const RigidTransform& found) {
+  constexpr double kSame = 1e-6, kThere = 0.01;  // of L
+  const double L = model_.length;
+  const bool again = refused_ && step_between(*refused_, found, L).norm() < kSame * L;
+  refused_ = found;
+  return again && step_between(X_, found, L).norm() < kThere * L;
+}
+
+}  // namespace condyle

@@ -1,0 +1,302 @@
+#include "condyle/equilibrium/diagnosis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/contact/contact_scales.h"
+#include "condyle/contact/contact_search.h"
+#include "condyle/equilibrium/contact_shape.h"
+#include "condyle/equilibrium/dependence.h"
+#include "condyle/equilibrium/edge_in_words.h"
+#include "condyle/equilibrium/motion_name.h"
+#include "condyle/equilibrium/stability.h"
+#include "condyle/math/rotation.h"
+
+namespace condyle {
+namespace {
+
+/// The state with every contact that touches or overlaps there, and those that are held closed.
+EquilibriumState with_all_contacts(const Model& model,
+                                   std::vector<ContactSearch>& searches,
+                                   const EquilibriumState& state) {
+  constexpr double kTouching = 1e-6;  // of L
+  EquilibriumState all{state.X, {}, std::vector<double>(model.conditions.size(), 0.0)};
+  std::vector<GapMinimum> minima;
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    const ContactPair& pair = model.pairs[p];
+    if (pair.mode == ContactMode::kOpen) continue;
+    const bool held = pair.mode == ContactMode::kClosed;
+    const double L = model.length;
+    searches[p].find(state.X, held ? kAnywhere * L : kTouching * L, minima, kMerge * L);
+    for (const GapMinimum& minimum : minima) {
+      ClosedContact contact{static_cast<int>(p), minimum.on_B, minimum.on_A, 0};
+      // Deep inside a body the search keeps to its samples.
+      for (int k = 0; k < 20; ++k)  // each step leaves less than half
+        slide_contact(
+            *pair.on_B, contact.on_B, *pair.on_A, contact.on_A,
+            linearize_contact(*pair.on_B, contact.on_B, *pair.on_A, contact.on_A, state.X), state.X,
+            Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), L);
+      all.contacts.push_back(contact);
+      if (held) break;
+    }
+  }
+  return all;
+}
+
+/// The load that drives the body the way it went.
+std::string driving_load(const Model& model,
+                         const Parameters& parameters,
+                         const EquilibriumState& state,
+                         const Drive& drive) {
+  const double L = model.length;
+  Eigen::Matrix<double, 6, 1> way;
+  way << state.X.p - model.start.p, L * log_rotation(state.X.R * model.start.R.transpose());
+  double most = 0;
+  std::string name;
+  for (std::size_t i = 0; i < parameters.loads.size(); ++i) {
+    Wrench wrench;
+    add_load(parameters.loads[i], drive.scales[i], state.X, wrench);
+    const double work = wrench.f.dot(way.head<3>()) + wrench.m.dot(way.tail<3>()) / L;
+    if (!(work > most)) continue;
+    most = work;
+    name = model.load_names[i];
+  }
+  return name.empty() ? "what pushes it" : "load " + quoted(name);
+}
+
+/// What has a number that is none; empty where all are finite.
+std::string overflowed(const Model& model,
+                       const Parameters& parameters,
+                       const EquilibriumState& state,
+                       const Drive& drive) {
+  for (std::size_t i = 0; i < parameters.elements.size(); ++i) {
+    Wrench wrench;
+    add_line_element(parameters.elements[i], state.X, wrench);
+    if (!wrench.f.allFinite() || !wrench.m.allFinite() || !wrench.F1.allFinite())
+      return "line element " + quoted(model.element_names[i]);
+  }
+  for (std::size_t i = 0; i < parameters.loads.size(); ++i) {
+    Wrench wrench;
+    add_load(parameters.loads[i], drive.scales[i], state.X, wrench);
+    if (!wrench.f.allFinite() || !wrench.m.allFinite())
+      return "load " + quoted(model.load_names[i]);
+  }
+  return {};
+}
+
+/// The condition that asks a middle angle, which turns back at 90 degrees, for more.
+std::string angle_out_of_range(const Model& model, const Drive& drive) {
+  for (std::size_t i = 0; i < model.conditions.size(); ++i) {
+    const KinematicCondition& condition = model.conditions[i];
+    const bool middle = condition.kind == ConditionKind::kAdduction ||
+                        (condition.kind == ConditionKind::kRotation && condition.cardan_axis == 0);
+    if (middle && std::abs(drive.values[i]) > M_PI / 2)
+      return fmt::format("condition {} asks for {:.6g} degrees of an angle that turns back at 90",
+                         quoted(model.condition_names[i]), drive.values[i] * 180 / M_PI);
+  }
+  return {};
+}
+
+/// What is farthest from what it should be.
+std::string worst_condition(const Model& model, const NewtonSystem& system, double last_step) {
+  constexpr double kUnmet = 1e-6;
+  double largest = kUnmet * model.length;
+  std::string words;
+  for (std::size_t i = 0; i < system.conditions().size(); ++i) {
+    const double off = condition_weight(model, i) * std::abs(system.conditions()[i].k);
+    if (!(off > largest)) continue;
+    largest = off;
+    const bool angle = is_angle(model.conditions[i].kind);
+    words =
+        fmt::format("condition {} is {:.3g} {} off", quoted(model.condition_names[i]),
+                    system.conditions()[i].k * (angle ? 180 / M_PI : 1), angle ? "degrees" : "mm");
+  }
+  return words.empty() ? fmt::format("last step {:.3g} mm", last_step) : words;
+}
+
+std::string names_of_pairs(const Model& model) {
+  std::vector<std::string> names;
+  for (const ContactPair& pair : model.pairs)
+    if (pair.mode != ContactMode::kOpen) names.push_back(quoted(pair.name));
+  return (names.size() == 1 ? "contact " : "contacts ") + joined(names);
+}
+
+/// What is known of a pose that was not solved.
+struct Failure {
+  const Model& model;
+  NewtonSystem& system;
+  std::vector<ContactSearch>& searches;
+  const EquilibriumState& state;  ///< the last that was tried
+  const Drive& drive;
+  const Attempt& attempt;
+  std::string singular;          ///< why Newton's matrix was, where it was
+  std::optional<Objection> why;  ///< what rigid contact cannot say about a contact there
+};
+
+std::string too_many_conditions(const Failure& f) {
+  if (f.model.conditions.size() <= kMaxConstraints) return {};
+  std::vector<std::string> names;
+  for (const std::string& name : f.model.condition_names) names.push_back(quoted(name));
+  return "more than six conditions for the six freedoms of a body: " + joined(names);
+}
+
+std::string overflowed_force(const Failure& f) {
+  const std::string what = overflowed(f.model, f.system.parameters(), f.state, f.drive);
+  return what.empty() ? what : what + " has no finite force at the last pose";
+}
+
+std::string passed_through(const Failure& f) {
+  if (f.attempt.passed_pair < 0) return {};
+  const ContactPair& pair = f.model.pairs[static_cast<std::size_t>(f.attempt.passed_pair)];
+  return fmt::format("contact {}: the surfaces have passed through each other by {:.0f} mm",
+                     quoted(pair.name), f.attempt.depth);
+}
+
+template <PoseStatus status>
+std::string touch_without_answer(const Failure& f) {
+  return f.why && f.why->status == status ? f.why->reason : "";
+}
+
+std::string conforming(const Failure& f) {
+  const std::optional<std::size_t> pair = conforming_pair(f.model, f.searches, f.state.X);
+  return pair ? objection(Touch::kConforming, f.model.pairs[*pair].name)->reason : "";
+}
+
+std::string asked_out_of_range(const Failure& f) { return angle_out_of_range(f.model, f.drive); }
+
+std::string without_length(const Failure& f) {
+  const int element =
+      f.system.assemble(f.state, f.drive) ? f.attempt.zero_element : f.system.zero_element();
+  if (element < 0) return {};
+  return "line element " + quoted(f.model.element_names[static_cast<std::size_t>(element)]) +
+         " has no length";
+}
+
+/// A contact that carries and has come to an edge: on the way there, or where the descent ended.
+std::string at_an_edge(const Failure& f) {
+  const std::optional<OffSurfaces>& off = f.attempt.off ? f.attempt.off : f.attempt.off_on_the_way;
+  constexpr const char* kNone = ", and no equilibrium was found with the values asked for";
+  if (off && off->contact >= 0)
+    return edge_in_words(f.model, off->state.contacts[static_cast<std::size_t>(off->contact)]) +
+           (f.attempt.off ? "" : " on the way from the pose before") + kNone;
+  constexpr double kTouching = 1e-4, kNear = 0.02;  // of L
+  std::vector<GapMinimum> minima;
+  for (std::size_t p = 0; p < f.model.pairs.size(); ++p) {
+    if (f.model.pairs[p].mode == ContactMode::kOpen) continue;
+    f.searches[p].find(f.state.X, kTouching * f.model.length, minima, kMerge * f.model.length);
+    for (const GapMinimum& minimum : minima) {
+      const ContactPair& pair = f.model.pairs[p];
+      if (minimum.edge > kNear * f.model.length ||
+          is_line(linearize_contact(*pair.on_B, minimum.on_B, *pair.on_A, minimum.on_A, f.state.X),
+                  f.state.X.R))
+        continue;
+      return edge_in_words(f.model, {static_cast<int>(p), minimum.on_B, minimum.on_A, 0}) + kNone;
+    }
+  }
+  return {};
+}
+
+std::string runs_away(const Failure& f) {
+  if (!f.attempt.descent.ran_away) return {};
+  return "the body runs away: nothing carries " +
+         driving_load(f.model, f.system.parameters(), f.state, f.drive);
+}
+
+/// Contacts and conditions that cannot all hold where the descent ended: with a contact among them
+/// the body does not fit.
+template <bool with_contact>
+std::string contradiction(const Failure& f) {
+  const EquilibriumState all = with_all_contacts(f.model, f.searches, f.state);
+  f.system.assemble(all, f.drive);
+  const Dependence dependence = find_dependence(f.model, f.system);
+  if (!dependence.contradiction) return {};
+  bool contact = false;
+  for (const std::size_t k : dependence.culprits)
+    contact |=
+        k < all.contacts.size() &&
+        f.model.pairs[static_cast<std::size_t>(all.contacts[k].pair)].mode == ContactMode::kAuto;
+  return contact == with_contact ? in_words(f.model, f.system, dependence) : "";
+}
+
+std::string singular_matrix(const Failure& f) { return f.singular; }
+
+std::string no_set_of_contacts(const Failure& f) {
+  if (f.attempt.newton.outcome != NewtonOutcome::kConverged) return {};
+  return "no points of " + names_of_pairs(f.model) +
+         " were found that carry without overlap or pull";
+}
+
+std::string left_all_bounds(const Failure& f) {
+  if (f.attempt.newton.outcome != NewtonOutcome::kDiverged) return {};
+  f.system.assemble(f.state, f.drive);
+  return "Newton's method left all bounds: " +
+         worst_condition(f.model, f.system, f.attempt.descent.step);
+}
+
+std::string unsettled(const Failure& f) {
+  f.system.assemble(f.state, f.drive);
+  return "nothing settled within the iteration limit: " +
+         worst_condition(f.model, f.system, f.attempt.descent.step);
+}
+
+/// What may be to blame, causes before what follows from them. The first that has words is it.
+struct Cause {
+  PoseStatus status;
+  std::string (*words)(const Failure&);
+};
+constexpr Cause kCauses[] = {
+    {PoseStatus::kSingular, too_many_conditions},
+    {PoseStatus::kDiverged, overflowed_force},
+    {PoseStatus::kOverlap, passed_through},
+    {PoseStatus::kSingular, touch_without_answer<PoseStatus::kSingular>},
+    {PoseStatus::kLeftPatch, touch_without_answer<PoseStatus::kLeftPatch>},
+    {PoseStatus::kSingular, conforming},
+    {PoseStatus::kNoEquilibrium, asked_out_of_range},
+    {PoseStatus::kZeroLength, without_length},
+    {PoseStatus::kNoEquilibrium, at_an_edge},
+    {PoseStatus::kNoEquilibrium, runs_away},
+    {PoseStatus::kOverlap, contradiction<true>},
+    {PoseStatus::kSingular, contradiction<false>},
+    {PoseStatus::kSingular, singular_matrix},
+    {PoseStatus::kOverlap, no_set_of_contacts},
+    {PoseStatus::kDiverged, left_all_bounds},
+    {PoseStatus::kIterationLimit, unsettled},
+};
+
+}  // namespace
+
+std::string why_singular(const Model& model, const NewtonSystem& system, const RigidTransform& X) {
+  const std::string dependent = dependent_constraints(model, system);
+  if (!dependent.empty()) return dependent;
+  const Stability now = stability(model, system);
+  if (now.neutral) return "nothing resists " + name_motions(model, X, now.free);
+  return "the matrix is singular on the way; softest is " + name_motions(model, X, now.motion);
+}
+
+void explain_failure(const Model& model,
+                     NewtonSystem& system,
+                     std::vector<ContactSearch>& searches,
+                     const EquilibriumState& state,
+                     const Drive& drive,
+                     const Attempt& attempt,
+                     std::string singular,
+                     PoseResult& result) {
+  const Failure failure{model,
+                        system,
+                        searches,
+                        state,
+                        drive,
+                        attempt,
+                        std::move(singular),
+                        objection_at(model, searches, state.X)};
+  for (const Cause& cause : kCauses) {
+    result.reason = cause.words(failure);
+    if (result.reason.empty()) continue;
+    result.status = cause.status;
+    return;
+  }
+}
+
+}  // namespace condyle

@@ -1,0 +1,26 @@
+#include "condyle/equilibrium/drive.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace condyle {
+
+Drive drive_of(const Model& model) {
+  Drive drive;
+  for (const KinematicCondition& condition : model.conditions)
+    drive.values.push_back(condition.value);
+  for (const Load& load : model.loads) drive.scales.push_back(load.scale);
+  return drive;
+}
+
+void check_drive(const Drive& drive, const Model& model) {
+  if (drive.values.size() == model.conditions.size() && drive.scales.size() == model.loads.size())
+    return;
+  throw std::invalid_argument(fmt::format(
+      "the drive has {} values of conditions and {} scales of loads, expected {} and "
+      "{} as the model has",
+      drive.values.size(), drive.scales.size(), model.conditions.size(), model.loads.size()));
+}
+
+}  // namespace condyle

@@ -1,0 +1,300 @@
+#include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/model_covers.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <tuple>
+
+#include "condyle/contact/contact_scales.h"
+#include "condyle/equilibrium/contact_rules.h"
+#include "condyle/equilibrium/contact_shape.h"
+#include "condyle/equilibrium/diagnosis.h"
+#include "condyle/equilibrium/second_equilibrium.h"
+#include "condyle/math/rotation.h"
+
+namespace condyle {
+namespace {
+
+constexpr std::size_t kMinimaOfAPair = 64;  // room for them
+
+/// Where the way from the last pose ended: what a failure is explained by.
+struct Failed {
+  EquilibriumState state;
+  NewtonReport newton;
+  DescentReport descent;
+  std::string singular;  ///< why the matrix was, where it was
+};
+
+}  // namespace
+
+EquilibriumSolver::EquilibriumSolver(std::shared_ptr<const Model> model,
+                                     const ContactCovers& covers,
+                                     EquilibriumOptions options)
+    : model_(std::move(model)),
+      covers_(covers),
+      options_(options),
+      searches_(make_searches(*model_, covers_)),
+      newton_(*model_, options_.newton),
+      descent_(*model_, searches_, newton_, options_.descent),
+      predictor_(*model_) {
+  for (const ContactPair& pair : model_->pairs) passed_.emplace_back(pair, model_->length);
+  state_.contacts.reserve(kMaxConstraints);
+  minima_.reserve(kMinimaOfAPair);
+  reset();
+}
+
+EquilibriumSolver::EquilibriumSolver(std::shared_ptr<const Model> model, EquilibriumOptions options)
+    : EquilibriumSolver(model, cover_pairs(*model), options) {}
+
+EquilibriumSolver::EquilibriumSolver(Model model, EquilibriumOptions options)
+    : EquilibriumSolver(std::make_shared<const Model>(std::move(model)), options) {}
+
+void EquilibriumSolver::reset() {
+  state_.X = model_->start;
+  state_.contacts.clear();
+  state_.sigma.assign(model_->conditions.size(), 0);
+  has_state_ = has_edge_ = on_the_way_ = from_elsewhere_ = false;
+  spent_ = {};
+  predictor_.clear();
+  for (ContactSearch& search : searches_) search.reset();
+  for (PassedThrough& passed : passed_) passed.reset();
+}
+
+void EquilibriumSolver::set_parameters(const Parameters& parameters) {
+  newton_.system().set_parameters(parameters);
+  predictor_.clear();
+}
+
+void EquilibriumSolver::set_state(const EquilibriumState& state, const Drive& drive) {
+  check_drive(drive, *model_);
+  const bool same =
+      has_state_ && state.X.p == state_.X.p && state.X.R == state_.X.R && drive == solved_;
+  if (same) return;
+  predictor_.clear();
+  state_ = state;
+  solved_ = drive;
+  has_state_ = true;
+}
+
+void EquilibriumSolver::go_back(const Standing& standing) {
+  predictor_.clear();
+  state_ = standing.state;
+  solved_ = standing.solved;
+  has_state_ = standing.has_state;
+}
+
+void EquilibriumSolver::set_drive(const Drive& from, const Drive& to, double t) {
+  const auto between = [t](double a, double b) { return t == 1 ? b : a + t * (b - a); };
+  for (std::size_t i = 0; i < to.values.size(); ++i)
+    drive_.values[i] = between(from.values[i], to.values[i]);
+  for (std::size_t i = 0; i < to.scales.size(); ++i)
+    drive_.scales[i] = between(from.scales[i], to.scales[i]);
+}
+
+bool EquilibriumSolver::release_pulling(EquilibriumState& state) const {
+  const int worst = most_pulling(*model_, newton_.system(), state);
+  if (worst >= 0) state.contacts.erase(state.contacts.begin() + worst);
+  return worst >= 0;
+}
+
+/// What Newton has solved of a pair is a help to the search.
+void EquilibriumSolver::set_known(int pair, const EquilibriumState& state) {
+  known_.clear();
+  const std::vector<ContactLinearization>& contacts = newton_.system().contacts();
+  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+    if (state.contacts[k].pair != pair) continue;
+    const ContactLinearization& at = contacts[k];
+    known_.push_back({at.B.c, at.A.c, at.B.K, at.A.K, at.relative_curvature[0]});
+  }
+}
+
+bool EquilibriumSolver::add_overlaps(EquilibriumState& state, bool& too_many) {
+  bool added = false;
+  const double L = model_->length;
+  for (std::size_t p = 0; p < searches_.size(); ++p) {
+    if (model_->pairs[p].mode != ContactMode::kAuto) continue;
+    set_known(static_cast<int>(p), state);
+    searches_[p].find(state.X, 0.0, minima_, kMerge * L, known_);
+    for (const GapMinimum& minimum : minima_) {
+      if (minimum.gap > -options_.description.overlap * L / 30) continue;
+      if (is_contact_of(*model_, state, static_cast<int>(p), minimum)) continue;
+      if (state.contacts.size() + state.sigma.size() >= kMaxConstraints) {
+        too_many = true;
+        return added;
+      }
+      state.contacts.push_back({static_cast<int>(p), minimum.on_B, minimum.on_A, 0});
+      added = true;
+    }
+  }
+  return added;
+}
+
+/// False where Newton has led a contact to a place where the solids interpenetrate beside it.
+bool EquilibriumSolver::on_minima(const EquilibriumState& state) const {
+  const std::vector<ContactLinearization>& contacts = newton_.system().contacts();
+  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+    const bool automatic = model_->pairs[state.contacts[k].pair].mode == ContactMode::kAuto;
+    if (automatic && contacts[k].relative_curvature[0] < -1e-7) return false;
+  }
+  return true;
+}
+
+/// The contact that lies farthest beyond the known part of a surface, and how far [mm]; -1 where
+/// none does. A line lies at edges by its nature.
+std::pair<int, double> EquilibriumSolver::farthest_beyond(const EquilibriumState& state) const {
+  std::pair<int, double> farthest{-1, 0};
+  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+    const ClosedContact& contact = state.contacts[k];
+    const ContactPair& pair = model_->pairs[static_cast<std::size_t>(contact.pair)];
+    const double beyond = -edge_distance(pair, contact.on_B, contact.on_A);
+    if (beyond <= farthest.second) continue;
+    const Touch touch = examine_touch(pair, newton_.system().contacts()[k], contact.on_B,
+                                      contact.on_A, state.X, model_->length)
+                            .kind;
+    if (touch != Touch::kLine) farthest = {static_cast<int>(k), beyond};
+  }
+  return farthest;
+}
+
+/// False where a contact lies beyond the known part of a surface, or the surfaces of an open pair
+/// are not over each other, buried, or have passed through each other. Such an equilibrium is kept
+/// in the attempt.
+bool EquilibriumSolver::on_surfaces(const EquilibriumState& state, Attempt& attempt) {
+  OffSurfaces off;
+  std::tie(off.contact, off.beyond) = farthest_beyond(state);
+  if (off.contact < 0) {
+    if (faces(state, attempt)) return true;
+    if (attempt.passed_pair >= 0) return false;  // no equilibrium to be told of
+    off.beyond = OffSurfaces().beyond;
+  }
+  std::optional<OffSurfaces>& kept = on_the_way_ ? attempt.off_on_the_way : attempt.off;
+  if (!kept || (!on_the_way_ && off.beyond < kept->beyond)) {
+    off.state = state;
+    kept = off;
+  }
+  return false;
+}
+
+bool EquilibriumSolver::carries_and_clear(EquilibriumState& state, Attempt& attempt) {
+  bool too_many = false;
+  EquilibriumState copy = state;
+  return on_minima(state) && !release_pulling(copy) && !add_overlaps(copy, too_many) && !too_many &&
+         on_surfaces(state, attempt);
+}
+
+/// Are the surfaces of open pairs on their right sides?
+bool EquilibriumSolver::faces(const EquilibriumState& state, Attempt& attempt) {
+  const double L = model_->length;
+  for (std::size_t p = 0; p < searches_.size(); ++p) {
+    if (model_->pairs[p].mode != ContactMode::kAuto || !searches_[p].has_samples()) continue;
+    const bool closed =
+        std::any_of(state.contacts.begin(), state.contacts.end(),
+                    [p](const ClosedContact& c) { return c.pair == static_cast<int>(p); });
+    if (closed) {
+      passed_[p].trust(state.X);
+      continue;
+    }
+    if (const std::optional<double> depth = passed_[p].depth_of_clear_pose(state.X)) {
+      attempt.passed_pair = static_cast<int>(p);
+      attempt.depth = *depth;
+      return false;
+    }
+    searches_[p].find_nearest(state.X, kAnywhere * L, minima_, kMerge * L);
+    if (minima_.empty() || minima_.front().gap < -options_.description.overlap * L / 30)
+      return false;
+  }
+  return true;
+}
+
+bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
+  constexpr int kRounds = 8;
+  for (int round = 0; round < kRounds; ++round) {
+    attempt.newton = newton_.solve(state, drive_);
+    attempt.spent.iterations += attempt.newton.iterations;
+    if (attempt.newton.outcome == NewtonOutcome::kZeroLength)
+      attempt.zero_element = attempt.newton.zero_element;
+    if (attempt.newton.outcome != NewtonOutcome::kConverged) return false;
+    if (release_pulling(state)) continue;
+    bool too_many = false;
+    if (add_overlaps(state, too_many)) continue;
+    if (too_many || !on_minima(state)) return false;
+    return on_surfaces(state, attempt);
+  }
+  return false;
+}
+
+void EquilibriumSolver::solve(const Drive& drive, PoseResult& result, Patience patience) {
+  const auto begin = std::chrono::steady_clock::now();
+  check_drive(drive, *model_);
+  drive_ = target_ = drive;
+  Attempt attempt;
+  attempt.most = options_.most.share(patience == Patience::kWay ? 3 : 1);
+  from_elsewhere_ = false;
+  bool solved = false, at_once = false;
+  if (has_state_) {
+    solved = solve_from_last(next_, attempt, patience);
+  } else {
+    state_.X.R = orthonormalized(state_.X.R);
+    next_ = state_;
+    at_once = starts_passed_through(attempt);
+    solved = !at_once && solve_first(next_, target_, attempt);
+  }
+  std::optional<Failed> failed;
+  if (!solved && patience == Patience::kAll) {
+    drive_ = target_;
+    failed = {next_, attempt.newton, attempt.descent, {}};
+    if (attempt.newton.outcome == NewtonOutcome::kSingular)
+      failed->singular = why_singular(*model_, newton_.system(), next_.X);
+    if (!at_once) solved = solve_from_elsewhere(next_, attempt) || solve_from_edge(next_, attempt);
+  }
+  drive_ = target_;
+  if (!solved) solved = take_off_surfaces(next_, attempt);
+  clear(result);
+  result.iterations = attempt.spent.iterations;
+  spent_ = attempt.spent;
+  result.residual = attempt.newton.residual;
+  if (solved) {
+    describe(attempt, result);
+  } else if (failed) {
+    attempt.newton = failed->newton;
+    attempt.descent = failed->descent;
+    explain_failure(*model_, newton_.system(), searches_, failed->state, drive_, attempt,
+                    failed->singular, result);
+  } else {
+    result.status = PoseStatus::kIterationLimit;
+  }
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void EquilibriumSolver::describe(const Attempt& attempt, PoseResult& result) {
+  result.status = PoseStatus::kConverged;
+  describe_pose(*model_, newton_.system(), next_, searches_, options_.description, minima_, result);
+  if (result.status == PoseStatus::kLeftPatch && attempt.off) {
+    edge_ = *attempt.off;
+    has_edge_ = true;
+  }
+  if (result.converged()) {
+    keep(next_);
+    if (attempt.other)
+      add_remark(result,
+                 second_equilibrium(*model_, next_.X, *attempt.other, "from another start"));
+  }
+}
+
+void EquilibriumSolver::keep(const EquilibriumState& state) {
+  state_ = state;
+  state_.X.R = orthonormalized(state.X.R);
+  solved_ = target_;
+  has_state_ = true;
+  has_edge_ = false;
+  predictor_.add(target_, state_);
+}
+
+PoseResult EquilibriumSolver::solve(const Drive& drive, Patience patience) {
+  PoseResult result;
+  solve(drive, result, patience);
+  return result;
+}
+
+}  // namespace condyle

@@ -1,0 +1,179 @@
+/// The ways to a position of equilibrium, in the order in which the solver tries them.
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/equilibrium/carried_pose.h"
+#include "condyle/equilibrium/contact_shape.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/second_equilibrium.h"
+
+namespace condyle {
+
+bool EquilibriumSolver::tried_from(const RigidTransform& X, const Attempt& attempt) const {
+  constexpr double kPracticallySame = 1e-3;  // of L
+  return std::any_of(
+      attempt.descended_from.begin(), attempt.descended_from.end(),
+      [&](const RigidTransform& Y) { return distance(*model_, X, Y) < kPracticallySame; });
+}
+
+bool EquilibriumSolver::descend(EquilibriumState& state, Attempt& attempt) {
+  constexpr int kFewSteps = 10;  // where conforming surfaces leave the answer open
+  const Work left = attempt.most.after(attempt.spent);
+  if (!left.any() || (!on_the_way_ && tried_from(state.X, attempt))) return false;
+  const RigidTransform from = state.X;
+  const bool open_ended = conforming_pair(*model_, searches_, state.X).has_value();
+  const int steps = open_ended ? kFewSteps : options_.descent.max_steps;
+  attempt.descent = descent_.solve(
+      state, drive_, [&](EquilibriumState& s) { return carries_and_clear(s, attempt); }, steps,
+      {std::min(2 * steps, left.iterations), left.searches});
+  attempt.newton = attempt.descent.newton;
+  attempt.spent.add(attempt.descent.spent);
+  if (!attempt.descent.converged && !on_the_way_) attempt.descended_from.push_back(from);
+  return attempt.descent.converged;
+}
+
+/// From a solved state to another drive in parts: halved where a part fails, doubled where it
+/// succeeds.
+bool EquilibriumSolver::advance(EquilibriumState& state,
+                                const Drive& from,
+                                const Drive& to,
+                                Attempt& attempt) {
+  constexpr double kLongest = 0.5, kShortest = 1.0 / 256, kDescend = 1.0 / 32;
+  double part = kLongest;
+  for (double t = 0; t < 1;) {
+    const double next = std::min(1.0, t + part);
+    on_the_way_ = next < 1;
+    set_drive(from, to, next);
+    EquilibriumState trial = state;
+    bool solved = settle(trial, attempt);
+    if (!solved && part <= kDescend) {
+      trial = state;
+      solved = descend(trial, attempt);
+    }
+    on_the_way_ = false;
+    if (solved) {
+      state = trial;
+      t = next;
+      part = std::min(2 * part, kLongest);
+    } else if ((part /= 2) < kShortest || !attempt.most.after(attempt.spent).any()) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Newton from the first estimates of contact points that the scene gives, if it gives any.
+bool EquilibriumSolver::settle_at_estimates(EquilibriumState& state, Attempt& attempt) {
+  EquilibriumState trial = state;
+  for (std::size_t p = 0; p < model_->pairs.size(); ++p) {
+    const ContactPair& pair = model_->pairs[p];
+    if (pair.mode == ContactMode::kOpen) continue;
+    for (const Eigen::Vector3d& on_B : pair.start) {
+      if (trial.contacts.size() + trial.sigma.size() >= kMaxConstraints) break;
+      const Eigen::Vector3d on_A = state.X.inverse() * on_B;
+      trial.contacts.push_back({static_cast<int>(p),
+                                pair.on_B->closest(on_B, pair.on_B->seed(on_B)),
+                                pair.on_A->closest(on_A, pair.on_A->seed(on_A)), 0});
+    }
+  }
+  if (trial.contacts.empty() || !settle(trial, attempt)) return false;
+  state = trial;
+  return true;
+}
+
+bool EquilibriumSolver::find_first(EquilibriumState& state, Attempt& attempt) {
+  return settle_at_estimates(state, attempt) || descend(state, attempt);
+}
+
+/// The first pose: where the start is far from what the conditions prescribe, the equilibrium at
+/// the start's own values comes first.
+bool EquilibriumSolver::solve_first(EquilibriumState& state,
+                                    const Drive& target,
+                                    Attempt& attempt) {
+  constexpr double kFar = 0.1;  // of L
+  Drive own = target;
+  bool far = false;
+  for (std::size_t i = 0; i < model_->conditions.size(); ++i) {
+    const KinematicCondition& condition = model_->conditions[i];
+    const double k = evaluate(condition, target.values[i], state.X).k;
+    own.values[i] = target.values[i] + k;
+    far |= std::abs(k) * condition_weight(*model_, i) > kFar * model_->length;
+  }
+  if (!far) return find_first(state, attempt);
+  drive_ = own;
+  on_the_way_ = true;
+  const bool at_start = find_first(state, attempt);
+  on_the_way_ = false;
+  const bool arrived = at_start && advance(state, own, target, attempt);
+  drive_ = target;
+  return arrived || descend(state = state_, attempt);
+}
+
+/// Newton from where the poses before point to, or from the last one; else the descent; else the
+/// way from the last pose in parts.
+bool EquilibriumSolver::solve_from_last(EquilibriumState& state,
+                                        Attempt& attempt,
+                                        Patience patience) {
+  if (predictor_.predict(target_, state) && settle(state, attempt)) return true;
+  if (settle(state = state_, attempt)) return true;
+  // On a branch that leaves the known surfaces nothing else is found by going on.
+  if (attempt.off && patience == Patience::kNone) return false;
+  if (descend(state = state_, attempt)) return true;
+  if (attempt.off || patience == Patience::kNone) return false;
+  const bool arrived = advance(state = state_, solved_, target_, attempt);
+  drive_ = target_;
+  return arrived;
+}
+
+bool EquilibriumSolver::descend_from(const RigidTransform& X,
+                                     EquilibriumState& state,
+                                     Attempt& attempt) {
+  state.X = carried(*model_, drive_, X);
+  state.contacts.clear();
+  state.sigma.assign(model_->conditions.size(), 0);
+  return descend(state, attempt);
+}
+
+/// The descent from the scene's start pose and from the last pose, both carried to the values asked
+/// for. The start comes first: it depends on no pose before.
+bool EquilibriumSolver::solve_from_elsewhere(EquilibriumState& state, Attempt& attempt) {
+  from_elsewhere_ = true;
+  EquilibriumState last = state;
+  const bool from_start = descend_from(model_->start, state, attempt);
+  const bool from_last = has_state_ && descend_from(state_.X, last, attempt);
+  if (from_last && !from_start) state = last;
+  if (from_last && from_start && !same_pose(*model_, state.X, last.X)) attempt.other = last.X;
+  if (from_last || from_start) newton_.system().assemble(state, drive_);
+  return from_last || from_start;
+}
+
+/// From the last equilibrium beyond an edge: its branch may return to the known surfaces, else it
+/// tells where it is now.
+bool EquilibriumSolver::solve_from_edge(EquilibriumState& state, Attempt& attempt) {
+  if (!has_edge_) return false;
+  if (settle(state = edge_.state, attempt)) return true;
+  if (!attempt.off_on_the_way) attempt.off_on_the_way = edge_;
+  return false;
+}
+
+/// The equilibrium off the known surfaces that was met, where there was no other: the pose says so
+/// itself.
+bool EquilibriumSolver::take_off_surfaces(EquilibriumState& state, const Attempt& attempt) {
+  if (!attempt.off) return false;
+  state = attempt.off->state;
+  return newton_.solve(state, drive_).outcome == NewtonOutcome::kConverged;
+}
+
+bool EquilibriumSolver::starts_passed_through(Attempt& attempt) {
+  for (std::size_t p = 0; p < passed_.size(); ++p) {
+    const std::optional<double> depth = passed_[p].depth(state_.X);
+    if (!depth) continue;
+    attempt.passed_pair = static_cast<int>(p);
+    attempt.depth = *depth;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace condyle

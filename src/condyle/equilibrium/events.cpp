@@ -1,0 +1,222 @@
+#include "condyle/equilibrium/events.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "condyle/equilibrium/closing_event.h"
+#include "condyle/equilibrium/path_system.h"
+#include "condyle/math/rotation.h"
+
+namespace condyle {
+namespace {
+
+constexpr double kStraight = 1e-4;  // part of a step over which gaps change in proportion
+
+int points_of(const PoseResult& pose, std::size_t contact) {
+  const ContactResult& c = pose.contacts[contact];
+  return c.closed ? static_cast<int>(c.points.size()) : 0;
+}
+
+bool beyond_edge(const PoseResult& pose, std::size_t contact) {
+  const ContactResult& c = pose.contacts[contact];
+  return c.closed &&
+         std::any_of(c.points.begin(), c.points.end(),
+                     [](const ContactPointResult& point) { return point.edge_distance < 0; });
+}
+
+bool same_contacts(const PoseResult& a, const PoseResult& b) {
+  for (std::size_t c = 0; c < a.contacts.size(); ++c)
+    if (points_of(a, c) != points_of(b, c) || beyond_edge(a, c) != beyond_edge(b, c)) return false;
+  return true;
+}
+
+/// How far the points of a contact moved on either body, where their number is the same [mm].
+double motion(const PoseResult& a, const PoseResult& b, std::size_t contact) {
+  const auto& from = a.contacts[contact].points;
+  const auto& to = b.contacts[contact].points;
+  if (points_of(a, contact) == 0 || from.size() != to.size()) return 0;
+  double largest = 0;
+  for (const ContactPointResult& p : from) {
+    double nearest = INFINITY;
+    for (const ContactPointResult& q : to)
+      nearest = std::min(nearest, std::max((p.point_ground - q.point_ground).norm(),
+                                           (p.point_moving - q.point_moving).norm()));
+    largest = std::max(largest, nearest);
+  }
+  return largest;
+}
+
+/// How far the body moved, as its point O_A of the model went and rotations counted as L dπ [mm].
+double body_motion(const SolvedPose& from, const SolvedPose& to, double L) {
+  const RigidTransform &a = from.state.X, &b = to.state.X;
+  return std::hypot((b.p - a.p).norm(), L * log_rotation(b.R * a.R.transpose()).norm());
+}
+
+void append_changes(const SolvedPose& before,
+                    const SolvedPose& after,
+                    double value,
+                    std::vector<Event>& events) {
+  for (std::size_t c = 0; c < before.result.contacts.size(); ++c) {
+    const int was = points_of(before.result, c), is = points_of(after.result, c);
+    const auto add = [&](EventKind kind) { events.push_back({value, kind, static_cast<int>(c)}); };
+    for (int k = was; k < is; ++k) add(EventKind::kClosing);
+    for (int k = is; k < was; ++k) add(EventKind::kOpening);
+    const bool was_out = beyond_edge(before.result, c), is_out = beyond_edge(after.result, c);
+    if (was_out != is_out) add(is_out ? EventKind::kLeavingPatch : EventKind::kReturningToPatch);
+  }
+}
+
+void append_limit(const SolvedPose& before, const SolvedPose& after, std::vector<Event>& events) {
+  events.push_back({0.5 * (before.value + after.value), EventKind::kLimitPoint, -1});
+}
+
+class EventSearch {
+ public:
+  EventSearch(EquilibriumSolver& solver,
+              const Swept& swept,
+              const Drive& drive,
+              const EventOptions& options)
+      : solver_(solver), swept_(swept), drive_(drive), options_(options) {}
+
+  /// The pose at a value, from another one; nothing where it has no equilibrium.
+  std::optional<SolvedPose> pose_at(double value, const SolvedPose& from) {
+    if (!options_.most_wasted.after(wasted_).any()) return std::nullopt;
+    swept_.in(drive_) = from.value;
+    solver_.set_state(from.state, drive_);
+    swept_.in(drive_) = value;
+    SolvedPose pose{value, solver_.solve(drive_, Patience::kNone), {}};
+    if (!pose.result.solved()) {
+      wasted_.add(solver_.spent());
+      return std::nullopt;
+    }
+    pose.state = solver_.solution();
+    return pose;
+  }
+
+  /// A pose between two others: half way, or near it where that has no equilibrium from either
+  /// side.
+  std::optional<SolvedPose> between(const SolvedPose& left, const SolvedPose& right) {
+    for (const double part : {0.5, 0.35, 0.65, 0.42, 0.58}) {
+      const double value = left.value + part * (right.value - left.value);
+      for (const SolvedPose* from : {&left, &right})
+        if (std::optional<SolvedPose> pose = pose_at(value, *from)) return pose;
+    }
+    return std::nullopt;
+  }
+
+  /// Closes in on the first change of contacts right of `left`; false where a trial has no
+  /// equilibrium.
+  bool bisect_change(SolvedPose& left, SolvedPose& right) {
+    while (std::abs(right.value - left.value) > options_.tolerance) {
+      std::optional<SolvedPose> middle = between(left, right);
+      if (!middle) return false;
+      (same_contacts(left.result, middle->result) ? left : right) = *middle;
+    }
+    return true;
+  }
+
+  /// Did the body go much farther than the tangents of its path say at either end?
+  bool moved_unexpectedly(const SolvedPose& left, const SolvedPose& right) {
+    constexpr double kMuch = 2;
+    const double L = solver_.model().length;
+    const double moved = body_motion(left, right, L);
+    if (moved < options_.snap * L) return false;
+    const double foretold = std::min(foretold_motion(left, right), foretold_motion(right, left));
+    return moved > kMuch * foretold;
+  }
+
+  /// Follows the greater part of the motion of the body; true when it stays a jump.
+  bool bisect_snap(SolvedPose& left, SolvedPose& right) {
+    const double L = solver_.model().length, jump = options_.jump * L;
+    while (std::abs(right.value - left.value) > options_.tolerance) {
+      if (body_motion(left, right, L) < jump) return false;
+      std::optional<SolvedPose> middle = between(left, right);
+      if (!middle) return false;
+      const bool in_left = body_motion(left, *middle, L) > body_motion(*middle, right, L);
+      (in_left ? right : left) = *middle;
+    }
+    return body_motion(left, right, L) >= jump;
+  }
+
+  /// Follows the greater part of the motion of one contact; true when it stays a jump.
+  bool bisect_jump(SolvedPose& left, SolvedPose& right, std::size_t contact, double jump) {
+    while (std::abs(right.value - left.value) > options_.tolerance) {
+      if (motion(left.result, right.result, contact) < jump) return false;
+      std::optional<SolvedPose> middle = between(left, right);
+      if (!middle || !same_contacts(left.result, middle->result)) return false;
+      const bool in_left = motion(left.result, middle->result, contact) >
+                           motion(middle->result, right.result, contact);
+      (in_left ? right : left) = *middle;
+    }
+    return motion(left.result, right.result, contact) >= jump;
+  }
+
+  /// Where between two poses on either side of a change it lies: where a gap closes, or half way.
+  /// `length` of the sweep on which the gaps are as good as straight.
+  double exact_value(const SolvedPose& before, const SolvedPose& after, double length) {
+    const double middle = 0.5 * (before.value + after.value);
+    const std::optional<SolvedPose> earlier =
+        pose_at(before.value - std::copysign(length, after.value - before.value), before);
+    if (!earlier || !same_contacts(earlier->result, before.result)) return middle;
+    return closing_value(solver_.model(), *earlier, before, after).value_or(middle);
+  }
+
+ private:
+  /// What the tangent at one pose says about the way to the value of another [mm].
+  double foretold_motion(const SolvedPose& at, const SolvedPose& to) {
+    PathSystem::Direction tangent;
+    if (!path_) {
+      path_.emplace(solver_.model(), swept_, drive_, 1);
+      path_->set_parameters(solver_.parameters());
+    }
+    if (!path_->tangent({at.state, at.value}, tangent) || tangent.value() == 0) return INFINITY;
+    double square = 0;
+    for (std::size_t i = 0; i < 6; ++i) square += tangent.d[i] * tangent.d[i];
+    return std::sqrt(square) * std::abs((to.value - at.value) / tangent.value());
+  }
+
+  EquilibriumSolver& solver_;
+  Swept swept_;
+  Drive drive_;
+  std::optional<PathSystem> path_;  ///< once it is asked for
+  const EventOptions& options_;
+  Work wasted_;  ///< on trials without equilibrium
+};
+
+}  // namespace
+
+void locate_events(EquilibriumSolver& solver,
+                   const Swept& swept,
+                   const Drive& drive,
+                   const SolvedPose& left,
+                   const SolvedPose& right,
+                   std::vector<Event>& events,
+                   const EventOptions& options) {
+  EventSearch search(solver, swept, drive, options);
+  const double L = solver.model().length, straight = kStraight * std::abs(right.value - left.value);
+  SolvedPose from = left;
+  for (int k = 0; k < options.most_events && !same_contacts(from.result, right.result); ++k) {
+    SolvedPose before = from, after = right;
+    if (!search.bisect_change(before, after)) return;
+    if (body_motion(before, after, L) >= options.jump * L) append_limit(before, after, events);
+    append_changes(before, after, search.exact_value(before, after, straight), events);
+    from = after;
+  }
+  if (same_contacts(left.result, right.result) && search.moved_unexpectedly(left, right)) {
+    SolvedPose before = left, after = right;
+    // Contacts that jump with the body are not told of again.
+    if (search.bisect_snap(before, after)) return append_limit(before, after, events);
+  }
+  for (std::size_t c = 0; c < left.result.contacts.size(); ++c) {
+    if (!same_contacts(left.result, right.result) ||
+        motion(left.result, right.result, c) < options.far * L)
+      continue;
+    SolvedPose before = left, after = right;
+    if (search.bisect_jump(before, after, c, options.jump * L))
+      events.push_back(
+          {search.exact_value(before, after, straight), EventKind::kJump, static_cast<int>(c)});
+  }
+}
+
+}  // namespace condyle

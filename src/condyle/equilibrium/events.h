@@ -1,0 +1,49 @@
+#pragma once
+
+/// Events on a sweep, located on the swept value: a point of contact closes or opens, a contact
+/// jumps from one place to another, or passes the edge of the known surface.
+///
+/// Two neighbouring poses whose contacts differ enclose an event. Bisection, each trial solved from
+/// the pose on the left, closes in until the bracket is shorter than the tolerance; several events
+/// between two poses are found one after the other. Where a contact merely moved far, the half with
+/// the greater part of the motion is followed: a motion that does not shrink with the bracket is a
+/// jump. The body itself is followed likewise where it moved much farther than its path's tangent
+/// foretold: where it jumps, its branch of equilibria ends in a limit point (snap-through).
+
+#include <vector>
+
+#include "condyle/equilibrium/equilibrium_solver.h"
+
+namespace condyle {
+
+/// A pose with its state, as the search for events needs it.
+struct SolvedPose {
+  double value = 0;
+  PoseResult result;
+  EquilibriumState state;
+};
+
+struct EventOptions {
+  double tolerance = 1e-9;  ///< of the swept value [rad], [mm] or [-]
+  double far = 0.1;  ///< a contact that moved farther than this between two poses may have jumped,
+                     ///< in units of L
+  double jump =
+      0.01;  ///< and has, when it still moves farther than this within the tolerance, in units of L
+  double snap = 0.05;    ///< a body that moved farther than this, in units of L, may have snapped
+                         ///< through
+  int most_events = 16;  ///< between two poses
+  Work most_wasted{6000, 300};  ///< on trials without equilibrium, after which no event more is
+                                ///< looked for between the two poses
+};
+
+/// Appends the events between two poses of one sweep. `drive`: of all that is not swept. The
+/// solver's state is changed.
+void locate_events(EquilibriumSolver& solver,
+                   const Swept& swept,
+                   const Drive& drive,
+                   const SolvedPose& left,
+                   const SolvedPose& right,
+                   std::vector<Event>& events,
+                   const EventOptions& options = {});
+
+}  // namespace condyle

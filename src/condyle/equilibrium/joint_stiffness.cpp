@@ -1,0 +1,79 @@
+#include "condyle/equilibrium/joint_stiffness.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+
+#include "condyle/equilibrium/stability.h"
+
+namespace condyle {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+
+constexpr double kSingular = 1e-9;  // relative, of pivots
+
+constexpr std::array<ConditionKind, 6> kCoordinates = {
+    ConditionKind::kFlexion,      ConditionKind::kAdduction,      ConditionKind::kInternalRotation,
+    ConditionKind::kLateralShift, ConditionKind::kAnteriorDrawer, ConditionKind::kDistraction};
+
+/// (da, L dπ) from (da, dπ).
+Vector6 rotation_scale(double L) { return (Vector6() << 1, 1, 1, L, L, L).finished(); }
+/// The same for joint coordinates: angles come first.
+Vector6 angle_scale(double L) { return (Vector6() << L, L, L, 1, 1, 1).finished(); }
+
+template <class Matrix>
+bool invertible(const Eigen::FullPivLU<Matrix>& lu, double scale) {
+  return lu.matrixLU().allFinite() && lu.matrixLU().diagonal().cwiseAbs().minCoeff() > scale;
+}
+
+}  // namespace
+
+Matrix6 joint_jacobian(const JointFrames& frames, const RigidTransform& X_BA) {
+  Matrix6 J;
+  KinematicCondition condition;
+  condition.frames = frames;
+  for (std::size_t i = 0; i < kCoordinates.size(); ++i) {
+    condition.kind = kCoordinates[i];
+    const ConditionDerivatives k = evaluate(condition, 0, X_BA);
+    J.row(static_cast<Eigen::Index>(i)) << k.alpha.transpose(), k.eta.transpose();
+  }
+  return J;
+}
+
+std::optional<JointStiffness> joint_stiffness(const Model& model,
+                                              const NewtonSystem& system,
+                                              const RigidTransform& X_BA) {
+  if (!model.joint) return std::nullopt;
+  const double L = model.length;
+  // Scaled: motions (da, L dπ), coordinates with angles as L dq.
+  const Vector6 motions = rotation_scale(L), coordinates = angle_scale(L);
+  const Matrix6 J = coordinates.asDiagonal() * joint_jacobian(*model.joint, X_BA) *
+                    motions.cwiseInverse().asDiagonal();
+  const Matrix6 K = scaled_stiffness(system.wrench(), L);
+  const double largest = std::max(K.cwiseAbs().maxCoeff(), system.force_scale() / L);
+
+  const Eigen::FullPivLU<Matrix6> J_lu(J);
+  if (!K.allFinite() || !invertible(J_lu, 1e-6)) return std::nullopt;
+  const Matrix6 J_inverse = J_lu.inverse();
+
+  const Motions Z = admissible_motions(model, system);
+  Matrix6 yielding = Matrix6::Zero();
+  if (Z.cols() > 0) {
+    const SmallMatrix reduced = Z.transpose() * K * Z;
+    const Eigen::FullPivLU<SmallMatrix> lu(reduced);
+    if (!invertible(lu, kSingular * largest)) return std::nullopt;
+    const SmallMatrix inner = lu.inverse();
+    yielding = Z * inner * Z.transpose();
+  }
+  JointStiffness joint;
+  joint.stiffness =
+      coordinates.asDiagonal() * (J_inverse.transpose() * K * J_inverse) * coordinates.asDiagonal();
+  joint.compliance = coordinates.cwiseInverse().asDiagonal() * (J * yielding * J.transpose()) *
+                     coordinates.cwiseInverse().asDiagonal();
+  return joint;
+}
+
+}  // namespace condyle

@@ -1,0 +1,49 @@
+#pragma once
+
+/// Have the two surfaces of a pair passed through each other? What lies deeper behind a surface
+/// than the search for contacts looks is no overlap to it, so an open pair may have its solids
+/// within each other.
+
+#include <optional>
+#include <vector>
+
+#include "condyle/equilibrium/model.h"
+
+namespace condyle {
+
+class PassedThrough {
+ public:
+  /// `L` is the model's length [mm].
+  PassedThrough(const ContactPair& pair, double L);
+
+  /// How deep one surface lies behind the other [mm], where most of what faces the other's known
+  /// part does so by more than `kDeep` L; nothing where the surfaces are on their right sides.
+  [[nodiscard]] std::optional<double> depth(const RigidTransform& X_BA) const;
+
+  /// The same for a pose at which the search found no overlap, sought only where no such pose is
+  /// known nearby: a point that was in front of a surface cannot have passed the depth the search
+  /// sees.
+  [[nodiscard]] std::optional<double> depth_of_clear_pose(const RigidTransform& X_BA);
+
+  /// The surfaces touch here: they are on their right sides.
+  void trust(const RigidTransform& X_BA) { trusted_ = X_BA; }
+
+  /// As newly made.
+  void reset() { trusted_.reset(); }
+
+  static constexpr double kDeep = 0.48;  ///< of L: as deep as the search takes for an overlap
+
+ private:
+  struct Sample {
+    Eigen::Vector3d c, n;  ///< in its body's frame
+  };
+  [[nodiscard]] bool moved_far(const RigidTransform& X_BA) const;
+
+  const Surface* on_B_;
+  const Surface* on_A_;
+  double L_;
+  std::vector<Sample> samples_B_, samples_A_;
+  std::optional<RigidTransform> trusted_;
+};
+
+}  // namespace condyle

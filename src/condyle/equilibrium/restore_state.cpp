@@ -1,0 +1,49 @@
+#include "condyle/equilibrium/restore_state.h"
+
+#include <algorithm>
+
+#include "condyle/equilibrium/events.h"
+
+namespace condyle {
+namespace {
+
+bool tells_points(const ContactResult& contact) {
+  return std::all_of(contact.points.begin(), contact.points.end(),
+                     [](const ContactPointResult& point) {
+                       return point.point_ground.allFinite() && point.point_moving.allFinite();
+                     });
+}
+
+Place place_on(const Surface& surface, const Eigen::Vector3d& point) {
+  return surface.closest(point, surface.seed(point));
+}
+
+}  // namespace
+
+bool can_restore(const Model& model, const PoseResult& pose) {
+  if (!pose.solved() || !pose.X_BA.p.allFinite() || !pose.X_BA.R.allFinite()) return false;
+  if (pose.contacts.size() != model.pairs.size()) return false;
+  if (pose.conditions.size() != model.conditions.size()) return false;
+  return std::all_of(pose.contacts.begin(), pose.contacts.end(), [](const ContactResult& contact) {
+    return !contact.closed || tells_points(contact);
+  });
+}
+
+EquilibriumState restore_state(const Model& model, const PoseResult& pose) {
+  EquilibriumState state;
+  state.X = model.origins.into_model(pose.X_BA);
+  for (const ConditionResult& condition : pose.conditions)
+    state.sigma.push_back(condition.multiplier);
+  for (std::size_t i = 0; i < pose.contacts.size(); ++i) {
+    if (!pose.contacts[i].closed) continue;
+    const ContactPair& pair = model.pairs[i];
+    for (const ContactPointResult& point : pose.contacts[i].points) {
+      state.contacts.push_back(
+          {static_cast<int>(i), place_on(*pair.on_B, point.point_ground - model.origins.B),
+           place_on(*pair.on_A, point.point_moving - model.origins.A), point.force});
+    }
+  }
+  return state;
+}
+
+}  // namespace condyle

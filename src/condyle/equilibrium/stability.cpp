@@ -1,0 +1,90 @@
+#include "condyle/equilibrium/stability.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "condyle/equilibrium/dependence.h"
+#include "condyle/equilibrium/motion_name.h"
+
+namespace condyle {
+namespace {
+
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+
+constexpr double kNeutral = 1e-9;    // of the largest stiffness
+constexpr double kDependent = 1e-9;  // of constraint directions
+
+}  // namespace
+
+Eigen::Matrix<double, 6, 1> constraint_direction(const Model& model,
+                                                 const NewtonSystem& system,
+                                                 std::size_t constraint) {
+  Eigen::Matrix<double, 6, 1> direction;
+  const std::size_t n = system.contacts().size();
+  if (constraint < n) {
+    const ContactLinearization& contact = system.contacts()[constraint];
+    direction << contact.B.n, contact.arm / model.length;
+  } else {
+    const ConditionDerivatives& condition = system.conditions()[constraint - n];
+    direction << condition.alpha, condition.eta / model.length;
+  }
+  // Conditions on lengths and on angles differ in size: only their directions matter.
+  return direction.normalized();
+}
+
+Motions admissible_motions(const Model& model, const NewtonSystem& system) {
+  const std::size_t count =
+      std::min<std::size_t>(system.contacts().size() + system.conditions().size(), kMaxConstraints);
+  SmallMatrix columns(6, static_cast<Eigen::Index>(count));
+  for (std::size_t k = 0; k < count; ++k)
+    columns.col(static_cast<Eigen::Index>(k)) = constraint_direction(model, system, k);
+  if (count == 0 || !columns.allFinite()) return SmallMatrix::Identity(6, 6);
+  Eigen::ColPivHouseholderQR<SmallMatrix> qr(columns);
+  qr.setThreshold(kDependent);
+  const SmallMatrix Q = qr.householderQ() * SmallMatrix::Identity(6, 6);
+  return Q.rightCols(6 - qr.rank());
+}
+
+Stability stability(const Model& model, const NewtonSystem& system) {
+  Eigen::Matrix<double, 6, 6> K = scaled_stiffness(system.wrench(), model.length);
+  K = (0.5 * (K + K.transpose())).eval();
+  const double largest = std::max(K.cwiseAbs().maxCoeff(), system.force_scale() / model.length);
+
+  Stability result{std::numeric_limits<double>::infinity(), Eigen::Matrix<double, 6, 1>::Zero(),
+                   false, false, Motions(6, 0)};
+  const SmallMatrix Z = admissible_motions(model, system);
+  result.dependent = static_cast<std::size_t>(6 - Z.cols()) <
+                     system.contacts().size() + system.conditions().size();
+  const SmallMatrix reduced = Z.transpose() * K * Z;
+  if (Z.cols() == 0 || !reduced.allFinite()) return result;
+  const Eigen::SelfAdjointEigenSolver<SmallMatrix> eigen(reduced);
+  result.lowest_stiffness = eigen.eigenvalues()[0];
+  result.motion = Z * eigen.eigenvectors().col(0);
+  result.neutral = std::abs(result.lowest_stiffness) <= kNeutral * largest;
+  if (!result.neutral) return result;
+  Eigen::Index free = 0;
+  while (free < Z.cols() && eigen.eigenvalues()[free] <= kNeutral * largest) ++free;
+  result.free = Z * eigen.eigenvectors().leftCols(free);
+  return result;
+}
+
+std::string stability_remark(const Model& model,
+                             const NewtonSystem& system,
+                             const RigidTransform& X_BA,
+                             const Stability& stability) {
+  std::string remark;
+  if (stability.neutral) {
+    remark = "neutral: nothing resists " + name_motions(model, X_BA, stability.free);
+  } else if (!stability.stable()) {
+    remark = "unstable along " + name_motions(model, X_BA, stability.motion);
+  }
+  if (!stability.dependent) return remark;
+  if (!remark.empty()) remark += "; ";
+  return remark + dependent_constraints(model, system) + ": what each carries is not determined";
+}
+
+}  // namespace condyle

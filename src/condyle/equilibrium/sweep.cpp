@@ -1,0 +1,48 @@
+#include "condyle/equilibrium/sweep.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "condyle/equilibrium/arc_length.h"
+#include "condyle/equilibrium/build_model.h"
+#include "condyle/equilibrium/sweep_walk.h"
+
+namespace condyle {
+namespace {
+
+/// The greatest distance of two neighbouring values: what an arc-length sweep does not exceed.
+double largest_step(const std::vector<double>& values) {
+  double largest = 0;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    largest = std::max(largest, std::abs(values[i] - values[i - 1]));
+  return largest;
+}
+
+}  // namespace
+
+SweepResult sweep(EquilibriumSolver& solver,
+                  const Swept& swept,
+                  const std::vector<double>& values,
+                  const SweepOptions& options) {
+  return SweepWalk(solver, swept, options).along(values);
+}
+
+SweepResult sweep(const Scene& scene,
+                  const std::vector<FittedSurface>& surfaces,
+                  const SweepOptions& options) {
+  assert(scene.sweep);
+  EquilibriumOptions equilibrium;
+  equilibrium.description.stability = options.stability;
+  equilibrium.description.joint_stiffness = options.stability && scene.joint;
+  EquilibriumSolver solver(build_model(scene, surfaces), equilibrium);
+  const Swept swept = swept_of(*scene.sweep);
+  const std::vector<double>& values = scene.sweep->values;
+  if (!scene.sweep->arc_length || values.size() < 2) return sweep(solver, swept, values, options);
+  PathOptions path;
+  path.on_pose = options.on_pose;
+  return follow_path(solver, swept, values.front(), values.back(), largest_step(values), path);
+}
+
+}  // namespace condyle

@@ -1,0 +1,51 @@
+#pragma once
+
+/// The sweep: positions of equilibrium over a range of a prescribed motion or a load, each from the
+/// last one that converged. It takes over what an earlier sweep left.
+///
+/// Values at which none was found are tried again from the next pose that converges, back towards
+/// them; only then are they told. Where the poses on either side of such a gap, of a jump or of a
+/// pose found from another start are followed into each other and do not meet, two positions of
+/// equilibrium exist, and the remark of the pose says so.
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/known_poses.h"
+#include "condyle/equilibrium/pose_result.h"
+#include "condyle/scene/fit_surfaces.h"
+#include "condyle/scene/scene.h"
+
+namespace condyle {
+
+struct SweepOptions {
+  bool stability = true;       ///< reduced stiffness of each pose
+  bool events = true;          ///< locate what happens to contacts between poses
+  std::optional<Drive> drive;  ///< of all that is not swept; absent: the model's nominal one
+  /// Taken over where their values are met, failures too: a solved one is polished and described
+  /// anew, not searched for. The first value that is not known starts from the pose before it in
+  /// the sweep, or, where there is none, from the known one with the nearest value.
+  std::vector<KnownPose> known;
+  /// Called for each pose in order, when it is final: after a gap for all that lie in it.
+  std::function<void(const PoseResult&)> on_pose;
+  /// Called for each pose that was not taken over, when the events before it are located: all that
+  /// another sweep has to know.
+  std::function<void(const KnownPose&)> on_computed;
+};
+
+/// Solves the values in order. `swept` says which number of the drive varies. Never throws for mathematics that does not succeed: a pose carries its status. Whether poses are examined for
+/// stability is the solver's option here.
+[[nodiscard]] SweepResult sweep(EquilibriumSolver& solver,
+                                const Swept& swept,
+                                const std::vector<double>& values,
+                                const SweepOptions& options = {});
+
+/// One door: the sweep that the scene asks for. `surfaces` as from fit_surfaces. One along the path
+/// of equilibria (arc_length.h) takes nothing over.
+[[nodiscard]] SweepResult sweep(const Scene& scene,
+                                const std::vector<FittedSurface>& surfaces,
+                                const SweepOptions& options = {});
+
+}  // namespace condyle

@@ -1,0 +1,38 @@
+#include "condyle/exchange/csv_run.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "condyle/exchange/run_table.h"
+
+namespace condyle {
+namespace {
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + '"';
+}
+
+}  // namespace
+
+std::string csv_of_poses(const Run& run, const std::vector<ShownPose>& shown) {
+  const SweptQuantity quantity = swept_quantity(run);
+  const std::vector<TableColumn> columns = run_columns(run, shown);
+  std::string text = "pose,swept,swept_unit,quantity,name,component,value,unit\n";
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const double swept = quantity.shown(run.sweep.poses[shown[i].index].value);
+    const std::string head = fmt::format("{},{},{},", shown[i].index, swept, quantity.unit.name);
+    for (const TableColumn& column : columns) {
+      if (!std::isfinite(column.values[i])) continue;
+      fmt::format_to(std::back_inserter(text), "{}{},{},{},{},{}\n", head, column.quantity,
+                     quoted(column.name), column.component, column.values[i], column.unit);
+    }
+  }
+  return text;
+}
+
+}  // namespace condyle

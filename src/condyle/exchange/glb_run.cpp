@@ -1,0 +1,256 @@
+#include "condyle/exchange/glb_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/exchange/glb_solids.h"
+#include "condyle/results/contact_path.h"
+#include "condyle/results/run_layout.h"
+#include "condyle/results/strain_scale.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+constexpr double kMetre = 1e-3;                         // per mm
+constexpr double kContactRadius = 1.5, kDiamond = 3.2;  // [mm]
+constexpr double kMoment = 1e-3;  // of a step of time, after which something is hidden
+
+enum Material { kBone, kCartilage, kLigament, kContact, kBeyondEdge };
+
+// Colours are linear light. Bone is translucent, so that the cartilage shows where the two meet; of
+// closed bones only the outside is seen.
+std::vector<GlbMaterial> materials(bool closed_bones) {
+  return {{"bone", {0.79, 0.70, 0.56, 0.6}, 0.7, !closed_bones},
+          {"cartilage", {0.42, 0.60, 0.78, 1}, 0.35, true},
+          {"ligament", {0.80, 0.66, 0.34, 1}, 0.55, false},
+          {"contact", {0.65, 0.05, 0.04, 1}, 0.4, false},
+          {"beyond the edge", {0.67, 0.04, 0.007, 1}, 0.4, false}};
+}
+
+GlbMesh glb_mesh(const RunShape& shape) {
+  GlbMesh mesh;
+  mesh.name = shape.name;
+  mesh.material = shape.bone ? kBone : kCartilage;
+  for (const Vector3d& v : shape.mesh.vertices)
+    mesh.positions.push_back((kMetre * v).cast<float>());
+  for (const Vector3d& n : shape.normals) mesh.normals.push_back(n.cast<float>().normalized());
+  for (const auto& t : shape.mesh.triangles) {
+    mesh.triangles.push_back({static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
+                              static_cast<std::uint32_t>(t[2])});
+  }
+  return mesh;
+}
+
+/// The point that lies farthest beyond the edge of what is known; null where all lie within.
+const ContactPointResult* farthest_beyond(const ContactResult& contact) {
+  const ContactPointResult* farthest = nullptr;
+  for (const ContactPointResult& point : contact.points)
+    if (beyond_edge(point) > (farthest ? beyond_edge(*farthest) : 0)) farthest = &point;
+  return farthest;
+}
+
+class GlbRun {
+ public:
+  GlbRun(const Run& run, const std::vector<ShownPose>& shown)
+      : run_(run), scene_(run.scene), shown_(shown) {}
+
+  [[nodiscard]] GlbDocument document(const ShapeOptions& options) {
+    out_.title = scene_.title;
+    add_times();
+    GlbNode root;
+    root.name = "knee";
+    root.place.rotation = Quaterniond(upright(scene_));
+    out_.nodes.push_back(root);
+    const std::vector<RunShape> shapes = run_shapes(run_, options);
+    out_.materials = materials(std::all_of(shapes.begin(), shapes.end(), [](const RunShape& shape) {
+      return !shape.bone || shape.closed;
+    }));
+    add_bodies(shapes);
+    add_ligaments();
+    add_contacts();
+    return std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] const PoseResult& pose(const ShownPose& shown) const {
+    return run_.sweep.poses[shown.index];
+  }
+
+  template <typename F>
+  [[nodiscard]] std::vector<double> of_poses(const F& value) const {
+    std::vector<double> values;
+    for (const ShownPose& shown : shown_) values.push_back(value(pose(shown)));
+    return values;
+  }
+
+  int add_node(GlbNode node, int parent) {
+    if (!node.track.empty()) node.place = node.track.front();
+    out_.nodes.push_back(std::move(node));
+    const int index = static_cast<int>(out_.nodes.size()) - 1;
+    out_.nodes[static_cast<std::size_t>(parent)].children.push_back(index);
+    return index;
+  }
+
+  int add_mesh(GlbMesh mesh) {
+    out_.meshes.push_back(std::move(mesh));
+    return static_cast<int>(out_.meshes.size()) - 1;
+  }
+
+  void add_times() {
+    out_.animation = run_.kind() == RunKind::kSimulation ? "motion" : "sweep";
+    for (const ShownPose& shown : shown_) out_.times.push_back(shown.time);
+    const SweptQuantity swept = swept_quantity(run_);
+    out_.words = {{"title", scene_.title}, {"unit", swept.unit.name}, {"varied", swept.name}};
+    out_.extras.push_back({"time_s", out_.times});
+    out_.extras.push_back(
+        {"value", of_poses([&](const PoseResult& p) { return swept.shown(p.value); })});
+    out_.extras.push_back(
+        {"status", of_poses([](const PoseResult& p) { return static_cast<double>(p.status); })});
+    out_.extras.push_back({"strain_top", {strain_scale(run_).top}});
+    if (!scene_.joint) return;
+    out_.extras.push_back(
+        {"flexion_deg", of_poses([](const PoseResult& p) { return p.joint.flexion / kDegree; })});
+  }
+
+  void add_bodies(const std::vector<RunShape>& shapes) {
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+      GlbNode node;
+      node.name = scene_.bodies[i].name;
+      if (static_cast<int>(i) == scene_.moving_body()) {
+        for (const ShownPose& shown : shown_) {
+          const RigidTransform& X = pose(shown).X_BA;
+          node.track.push_back({kMetre * X.p, Quaterniond(X.R).normalized()});
+        }
+      }
+      const int body = add_node(std::move(node), 0);
+      for (const RunShape& shape : shapes) {
+        if (shape.body != static_cast<int>(i)) continue;
+        GlbNode child;
+        child.name = shape.name;
+        child.mesh = add_mesh(glb_mesh(shape));
+        add_node(std::move(child), body);
+      }
+    }
+  }
+
+  /// A cylinder of unit length along y, stretched from end to end. It rolls as little as can be.
+  [[nodiscard]] std::vector<GlbPlace> ligament_track(const LigamentDescription& ligament) const {
+    std::vector<GlbPlace> track;
+    Quaterniond turned = Quaterniond::Identity();
+    for (const ShownPose& shown : shown_) {
+      const Vector3d a = insertion(scene_, pose(shown), ligament.ends[0]);
+      const Vector3d ab = insertion(scene_, pose(shown), ligament.ends[1]) - a;
+      turned = (Quaterniond::FromTwoVectors(turned * Vector3d::UnitY(), ab) * turned).normalized();
+      track.push_back({kMetre * a, turned, {1, kMetre * ab.norm(), 1}});
+    }
+    return track;
+  }
+
+  void add_ligaments() {
+    if (scene_.ligaments.empty()) return;
+    const int cylinder =
+        add_mesh(unit_cylinder("ligament", kLigament, kMetre * ligament_radius(scene_)));
+    for (std::size_t i = 0; i < scene_.ligaments.size(); ++i) {
+      GlbNode node;
+      node.name = "ligament " + scene_.ligaments[i].name;
+      node.mesh = cylinder;
+      node.track = ligament_track(scene_.ligaments[i]);
+      node.moves_scale = true;
+      const auto number = [&](double LigamentResult::*part) {
+        return of_poses([&](const PoseResult& p) { return p.ligaments[i].*part; });
+      };
+      node.extras = {{"strain", number(&LigamentResult::strain)},
+                     {"force_N", number(&LigamentResult::force)}};
+      add_node(std::move(node), 0);
+    }
+  }
+
+  using PointOf = const ContactPointResult* (*)(const ContactResult&);
+
+  /// Where there is no point it waits where it was.
+  [[nodiscard]] std::vector<GlbPlace> contact_track(std::size_t index, PointOf point_of) const {
+    std::vector<GlbPlace> track;
+    GlbPlace place;
+    for (const ShownPose& shown : shown_) {
+      const ContactPointResult* point = point_of(pose(shown).contacts[index]);
+      if (point && point->point_ground.allFinite())
+        place.translation = kMetre * point->point_ground;
+      track.push_back(place);
+    }
+    return track;
+  }
+
+  /// Does the contact stay closed, with no pose missing, from one keyframe until it opens before
+  /// the next?
+  [[nodiscard]] bool opens_before(std::size_t next, std::size_t index) const {
+    return shown_[next].index == shown_[next - 1].index + 1 &&
+           !pose(shown_[next]).contacts[index].closed;
+  }
+
+  /// As small as nothing where the contact has no such point, and on the way between two places
+  /// that no path joins.
+  [[nodiscard]] std::vector<GlbStep> contact_steps(std::size_t index, PointOf point_of) const {
+    const auto path = contact_path(run_.sweep, index);
+    std::vector<GlbStep> steps;
+    for (std::size_t i = 0; i < shown_.size(); ++i) {
+      const ContactResult& contact = pose(shown_[i]).contacts[index];
+      const bool shown = contact.closed && point_of(contact);
+      steps.push_back({shown_[i].time, shown ? 1.0 : 0.0});
+      if (!shown || i + 1 == shown_.size() || opens_before(i + 1, index) ||
+          joined(path, shown_[i].index, shown_[i + 1].index))
+        continue;
+      steps.push_back({shown_[i].time + kMoment * (shown_[i + 1].time - shown_[i].time), 0});
+    }
+    return steps;
+  }
+
+  void add_contact(std::size_t index, const std::string& words, int mesh, PointOf point_of) {
+    GlbNode node;
+    node.name = "contact " + scene_.contacts[index].name + words;
+    node.mesh = mesh;
+    node.track = contact_track(index, point_of);
+    node.steps = contact_steps(index, point_of);
+    node.track.front().scale.setConstant(node.steps.front().scale);
+    node.extras = {
+        {"force_N", of_poses([&](const PoseResult& p) { return p.contacts[index].force; })}};
+    add_node(std::move(node), 0);
+  }
+
+  void add_contacts() {
+    if (scene_.contacts.empty()) return;
+    const int sphere = add_mesh(ball("contact", kContact, kMetre * kContactRadius));
+    for (std::size_t i = 0; i < scene_.contacts.size(); ++i)
+      add_contact(i, "", sphere, strongest_point);
+    const bool beyond = std::any_of(shown_.begin(), shown_.end(), [&](const ShownPose& shown) {
+      return beyond_edge(pose(shown)) > 0;
+    });
+    if (!beyond) return;
+    const int sign = add_mesh(diamond("beyond the edge", kBeyondEdge, kMetre * kDiamond));
+    for (std::size_t i = 0; i < scene_.contacts.size(); ++i)
+      add_contact(i, " beyond the edge", sign, farthest_beyond);
+  }
+
+  const Run& run_;
+  const Scene& scene_;
+  const std::vector<ShownPose>& shown_;
+  GlbDocument out_;
+};
+
+}  // namespace
+
+std::string glb_of_poses(const Run& run,
+                         const std::vector<ShownPose>& shown,
+                         const ShapeOptions& options) {
+  ShapeOptions shapes = options;
+  shapes.drop_covered = true;
+  return glb_bytes(GlbRun(run, shown).document(shapes));
+}
+
+std::string glb_of_run(const Run& run, const std::string& file, const ShapeOptions& options) {
+  return glb_of_poses(run, shown_poses(run, file), options);
+}
+
+}  // namespace condyle

@@ -1,0 +1,119 @@
+#include "condyle/mesh/orient_mesh.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "condyle/mesh/mesh_measures.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A component with fewer boundary edges than this share of its triangles counts as closed:
+/// pinholes of a segmentation, not the rim of a sheet (a sheet of n triangles has about 2 √n of
+/// them).
+constexpr double kPinholes = 0.005;
+
+/// Calls visit(from, k, other) for every triangle `other` that is reached from `seed` across side k
+/// of `from`, each once, breadth first; `seen` marks them. Returns them all.
+template <class Visit>
+std::vector<int> walk(const TriangleLinks& links, int seed, std::vector<bool>& seen, Visit visit) {
+  std::vector<int> members = {seed};
+  seen[seed] = true;
+  for (std::size_t next = 0; next < members.size(); ++next)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int other = links.across(members[next], k);
+      if (other < 0 || seen[other]) continue;
+      seen[other] = true;
+      visit(members[next], k, other);
+      members.push_back(other);
+    }
+  return members;
+}
+
+/// Which triangles to turn for the component that contains `seed`, the fewest; returns all of it.
+std::vector<int> make_consistent(const TriangleLinks& links,
+                                 int seed,
+                                 std::vector<bool>& turned,
+                                 std::vector<bool>& seen) {
+  const std::vector<int> members = walk(links, seed, seen, [&](int from, std::size_t k, int other) {
+    turned[other] = turned[from] != !links.agrees(from, k);
+  });
+  const auto count =
+      std::count_if(members.begin(), members.end(), [&](int t) { return turned[t]; });
+  if (2 * static_cast<std::size_t>(count) > members.size())
+    for (const int t : members) turned[t] = !turned[t];
+  return members;
+}
+
+/// Six times the volume that the triangles enclose as they will be turned, about their own centre.
+double enclosed_volume(const TriangleMesh& mesh,
+                       const std::vector<int>& members,
+                       const std::vector<bool>& turned) {
+  Vector3d center = Vector3d::Zero();
+  for (const int t : members)
+    center += mesh.vertices[mesh.triangles[t][0]] / static_cast<double>(members.size());
+  double volume = 0;
+  for (const int t : members) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const double part = (mesh.vertices[a] - center)
+                            .dot((mesh.vertices[b] - center).cross(mesh.vertices[c] - center));
+    volume += turned[t] ? -part : part;
+  }
+  return volume;
+}
+
+}  // namespace
+
+std::vector<int> find_components(const TriangleMesh& mesh, const TriangleLinks& links) {
+  std::vector<int> component(mesh.triangles.size());
+  std::vector<double> area;
+  std::vector<bool> seen(mesh.triangles.size(), false);
+  for (std::size_t seed = 0; seed < seen.size(); ++seed) {
+    if (seen[seed]) continue;
+    const int label = static_cast<int>(area.size());
+    double sum = 0;
+    for (const int t : walk(links, static_cast<int>(seed), seen, [](int, std::size_t, int) {})) {
+      component[t] = label;
+      sum += triangle_area(mesh, mesh.triangles[t]).norm();
+    }
+    area.push_back(sum);
+  }
+  std::vector<int> order(area.size()), number(area.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int x, int y) { return area[x] > area[y]; });
+  for (std::size_t i = 0; i < order.size(); ++i) number[order[i]] = static_cast<int>(i);
+  for (int& c : component) c = number[c];
+  return component;
+}
+
+int orient_components(TriangleMesh& mesh,
+                      const TriangleLinks& links,
+                      const std::vector<int>& component,
+                      std::vector<bool>& closed) {
+  const int n = component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
+  std::vector<int> boundary(n, 0);
+  for (std::size_t t = 0; t < component.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) boundary[component[t]] += links.is_boundary(t, k);
+
+  closed.assign(n, false);
+  std::vector<bool> turned(mesh.triangles.size(), false), seen(mesh.triangles.size(), false);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (seen[t]) continue;
+    const std::vector<int> members = make_consistent(links, static_cast<int>(t), turned, seen);
+    const int c = component[t];
+    closed[c] = boundary[c] <= kPinholes * static_cast<double>(members.size());
+    if (closed[c] && enclosed_volume(mesh, members, turned) < 0)
+      for (const int m : members) turned[m] = !turned[m];
+  }
+  for (std::size_t t = 0; t < turned.size(); ++t)
+    if (turned[t]) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  return static_cast<int>(std::count(turned.begin(), turned.end(), true));
+}
+
+}  // namespace condyle

@@ -1,0 +1,25 @@
+#pragma once
+
+/// Components of a mesh and their orientation.
+
+#include <vector>
+
+#include "condyle/mesh/mesh_edges.h"
+#include "condyle/mesh/triangle_mesh.h"
+
+namespace condyle {
+
+/// Number of the component of each triangle, by falling area; linked through edges of just two
+/// triangles.
+[[nodiscard]] std::vector<int> find_components(const TriangleMesh& mesh,
+                                               const TriangleLinks& links);
+
+/// Turns triangles so that each component is consistent in itself (the fewest are turned) and
+/// closed components face outward. Returns how many triangles end up turned; fills `closed` per
+/// component.
+int orient_components(TriangleMesh& mesh,
+                      const TriangleLinks& links,
+                      const std::vector<int>& component,
+                      std::vector<bool>& closed);
+
+}  // namespace condyle

@@ -1,0 +1,120 @@
+#include "condyle/network/contact_scout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "condyle/contact/contact.h"
+#include "condyle/equilibrium/model_covers.h"
+
+namespace condyle {
+namespace {
+
+// Of L, 30 mm for a knee.
+constexpr double kNear = 0.1 / 30;       // gap below which a place is followed
+constexpr double kSamePlace = 0.5 / 30;  // between points of contact
+constexpr double kDouble = 1e-3 / 30;    // between those that have become one
+constexpr double kOverlap = 1e-6 / 30;   // of an open contact
+constexpr double kBuried = 0.05 / 30;    // where there is no single lowest point
+
+}  // namespace
+
+PairScout::PairScout(const Model& model, const ContactCovers& covers, const KneeNetwork& knee)
+    : model_(model), knee_(knee), searches_(make_searches(model, covers)) {}
+
+ContactSighting PairScout::operator()(NetworkState& state) {
+  ContactSighting sighting;
+  for (std::size_t p = 0; p < model_.pairs.size(); ++p) {
+    if (model_.pairs[p].mode != ContactMode::kAuto || !searches_[p].has_samples()) continue;
+    scout_pair(static_cast<int>(p), state, sighting);
+  }
+  sighting.lost = lost_contact(state);
+  return sighting;
+}
+
+std::string beyond_edge(const ContactPair& pair, double edge_distance) {
+  if (edge_distance >= 0) return "";
+  return fmt::format("contact \"{}\" lies {:.2g} mm beyond the edge of its surface", pair.name,
+                     -edge_distance);
+}
+
+std::string PairScout::lost_contact(const NetworkState& state) const {
+  for (std::size_t i = 0; i < knee_.places.size(); ++i) {
+    const ContactPlaces& places = state.contacts[i];
+    if (!places.closed) continue;
+    const ContactPair& pair = model_.pairs[knee_.places[i]];
+    std::string reason = beyond_edge(pair, edge_distance(pair, places.on_ground, places.on_body));
+    if (!reason.empty()) return reason;
+  }
+  return "";
+}
+
+void PairScout::scout_pair(int pair, NetworkState& state, ContactSighting& sighting) {
+  const double L = model_.length;
+  drop_doubles(pair, state);
+  set_known(pair, state);
+  searches_[pair].find(state.bodies[0].X, kNear * L, minima_, kSamePlace * L, known_);
+  for (const GapMinimum& minimum : minima_) {
+    if (minimum.edge < 0) continue;
+    const int follower = follower_of(pair, minimum, state);
+    if (follower >= 0) {
+      if (state.contacts[follower].closed || minimum.gap > -kOverlap * L) continue;
+      sighting.followed = std::min(sighting.followed, minimum.gap);
+      sighting.overlapping.push_back(follower);
+      continue;
+    }
+    if (!minimum.refined && minimum.gap > -kBuried * L) continue;
+    sighting.unseen = std::min(sighting.unseen, minimum.gap);
+    const int waiting = waiting_contact(pair, state);
+    if (minimum.refined && waiting >= 0) state.contacts[waiting] = {minimum.on_B, minimum.on_A};
+  }
+}
+
+/// Closed contacts are a help to the search, and need not be found.
+void PairScout::set_known(int pair, const NetworkState& state) {
+  known_.clear();
+  const ContactPair& surfaces = model_.pairs[pair];
+  for (std::size_t i = 0; i < knee_.places.size(); ++i) {
+    const ContactPlaces& places = state.contacts[i];
+    if (knee_.places[i] != pair || !places.closed) continue;
+    const ContactLinearization at = linearize_contact(
+        *surfaces.on_B, places.on_ground, *surfaces.on_A, places.on_body, state.bodies[0].X);
+    known_.push_back({at.B.c, at.A.c, at.B.K, at.A.K, at.relative_curvature[0]});
+  }
+}
+
+Eigen::Vector3d PairScout::point_of(int contact, const NetworkState& state) const {
+  const ContactPair& pair = model_.pairs[knee_.places[contact]];
+  return pair.on_B->evaluate_frame(state.contacts[contact].on_ground).c;
+}
+
+int PairScout::follower_of(int pair, const GapMinimum& minimum, const NetworkState& state) const {
+  for (int i = 0; i < static_cast<int>(knee_.places.size()); ++i)
+    if (knee_.places[i] == pair && state.contacts[i].followed &&
+        (point_of(i, state) - minimum.point_B).norm() < kSamePlace * model_.length)
+      return i;
+  return -1;
+}
+
+int PairScout::waiting_contact(int pair, const NetworkState& state) const {
+  for (int i = 0; i < static_cast<int>(knee_.places.size()); ++i)
+    if (knee_.places[i] == pair && !state.contacts[i].followed) return i;
+  return -1;
+}
+
+/// Two minima that have become one need one contact, a closed one where there is one.
+void PairScout::drop_doubles(int pair, NetworkState& state) const {
+  const int count = static_cast<int>(knee_.places.size());
+  for (int i = 0; i < count; ++i) {
+    for (int k = i + 1; k < count; ++k) {
+      ContactPlaces &first = state.contacts[i], &second = state.contacts[k];
+      if (knee_.places[i] != pair || knee_.places[k] != pair) continue;
+      if (!first.followed || !second.followed) continue;
+      if ((point_of(i, state) - point_of(k, state)).norm() > kDouble * model_.length) continue;
+      ContactPlaces& dropped = second.closed && !first.closed ? first : second;
+      dropped.closed = dropped.followed = false;
+    }
+  }
+}
+
+}  // namespace condyle

@@ -1,0 +1,41 @@
+#pragma once
+
+/// Looks for new places of contact while a knee moves, with the search of the equilibrium room.
+
+#include "condyle/contact/contact_search.h"
+#include "condyle/network/integrate.h"
+#include "condyle/network/knee_network.h"
+
+namespace condyle {
+
+class PairScout {
+ public:
+  /// Keeps references.
+  PairScout(const Model& model, const ContactCovers& covers, const KneeNetwork& knee);
+
+  /// As ContactScout says.
+  ContactSighting operator()(NetworkState& state);
+
+ private:
+  void scout_pair(int pair, NetworkState& state, ContactSighting& sighting);
+  void set_known(int pair, const NetworkState& state);
+  [[nodiscard]] int follower_of(int pair,
+                                const GapMinimum& minimum,
+                                const NetworkState& state) const;
+  [[nodiscard]] int waiting_contact(int pair, const NetworkState& state) const;
+  void drop_doubles(int pair, NetworkState& state) const;
+  [[nodiscard]] std::string lost_contact(const NetworkState& state) const;
+  [[nodiscard]] Eigen::Vector3d point_of(int contact, const NetworkState& state) const;
+
+  const Model& model_;
+  const KneeNetwork& knee_;
+  std::vector<ContactSearch> searches_;  ///< one for each of Model::pairs
+  std::vector<GapMinimum> minima_;
+  std::vector<KnownContact> known_;
+};
+
+/// Why a closed contact so far from the edge of its patch [mm] is none: beyond it the surface is a
+/// guess. Empty where it is not beyond.
+[[nodiscard]] std::string beyond_edge(const ContactPair& pair, double edge_distance);
+
+}  // namespace condyle

@@ -1,0 +1,188 @@
+#include "condyle/network/integrate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "condyle/input_error.h"
+#include "condyle/network/contact_changes.h"
+#include "condyle/network/moving_network.h"
+#include "condyle/network/record_motion.h"
+
+namespace condyle {
+namespace {
+
+constexpr double kBeforeJump = 1e-12;  // [s]: a step may not see a driver after its jump
+
+/// From frame to frame, and from event to event between them.
+class Integration {
+ public:
+  Integration(const Network& network,
+              NetworkState start,
+              const IntegrationOptions& options,
+              ContactScout scout)
+      : options_(options),
+        scout_(std::move(scout)),
+        touch_(1e-5 / 30 * network.length),
+        moving_(network, std::move(start), options) {}
+
+  Motion run() {
+    moving_.check_start();
+    moving_.change_contacts({}, {}, motion_.events);
+    if (scout_) scout_(moving_.state());
+    double t = moving_.state().t;
+    const double start = t;
+    end_ = start + options_.end;
+    moving_.restart(t);
+    store(t);
+    const auto frames = static_cast<long>(std::ceil(options_.end / options_.interval - 1e-9));
+    motion_.completed = true;
+    for (long k = 1; k <= frames && motion_.completed; ++k) {
+      const double to = std::min(end_, start + static_cast<double>(k) * options_.interval);
+      steps_before_ = moving_.ode().steps();
+      attempts_ = 0;
+      if (scout_ ? advance_scouted(t, to, 0) : advance(t, to) && land(t)) store(t);
+      if (options_.on_frame) options_.on_frame(static_cast<int>(k), static_cast<int>(frames));
+    }
+    motion_.steps = moving_.ode().steps();
+    motion_.evaluations = moving_.ode().evaluations();
+    return std::move(motion_);
+  }
+
+ private:
+  /// What is needed to take a stretch of time back.
+  struct Moment {
+    double t;
+    std::vector<double> numbers;
+    NetworkState state;
+    std::size_t events;
+  };
+  Moment moment(double t) { return {t, moving_.numbers(), moving_.state(), motion_.events.size()}; }
+  void go_back(const Moment& moment) {
+    moving_.set(moment.t, moment.numbers, moment.state);
+    motion_.events.resize(moment.events);
+    motion_.completed = true;
+    motion_.reason.clear();
+    released_at_.clear();
+    hopeless_ = false;
+  }
+
+  /// Goes on in halves where the way led into an overlap that no contact saw, or where a contact
+  /// was lost.
+  bool advance_scouted(double& t, double to, int halvings) {
+    constexpr int kMostHalvings = 12, kMostAttempts = 200;
+    const Moment before = moment(t);
+    ++attempts_;
+    if (advance(t, to) && land(t)) {
+      const ContactSighting sighting = scout_(moving_.state());
+      if (!sighting.lost.empty()) return end_here(t, sighting.lost);
+      if (sighting.unseen >= 0 && sighting.overlapping.empty()) return true;
+      if (sighting.unseen >= 0 && sighting.followed > -touch_)
+        return handle_event(t, sighting.overlapping, {});
+      give_up(
+          t,
+          "the bodies overlap where no contact could be followed, as beyond the edge of a surface");
+    }
+    if (hopeless_ || halvings == kMostHalvings || attempts_ >= kMostAttempts) return false;
+    go_back(before);
+    t = before.t;
+    const double middle = t + (to - t) / 2;
+    return advance_scouted(t, middle, halvings + 1) && advance_scouted(t, to, halvings + 1);
+  }
+
+  bool advance(double& t, double to) {
+    constexpr int kMostEvents = 1000;
+    for (int events = 0; t < to - 2 * kBeforeJump; ++events) {
+      if (events == kMostEvents) return end_here(t, "contacts open and close without end");
+      if (steps_are_spent()) return end_here(t, "too many steps for one frame");
+      const double jump = next_jump(t), stop = std::min(end_, jump - kBeforeJump);
+      if (stop <= t) {  // just before a jump: go on behind it
+        t = jump;
+        if (!handle_event(t, {}, {})) return false;
+        continue;
+      }
+      const OdeOutcome outcome = moving_.ode().advance(t, std::min(to, stop), stop);
+      if (outcome == OdeOutcome::kEvent && !handle_root(t)) return false;
+      if (outcome != OdeOutcome::kFailed) continue;
+      if (steps_are_spent()) return end_here(t, moving_.ode().reason());
+      return give_up(t, moving_.lost_contact().value_or(moving_.ode().reason()));
+    }
+    return true;
+  }
+
+  bool steps_are_spent() { return moving_.ode().steps() - steps_before_ >= options_.most_steps; }
+
+  /// The next time after t at which a driver jumps, or never.
+  double next_jump(double t) const {
+    double next = INFINITY;
+    for (const double jump : options_.breaks)
+      if (jump > t) next = std::min(next, jump);
+    return next;
+  }
+
+  bool give_up(double t, const std::string& reason) {
+    motion_.completed = false;
+    motion_.reason = fmt::format("at {:.6g} s: {}", t, reason);
+    return false;
+  }
+  /// Trying again in halves would not help.
+  bool end_here(double t, const std::string& reason) {
+    hopeless_ = true;
+    return give_up(t, reason);
+  }
+
+  /// The state at t exactly on the constraints: between steps it is interpolated.
+  bool land(double t) { return moving_.land(t) || give_up(t, "the constraints could not be met"); }
+
+  /// One that was released this very moment, a hair before its force had vanished, does not strike:
+  /// it stays open, or it would open and close without end.
+  bool handle_root(double t) {
+    constexpr double kSameMoment = 1e-9;  // [s]
+    std::vector<int> struck, released;
+    for (const int contact : moving_.found()) {
+      double& last = released_at_.try_emplace(contact, -INFINITY).first->second;
+      const bool closed = moving_.state().contacts[contact].closed;
+      if (closed) last = t;
+      (closed || t - last < kSameMoment ? released : struck).push_back(contact);
+    }
+    return handle_event(t, struck, released);
+  }
+
+  /// Contacts change where a root was found, or may where a driver jumps.
+  bool handle_event(double t, const std::vector<int>& struck, const std::vector<int>& released) {
+    if (!land(t)) return false;
+    moving_.change_contacts(struck, released, motion_.events);
+    moving_.restart(t);
+    return true;
+  }
+
+  void store(double t) {
+    if (!moving_.record(motion_)) give_up(t, "the constraints could not be met");
+  }
+
+  IntegrationOptions options_;
+  ContactScout scout_;
+  double touch_;  ///< overlap of a contact that opened for nothing [mm]
+  MovingNetwork moving_;
+  Motion motion_;
+  double end_ = 0;
+  long steps_before_ = 0;              ///< this frame
+  int attempts_ = 0;                   ///< at this frame
+  std::map<int, double> released_at_;  ///< when a contact's force vanished last [s]
+  bool hopeless_ = false;
+};
+
+}  // namespace
+
+Motion integrate(const Network& network,
+                 NetworkState start,
+                 const IntegrationOptions& options,
+                 ContactScout scout) {
+  return Integration(network, std::move(start), options, std::move(scout)).run();
+}
+
+}  // namespace condyle

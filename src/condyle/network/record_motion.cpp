@@ -1,0 +1,51 @@
+#include "condyle/network/record_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace condyle {
+namespace {
+
+void add_contacts(const NetworkEquations& equations, MotionFrame& frame) {
+  const Eigen::Vector3d nowhere = Eigen::Vector3d::Constant(NAN);
+  for (std::size_t i = 0; i < frame.state.contacts.size(); ++i) {
+    const ContactLinearization& contact = equations.contact(i);
+    const bool known = frame.state.contacts[i].followed;
+    frame.contact_force.push_back(equations.contact_force(i));
+    frame.contact_gap.push_back(known ? contact.gap() : INFINITY);
+    frame.contact_point.push_back(known ? contact.B.c : nowhere);
+  }
+}
+
+void audit(const MotionFrame& frame, Motion& motion) {
+  const MotionFrame& first = motion.frames.empty() ? frame : motion.frames.front();
+  motion.largest_imbalance =
+      std::max(motion.largest_imbalance, std::abs(frame.balance() - first.balance()));
+  motion.energy_scale = std::max(
+      {motion.energy_scale, frame.energy.kinetic, std::abs(frame.energy.elastic),
+       std::abs(frame.energy.gravity - first.energy.gravity), std::abs(frame.driver_work)});
+}
+
+}  // namespace
+
+void record_frame(const NetworkEquations& equations,
+                  const NetworkState& state,
+                  double dissipated,
+                  double driver_work,
+                  Motion& motion) {
+  MotionFrame frame;
+  frame.state = state;
+  add_contacts(equations, frame);
+  frame.lines = equations.lines();
+  for (std::size_t k = 0; k < equations.rows().size(); ++k)
+    if (equations.rows()[k].condition >= 0)
+      frame.condition_multiplier.push_back(equations.multipliers()[static_cast<Eigen::Index>(k)]);
+  frame.energy = equations.energies();
+  frame.dissipated = dissipated;
+  frame.driver_work = driver_work;
+  audit(frame, motion);
+  motion.frames.push_back(std::move(frame));
+}
+
+}  // namespace condyle

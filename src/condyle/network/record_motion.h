@@ -1,0 +1,17 @@
+#pragma once
+
+/// What is kept of a motion, and the audit of its energy.
+
+#include "condyle/network/motion.h"
+#include "condyle/network/network_equations.h"
+
+namespace condyle {
+
+/// Adds a frame from equations that are solved at `state`.
+void record_frame(const NetworkEquations& equations,
+                  const NetworkState& state,
+                  double dissipated,
+                  double driver_work,
+                  Motion& motion);
+
+}  // namespace condyle

@@ -1,0 +1,70 @@
+#include "condyle/pictures/knee_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/pictures/surface_shapes.h"
+#include "condyle/results/run_view.h"
+#include "condyle/results/strain_scale.h"
+
+namespace condyle {
+namespace {
+
+constexpr Paint kBone = {{232, 222, 204}, 0};
+
+}  // namespace
+
+std::vector<RigidTransform> body_poses(const Scene& scene, const RigidTransform& X_BA) {
+  const RigidTransform X_PB = body_pose(scene, X_BA, tibia_body(scene)).inverse();
+  std::vector<RigidTransform> poses;
+  for (int body = 0; body < static_cast<int>(scene.bodies.size()); ++body)
+    poses.push_back(X_PB * body_pose(scene, X_BA, body));
+  return poses;
+}
+
+std::vector<BodyShape> body_shapes(const Run& run, double spacing) {
+  std::vector<BodyShape> shapes;
+  for (const BodyMesh& bone : run.bodies) {
+    const int body = body_named(run.scene, bone.name);
+    if (body < 0 || bone.mesh.triangles.empty()) continue;
+    shapes.push_back({body, Layer::kBone, 0.05, is_closed(bone.mesh), shade(bone.mesh, kBone), -1});
+  }
+  for (std::size_t i = 0; i < run.scene.surfaces.size(); ++i) {
+    const SurfaceDescription& surface = run.scene.surfaces[i];
+    const RunPatch* patch = patch_of(run, surface.name);
+    if (surface.kind == SurfaceKind::kPatch && !patch) continue;
+    shapes.push_back({surface.body, Layer::kSolid, 0.16, false,
+                      patch
+                          ? patch_shape(Patch(patch->data), kCartilage, spacing)
+                          : exact_shape(surface, kCartilage, place_of_interest(run, surface.body)),
+                      static_cast<int>(i)});
+  }
+  return shapes;
+}
+
+PictureScales picture_scales(const Run& run, double size) {
+  PictureScales scales;
+  scales.strain_known =
+      std::any_of(run.scene.ligaments.begin(), run.scene.ligaments.end(),
+                  [](const auto& ligament) { return slack_length(ligament.law) > 0; });
+  double tension = 1, contact = 1, low = 1e300, high = -1e300;
+  for (const PoseResult& pose : run.sweep.poses) {
+    if (!has_place(pose)) continue;
+    low = std::min(low, pose.value);
+    high = std::max(high, pose.value);
+    for (const LigamentResult& ligament : pose.ligaments)
+      tension = std::max(tension, ligament.force);
+    for (const ContactResult& c : pose.contacts) contact = std::max(contact, c.force);
+  }
+  const StrainScale strain = strain_scale(run);
+  scales.ligament_top = scales.strain_known ? strain.top : round_up_nicely(tension);
+  scales.ligament_greatest = scales.strain_known ? strain.greatest : tension;
+  scales.force_top = contact;
+  scales.size = size;
+  scales.arrow_mm_per_n = size * 35 / contact;
+  if (low <= high) scales.sweep_low = low, scales.sweep_high = high;
+  scales.tube_radius = size * ligament_radius(run.scene);
+  return scales;
+}
+
+}  // namespace condyle

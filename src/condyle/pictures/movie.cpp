@@ -1,0 +1,57 @@
+#include "condyle/pictures/movie.h"
+
+#include <utility>
+
+#include "condyle/input_error.h"
+#include "condyle/pictures/picture_error.h"
+#include "condyle/pictures/png_file.h"
+#include "condyle/pictures/run_program.h"
+#include "condyle/results/output_file.h"
+
+namespace condyle {
+
+Movie::Movie(std::filesystem::path path, int frames_per_second)
+    : path_(std::move(path)),
+      frames_per_second_(frames_per_second),
+      mp4_(path_.extension() == ".mp4"),
+      animated_(frames_per_second) {
+  if (mp4_ && !run_program({"ffmpeg", "-version"}, "").started)
+    throw PictureError(path_.string() +
+                       ": ffmpeg is not installed: an MP4 needs it (Debian package ffmpeg); "
+                       "an animated PNG needs nothing");
+}
+
+void Movie::add(const Image& frame) {
+  if (mp4_)
+    stills_ += encode_png(frame);
+  else
+    animated_.add(frame);
+}
+
+void Movie::finish() {
+  if (mp4_)
+    write_mp4();
+  else
+    write_output_file(path_, animated_.bytes());
+}
+
+void Movie::write_mp4() const {
+  const std::filesystem::path part = path_.string() + ".part";
+  const ProgramResult result =
+      run_program({"ffmpeg", "-y", "-loglevel", "error", "-f", "image2pipe", "-framerate",
+                   std::to_string(frames_per_second_), "-c:v", "png", "-i", "-",
+                   // H.264 wants even sides; yuv420p is what players know.
+                   "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-c:v", "libx264", "-crf",
+                   "18", "-pix_fmt", "yuv420p", "-fflags", "+bitexact", "-flags:v", "+bitexact",
+                   "-movflags", "+faststart", "-f", "mp4", part.string()},
+                  stills_);
+  std::error_code error;
+  if (result.exit_code != 0) {
+    std::filesystem::remove(part, error);
+    throw PictureError(path_.string() + ": ffmpeg did not write it: " + result.messages);
+  }
+  std::filesystem::rename(part, path_, error);
+  if (error) throw InputError(path_.string() + ": cannot write: " + error.message());
+}
+
+}  // namespace condyle

@@ -1,0 +1,254 @@
+#include "condyle/pictures/run_charts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "condyle/elements/joint_table.h"
+#include "condyle/pictures/knee_shapes.h"
+#include "condyle/pictures/ligament_groups.h"
+#include "condyle/results/contact_path.h"
+#include "condyle/results/motion_view.h"
+#include "condyle/results/run_view.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kLeastStrain = -10;  // [%]: how slack a slack ligament is says little
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+using OfPose = std::function<double(const PoseResult&)>;
+
+/// y of each converged pose over the swept value; hollow where a pose has a place but is no result.
+Curve curve_of(const Run& run, const std::string& title, const OfPose& y) {
+  const double per_value = swept_quantity(run).axis_per_inside;
+  Curve curve{title, {}, {}};
+  for (const PoseResult& pose : run.sweep.poses) {
+    const double x = per_value * pose.value;
+    curve.x.push_back(x);
+    curve.y.push_back(pose.converged() ? y(pose) : kUnknown);
+    if (pose.converged() || !has_place(pose)) continue;
+    curve.hollow_x.push_back(x);
+    curve.hollow_y.push_back(y(pose));
+  }
+  return curve;
+}
+
+Chart chart_of(const Run& run, const std::string& what) {
+  return {run.scene.title, what, swept_quantity(run).axis, {}};
+}
+
+bool has_value(const Curve& curve) {
+  const auto known = [](double y) { return std::isfinite(y); };
+  return std::any_of(curve.y.begin(), curve.y.end(), known) ||
+         std::any_of(curve.hollow_y.begin(), curve.hollow_y.end(), known);
+}
+
+void keep(Chart& chart, Panel panel) {
+  if (std::any_of(panel.curves.begin(), panel.curves.end(), has_value))
+    chart.panels.push_back(std::move(panel));
+}
+
+double total_force(const PoseResult& pose, const std::vector<std::size_t>& strands) {
+  double sum = 0;
+  for (const std::size_t i : strands)
+    sum += i < pose.ligaments.size() ? pose.ligaments[i].force : 0;
+  return sum;
+}
+
+/// Of the strands that have a slack length.
+double greatest_strain(const Scene& scene,
+                       const PoseResult& pose,
+                       const std::vector<std::size_t>& strands) {
+  double greatest = kUnknown;
+  for (const std::size_t i : strands) {
+    if (i >= pose.ligaments.size() || !(slack_length(scene.ligaments[i].law) > 0)) continue;
+    if (!(greatest >= pose.ligaments[i].strain)) greatest = pose.ligaments[i].strain;
+  }
+  return greatest;
+}
+
+/// Mean of the points on the tibia, weighted by force; nothing for an open contact.
+std::optional<Vector3d> place_on_tibia(const Scene& scene, const ContactResult& contact) {
+  if (!contact.closed || !(contact.force > 0)) return std::nullopt;
+  const bool moves = tibia_body(scene) == scene.moving_body();
+  Vector3d sum = Vector3d::Zero();
+  for (const ContactPointResult& point : contact.points)
+    sum += point.force * (moves ? point.point_moving : point.point_ground);
+  return sum / contact.force;
+}
+
+Curve place_curve(const Run& run, std::size_t contact, const Vector3d& axis) {
+  const OfPose along = [&](const PoseResult& pose) {
+    if (contact >= pose.contacts.size()) return kUnknown;
+    const auto place = place_on_tibia(run.scene, pose.contacts[contact]);
+    return place ? axis.dot(*place - run.scene.joint->tibia.origin) : kUnknown;
+  };
+  return broken_at_jumps(curve_of(run, run.scene.contacts[contact].name, along), run.sweep,
+                         contact);
+}
+
+/// The balance is far smaller than its parts: in a unit that suits it.
+Panel balance_panel(Curve curve) {
+  double largest = 0;
+  for (const double y : curve.y) largest = std::max(largest, std::abs(y));
+  double per_joule = 1;
+  const char* unit = "J";
+  for (const auto& [factor, smaller] : {std::pair{1e3, "mJ"}, {1e6, "µJ"}, {1e9, "nJ"}}) {
+    if (largest * per_joule >= 1 || largest == 0) break;
+    per_joule = factor;
+    unit = smaller;
+  }
+  for (double& y : curve.y) y *= per_joule;
+  return {fmt::format("Balance [{}]", unit), {std::move(curve)}};
+}
+
+}  // namespace
+
+Curve broken_at_jumps(Curve curve, const SweepResult& sweep, std::size_t contact) {
+  const auto path = resultant_path(sweep, contact);
+  for (std::size_t i = sweep.poses.size(); i-- > 1;) {
+    if (!std::isfinite(curve.y[i - 1]) || !std::isfinite(curve.y[i]) || joined(path, i - 1, i))
+      continue;
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    curve.x.insert(curve.x.begin() + at, kUnknown);
+    curve.y.insert(curve.y.begin() + at, kUnknown);
+  }
+  return curve;
+}
+
+Chart joint_coordinate_chart(const Run& run) {
+  Chart chart = chart_of(run, "joint coordinates");
+  if (!run.scene.joint) return chart;
+  Panel angles{"Rotation [°]", {}}, lengths{"Translation [mm]", {}};
+  const bool flexion_is_swept = swept_quantity(run).flexion;
+  for (const JointCoordinate& q : kJointCoordinates) {
+    if (flexion_is_swept && q.member == &JointCoordinates::flexion) continue;
+    const double unit = q.angle ? kDegrees : 1;
+    (q.angle ? angles : lengths).curves.push_back(curve_of(run, q.words, [&](const PoseResult& p) {
+      return unit * (p.joint.*q.member);
+    }));
+  }
+  chart.panels = {angles, lengths};
+  return chart;
+}
+
+Chart contact_force_chart(const Run& run) {
+  Chart chart = chart_of(run, "contact forces");
+  Panel panel{"Contact force [N]", {}, true};
+  for (std::size_t c = 0; c < run.scene.contacts.size(); ++c) {
+    panel.curves.push_back(curve_of(run, run.scene.contacts[c].name, [c](const PoseResult& pose) {
+      return c < pose.contacts.size() ? pose.contacts[c].force : kUnknown;
+    }));
+  }
+  if (!panel.curves.empty()) chart.panels = {panel};
+  return chart;
+}
+
+Chart contact_place_chart(const Run& run) {
+  Chart chart = chart_of(run, "contact on the tibia");
+  if (!run.scene.joint) return chart;
+  Panel forward{"Anterior [mm]", {}}, outward{"Lateral [mm]", {}};
+  for (std::size_t c = 0; c < run.scene.contacts.size(); ++c) {
+    forward.curves.push_back(place_curve(run, c, run.scene.joint->tibia.anterior));
+    outward.curves.push_back(place_curve(run, c, run.scene.joint->tibia.lateral));
+  }
+  keep(chart, forward);
+  keep(chart, outward);
+  return chart;
+}
+
+Chart ligament_force_chart(const Run& run) {
+  Chart chart = chart_of(run, "ligament forces");
+  Panel panel{"Ligament force [N]", {}, true};
+  for (const LigamentBundle& group : ligament_groups(run.scene)) {
+    panel.curves.push_back(curve_of(
+        run, group.name, [&](const PoseResult& pose) { return total_force(pose, group.members); }));
+  }
+  if (!panel.curves.empty()) chart.panels = {panel};
+  return chart;
+}
+
+Chart ligament_strain_chart(const Run& run) {
+  const auto groups = ligament_groups(run.scene);
+  const bool strands = std::any_of(groups.begin(), groups.end(),
+                                   [](const auto& group) { return group.members.size() > 1; });
+  Chart chart =
+      chart_of(run, strands ? "ligament strains (greatest of the strands)" : "ligament strains");
+  Panel panel{"Ligament strain [%]", {}, false, kLeastStrain};
+  for (const LigamentBundle& group : groups) {
+    Curve curve = curve_of(run, group.name, [&](const PoseResult& pose) {
+      return 100 * greatest_strain(run.scene, pose, group.members);
+    });
+    if (has_value(curve)) panel.curves.push_back(std::move(curve));
+  }
+  keep(chart, panel);
+  return chart;
+}
+
+Chart flexion_moment_chart(const Run& run) {
+  Chart chart = chart_of(run, "flexion moment of the knee");
+  if (run.kind() == RunKind::kSimulation) return chart;
+  for (std::size_t i = 0; i < run.scene.conditions.size(); ++i) {
+    if (run.scene.conditions[i].kind != ConditionKind::kFlexion) continue;
+    keep(chart, {"Flexion moment [N mm]", {curve_of(run, "", [i](const PoseResult& pose) {
+                   return i < pose.conditions.size() ? pose.conditions[i].multiplier : kUnknown;
+                 })}});
+    break;
+  }
+  return chart;
+}
+
+Chart stability_chart(const Run& run) {
+  Chart chart = chart_of(run, "stability");
+  keep(chart, {"Lowest stiffness [N/mm]",
+               {curve_of(run, "", [](const PoseResult& pose) { return pose.lowest_stiffness; })}});
+  return chart;
+}
+
+Chart energy_chart(const Run& run) {
+  Chart chart = chart_of(run, "energy");
+  const std::optional<MotionView> motion = motion_view(run);
+  if (!motion || motion->energies.empty()) return chart;
+  constexpr double kJoule = 1e3;  // N mm
+  const auto curve = [&](const std::string& title, double MotionEnergies::*part) {
+    Curve joules{title, {}, {}};
+    for (const MotionEnergies& frame : motion->energies) {
+      joules.x.push_back(frame.time);
+      joules.y.push_back((frame.*part - motion->energies.front().*part) / kJoule);
+    }
+    return joules;
+  };
+  Panel parts{"Energy since the start [J]", {}};
+  parts.curves = {curve("kinetic", &MotionEnergies::kinetic),
+                  curve("gravity", &MotionEnergies::gravity),
+                  curve("ligaments", &MotionEnergies::elastic),
+                  curve("dissipated", &MotionEnergies::dissipated),
+                  curve("work of loads", &MotionEnergies::work)};
+  const Panel balance = balance_panel(curve("", &MotionEnergies::balance));
+  chart.panels = {parts, balance};
+  return chart;
+}
+
+std::vector<NamedChart> run_charts(const Run& run) {
+  if (run.sweep.poses.empty()) return {};
+  return {{"joint_coordinates", joint_coordinate_chart(run)},
+          {"contact_forces", contact_force_chart(run)},
+          {"contact_places", contact_place_chart(run)},
+          {"ligament_forces", ligament_force_chart(run)},
+          {"ligament_strains", ligament_strain_chart(run)},
+          {"flexion_moment", flexion_moment_chart(run)},
+          {"stability", stability_chart(run)},
+          {"energy", energy_chart(run)}};
+}
+
+}  // namespace condyle

@@ -1,0 +1,44 @@
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "condyle/reference/fit_heights.h"
+
+namespace condyle {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+void fit_height_polynomial(const std::vector<Vector3d>& points,
+                           const std::vector<double>& weights,
+                           int degree,
+                           HeightSurface& surface) {
+  std::vector<Vector2d> at;
+  double reach = 1e-9;  // coordinates over it lie within 1, for the sake of the condition
+  for (const Vector3d& p : points) {
+    at.push_back(coordinates_of(surface, p));
+    reach = std::max(reach, at.back().cwiseAbs().maxCoeff());
+  }
+  std::vector<PolynomialTerm> terms;
+  for (int i = 0; i <= degree; ++i)
+    for (int j = 0; i + j <= degree; ++j) terms.push_back({i, j, 0});
+  Eigen::MatrixXd A(points.size(), terms.size());
+  Eigen::VectorXd b(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const double weight = std::sqrt(weights[k]);
+    for (std::size_t t = 0; t < terms.size(); ++t) {
+      A(k, t) = weight * std::pow(at[k].x() / reach, terms[t].i) *
+                std::pow(at[k].y() / reach, terms[t].j);
+    }
+    b[k] = weight * surface.axes.col(2).dot(points[k] - surface.origin);
+  }
+  const Eigen::VectorXd a = A.colPivHouseholderQr().solve(b);
+  for (std::size_t t = 0; t < terms.size(); ++t)
+    terms[t].a = a[t] / std::pow(reach, terms[t].i + terms[t].j);
+  surface.terms = std::move(terms);
+  surface.outline = convex_outline(std::move(at));
+}
+
+}  // namespace condyle

@@ -1,0 +1,14 @@
+#include "condyle/report/html.h"
+#include "condyle/report/sections.h"
+
+namespace condyle {
+
+std::string picture_section(const Run& run) {
+  if (run.sweep.poses.empty()) return "";
+  return section("pictures", "Pictures",
+                 "<p>This condyle was built without pictures and plots.</p>\n");
+}
+
+std::string plot_section(const Run&) { return ""; }
+
+}  // namespace condyle

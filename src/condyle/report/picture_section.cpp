@@ -1,0 +1,173 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <vector>
+
+#include "condyle/pictures/knee_picture.h"
+#include "condyle/pictures/plot_run.h"
+#include "condyle/pictures/png_file.h"
+#include "condyle/pictures/strip.h"
+#include "condyle/report/html.h"
+#include "condyle/report/sections.h"
+#include "condyle/results/digest.h"
+#include "condyle/results/run_view.h"
+
+namespace condyle {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostAngles = 4;
+
+/// A folder that is gone with all it holds when the work is done.
+class PassingFolder {
+ public:
+  PassingFolder() {
+    std::string name = (fs::temp_directory_path() / "condyle-report-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw fs::filesystem_error("no folder for pictures", name,
+                                 std::error_code(errno, std::generic_category()));
+    path_ = name;
+  }
+  ~PassingFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  PassingFolder(const PassingFolder&) = delete;
+  PassingFolder& operator=(const PassingFolder&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::string contents(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Evenly over the converged poses, both ends among them; where none converged over those that have
+/// a place.
+std::vector<std::size_t> chosen_poses(const SweepResult& sweep) {
+  const bool results = sweep.count_converged() > 0;
+  std::vector<std::size_t> drawable;
+  for (std::size_t i = 0; i < sweep.poses.size(); ++i)
+    if (results ? sweep.poses[i].converged() : has_place(sweep.poses[i])) drawable.push_back(i);
+  const std::size_t n = std::min(kMostAngles, drawable.size());
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < n; ++k)
+    chosen.push_back(drawable[n == 1 ? 0 : k * (drawable.size() - 1) / (n - 1)]);
+  return chosen;
+}
+
+/// Of the poses that are no results the one with a contact farthest beyond an edge.
+std::optional<std::size_t> farthest_left_patch(const SweepResult& sweep) {
+  std::optional<std::size_t> farthest;
+  for (std::size_t i = 0; i < sweep.poses.size(); ++i) {
+    const PoseResult& pose = sweep.poses[i];
+    if (pose.converged() || !has_place(pose)) continue;
+    if (!farthest || beyond_edge(pose) > beyond_edge(sweep.poses[*farthest])) farthest = i;
+  }
+  return farthest;
+}
+
+std::string figure(const Image& image, const std::string& caption, const char* kind) {
+  return fmt::format(
+      "<figure class=\"{}\"><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" "
+      "alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
+      kind, base64(encode_png(image)), image.width, image.height, escaped(caption),
+      escaped(caption));
+}
+
+/// "flexion 0°, 40°, 80°, 120°"
+std::string angles(const Run& run, const std::vector<std::size_t>& poses) {
+  const SweptQuantity swept = swept_quantity(run);
+  std::string text = swept.title;
+  for (const std::size_t pose : poses)
+    text += (pose == poses.front() ? " " : ", ") + with_unit(swept, run.sweep.poses[pose].value);
+  return text;
+}
+
+std::string strip(const Run& run, View view, const std::vector<std::size_t>& poses) {
+  return figure(draw_strip(run, view, poses, strip_size(view, poses.size())),
+                fmt::format("{} view: {}", name(view), angles(run, poses)), "strip");
+}
+
+std::string single(const Run& run, KneePictures& pictures, View view, std::size_t pose) {
+  return figure(
+      pictures.draw(view, pose),
+      fmt::format("{} view: {}; path of contact over all poses", name(view), angles(run, {pose})),
+      "picture");
+}
+
+/// The plateau and the condyles side by side.
+std::string pair_of(const Run& run, KneePictures& pictures, std::size_t pose) {
+  std::string body = "<div class=\"pair\">\n";
+  for (const View view : {View::kPlateau, View::kCondyles})
+    body += single(run, pictures, view, pose);
+  return body + "</div>\n";
+}
+
+void replace_all(std::string& text, std::string_view from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+}
+
+/// As a part of a page: no prologue, no name spaces, and names of its own, as several plots share
+/// one page.
+std::string inlined(std::string svg, const std::string& prefix) {
+  const std::size_t begin = svg.find("<svg");
+  if (begin == std::string::npos) return "";
+  svg.erase(0, begin);
+  for (const char* quote : {"\"", "'"}) {
+    const std::string q = quote;
+    replace_all(svg, " id=" + q, " id=" + q + prefix);
+    replace_all(svg, "href=" + q + "#", "href=" + q + "#" + prefix);
+    for (const char* space : {" xmlns=", " xmlns:xlink="}) {
+      const std::size_t at = svg.find(space + q);
+      if (at == std::string::npos) continue;
+      const std::size_t end = svg.find(q, at + std::string(space).size() + 1);
+      svg.erase(at, end + 1 - at);
+    }
+  }
+  replace_all(svg, "url(#", "url(#" + prefix);
+  return svg;
+}
+
+}  // namespace
+
+std::string picture_section(const Run& run) {
+  if (count_with_place(run.sweep) == 0 || (run.bodies.empty() && run.patches.empty())) return "";
+  const std::vector<std::size_t> poses = chosen_poses(run.sweep);
+  std::string body = strip(run, View::kMedial, poses) + strip(run, View::kAnterior, poses);
+  PictureOptions options;
+  options.width = 1000;
+  options.height = 750;
+  KneePictures pictures(run, options);
+  body += pair_of(run, pictures, poses[poses.size() / 2]);
+  if (const auto left = farthest_left_patch(run.sweep)) {
+    body += "<p>A contact beyond the edge of the known surface: this pose is no result.</p>\n" +
+            pair_of(run, pictures, *left);
+  }
+  return section("pictures", "Pictures", body);
+}
+
+std::string plot_section(const Run& run) {
+  if (count_with_place(run.sweep) == 0 && !run.laxity()) return "";
+  const PassingFolder folder;
+  std::string body;
+  int count = 0;
+  for (const fs::path& file : plot_run(run, folder.path(), {PlotFormat::kSvg})) {
+    body += "<figure class=\"plot\">" + inlined(contents(file), fmt::format("plot{}-", ++count)) +
+            "</figure>\n";
+  }
+  return section("plots", "Plots", body);
+}
+
+}  // namespace condyle

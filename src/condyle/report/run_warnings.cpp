@@ -1,0 +1,69 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "condyle/report/summary_json.h"
+#include "condyle/results/run_view.h"
+
+namespace condyle {
+namespace {
+
+constexpr std::string_view kWarning = "warning: ";
+
+std::string bare(const std::string& line) { return line.substr(kWarning.size()); }
+
+/// The same remark over many poses is one warning: "flexion 10 to 35 deg: ...".
+void add_remarks(const Run& run, std::vector<std::string>& warnings) {
+  const std::vector<PoseResult>& poses = run.sweep.poses;
+  const SweptQuantity swept = swept_quantity(run);
+  for (std::size_t first = 0; first < poses.size();) {
+    std::size_t end = first + 1;
+    while (end < poses.size() && poses[end].remark == poses[first].remark) ++end;
+    if (!poses[first].remark.empty()) {
+      const double a = swept.shown(poses[first].value), b = swept.shown(poses[end - 1].value);
+      const std::string range =
+          end == first + 1 ? fmt::format("{:.6g}", a) : fmt::format("{:.6g} to {:.6g}", a, b);
+      warnings.push_back(fmt::format("{} {}: {}", range, swept.unit.name, poses[first].remark));
+    }
+    first = end;
+  }
+}
+
+/// Notes on a mesh come with each patch of it.
+void add_fit_warnings(const Run& run, std::vector<std::string>& warnings) {
+  std::vector<std::pair<std::string, std::string>> said;  // warning, surfaces
+  for (const RunPatch& patch : run.patches) {
+    for (const std::string& note : patch.report.notes) {
+      if (!is_warning(note)) continue;
+      const auto same =
+          std::find_if(said.begin(), said.end(), [&](const auto& s) { return s.first == note; });
+      if (same == said.end())
+        said.emplace_back(note, patch.surface);
+      else
+        same->second += ", " + patch.surface;
+    }
+  }
+  for (const auto& [note, surfaces] : said) warnings.push_back(surfaces + ": " + bare(note));
+}
+
+}  // namespace
+
+bool is_warning(const std::string& line) { return line.rfind(kWarning, 0) == 0; }
+
+std::vector<std::string> start_and_fit_warnings(const Run& run) {
+  std::vector<std::string> warnings;
+  for (const std::string& line : run.start)
+    if (is_warning(line)) warnings.push_back(bare(line));
+  add_fit_warnings(run, warnings);
+  return warnings;
+}
+
+std::vector<std::string> run_warnings(const Run& run) {
+  std::vector<std::string> warnings = start_and_fit_warnings(run);
+  add_remarks(run, warnings);
+  return warnings;
+}
+
+}  // namespace condyle

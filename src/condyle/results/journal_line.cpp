@@ -1,0 +1,192 @@
+#include "condyle/results/journal_line.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "condyle/results/run_identity.h"
+
+namespace condyle {
+namespace {
+
+template <typename T>
+void put(std::string& out, T number) {
+  char text[32];
+  const std::to_chars_result end = std::to_chars(text, text + sizeof text, number);
+  out += ' ';
+  out.append(text, end.ptr);
+}
+
+void put(std::string& out, const double* numbers, int count) {
+  for (int i = 0; i < count; ++i) put(out, numbers[i]);
+}
+
+void put_contacts(std::string& out, const std::vector<ContactResult>& contacts) {
+  std::size_t points = 0;
+  for (const ContactResult& contact : contacts)
+    points += contact.closed ? contact.points.size() : 0;
+  put(out, points);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (!contacts[i].closed) continue;
+    for (const ContactPointResult& point : contacts[i].points) {
+      put(out, i);
+      put(out, point.force);
+      put(out, point.point_ground.data(), 3);
+      put(out, point.point_moving.data(), 3);
+    }
+  }
+}
+
+/// Takes numbers off the front of a line; `ok` tells whether each was there.
+struct Taker {
+  std::string_view rest;
+  bool ok = true;
+
+  template <typename T>
+  T number() {
+    T value{};
+    if (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
+    const std::from_chars_result end =
+        std::from_chars(rest.data(), rest.data() + rest.size(), value);
+    ok &= end.ec == std::errc();
+    rest.remove_prefix(static_cast<std::size_t>(end.ptr - rest.data()));
+    return value;
+  }
+  void numbers(double* values, int count) {
+    for (int i = 0; i < count; ++i) values[i] = number<double>();
+  }
+  /// A number below `limit`, else 0 and not ok.
+  std::size_t index(std::size_t limit) {
+    const auto value = number<std::size_t>();
+    ok &= value < limit;
+    return ok ? value : 0;
+  }
+};
+
+void take_contacts(Taker& take, std::size_t contacts, PoseResult& pose) {
+  pose.contacts.assign(contacts, {});
+  const auto points = take.number<std::size_t>();
+  for (std::size_t k = 0; take.ok && k < points; ++k) {
+    const std::size_t index = take.index(contacts);
+    if (!take.ok) return;
+    ContactPointResult point;
+    point.force = take.number<double>();
+    take.numbers(point.point_ground.data(), 3);
+    take.numbers(point.point_moving.data(), 3);
+    ContactResult& contact = pose.contacts[index];
+    contact.closed = true;
+    contact.force += point.force;
+    contact.points.push_back(point);
+  }
+}
+
+void take_events(Taker& take, std::size_t contacts, KnownPose& known) {
+  const double from = take.number<double>();
+  known.from = std::isnan(from) ? std::nullopt : std::optional<double>(from);
+  const auto events = take.number<std::size_t>();
+  for (std::size_t k = 0; take.ok && k < events; ++k) {
+    Event event;
+    event.value = take.number<double>();
+    event.kind = static_cast<EventKind>(take.index(kEventKindCount));
+    event.contact = take.number<int>();
+    take.ok &= event.contact >= -1 && event.contact < static_cast<int>(contacts);
+    known.events.push_back(event);
+  }
+}
+
+/// Cuts the last number off a line.
+template <typename Number>
+bool take_last(std::string_view& line, Number& number) {
+  const std::size_t at = line.rfind(' ');
+  if (at == std::string_view::npos) return false;
+  Taker take{line.substr(at)};
+  number = take.number<Number>();
+  line = line.substr(0, at);
+  return take.ok && take.rest.empty();
+}
+
+/// ' "REASON" "REMARK" LENGTH ELSEWHERE'; words may hold quotes, so the remark tells its length. A
+/// line of an older run ends with the reason.
+bool take_words(std::string_view line, KnownPose& known) {
+  constexpr std::size_t kQuotes = 3;  // ' "..."'
+  if (!line.ends_with('"')) {
+    int elsewhere = 0;
+    std::size_t length = 0;
+    if (!take_last(line, elsewhere) || !take_last(line, length) ||
+        line.size() < length + 2 * kQuotes)
+      return false;
+    known.from_elsewhere = elsewhere != 0;
+    known.pose.remark = line.substr(line.size() - length - 1, length);
+    line = line.substr(0, line.size() - length - kQuotes);
+  }
+  if (line.size() < kQuotes) return false;
+  known.pose.reason = line.substr(2, line.size() - kQuotes);
+  return true;
+}
+
+/// Cuts the hash off the end of a line; false where it does not fit what stands before it.
+bool check_hash(std::string_view& line) {
+  std::uint64_t hash = 0;
+  return take_last(line, hash) && hash == hash_bytes(line);
+}
+
+}  // namespace
+
+void write_journal_line(const KnownPose& known, std::string& out) {
+  const std::size_t begin = out.size();
+  const PoseResult& pose = known.pose;
+  out += "pose";
+  put(out, pose.value);
+  put(out, known.visit);
+  put(out, static_cast<int>(pose.status));
+  put(out, pose.iterations);
+  put(out, pose.residual);
+  put(out, pose.seconds);
+  put(out, pose.X_BA.R.data(), 9);
+  put(out, pose.X_BA.p.data(), 3);
+  put(out, pose.conditions.size());
+  for (const ConditionResult& condition : pose.conditions) put(out, condition.multiplier);
+  put_contacts(out, pose.contacts);
+  put(out, known.from.value_or(std::numeric_limits<double>::quiet_NaN()));
+  put(out, known.events.size());
+  for (const Event& event : known.events) {
+    put(out, event.value);
+    put(out, static_cast<int>(event.kind));
+    put(out, event.contact);
+  }
+  out += " \"" + pose.reason + "\" \"" + pose.remark + "\"";
+  put(out, pose.remark.size());
+  put(out, static_cast<int>(known.from_elsewhere));
+  std::replace(out.begin() + static_cast<std::ptrdiff_t>(begin), out.end(), '\n', ' ');
+  put(out, hash_bytes(std::string_view(out).substr(begin)));
+  out += '\n';
+}
+
+bool read_journal_line(std::string_view line,
+                       std::size_t contacts,
+                       std::size_t conditions,
+                       KnownPose& known) {
+  known = KnownPose();
+  PoseResult& pose = known.pose;
+  constexpr std::string_view kWord = "pose";
+  if (!check_hash(line) || !line.starts_with(kWord)) return false;
+  Taker take{line.substr(kWord.size())};
+  pose.value = take.number<double>();
+  known.visit = take.number<int>();
+  pose.status = static_cast<PoseStatus>(take.index(kPoseStatusCount));
+  pose.iterations = take.number<int>();
+  pose.residual = take.number<double>();
+  pose.seconds = take.number<double>();
+  take.numbers(pose.X_BA.R.data(), 9);
+  take.numbers(pose.X_BA.p.data(), 3);
+  const auto multipliers = take.number<std::size_t>();
+  if (!take.ok || (multipliers != conditions && multipliers != 0)) return false;
+  pose.conditions.resize(multipliers);
+  for (ConditionResult& condition : pose.conditions) condition.multiplier = take.number<double>();
+  take_contacts(take, contacts, pose);
+  take_events(take, contacts, known);
+  return take.ok && take_words(take.rest, known);
+}
+
+}  // namespace condyle

@@ -1,0 +1,305 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "condyle/results/comparison_groups.h"
+#include "condyle/results/estimates.h"
+#include "condyle/results/hdf5_file.h"
+#include "condyle/results/run_layout.h"
+#include "condyle/results/run_view.h"
+#include "condyle/results/simulation_group.h"
+#include "condyle/results/sweep_group.h"
+#include "condyle/scene/read_scene.h"
+#include "condyle/surface/bspline_basis.h"
+
+namespace condyle {
+namespace {
+
+using Poses = std::vector<PoseResult>;
+
+// Hands one row of numbers to each pose.
+using TakeRow = std::function<void(PoseResult& pose, const double* row)>;
+void take(const Hdf5Group& group,
+          const char* name,
+          const Shape& shape,
+          Poses& poses,
+          const TakeRow& take_row) {
+  const std::vector<double> values = group.read(name, shape);
+  const std::size_t width = values.size() / poses.size();
+  for (std::size_t i = 0; i < poses.size(); ++i) take_row(poses[i], &values[i * width]);
+}
+
+void take_integers(const Hdf5Group& group,
+                   const char* name,
+                   Poses& poses,
+                   void (*take_one)(PoseResult&, int)) {
+  const std::vector<int> values = group.read_integers(name, {poses.size()});
+  for (std::size_t i = 0; i < poses.size(); ++i) take_one(poses[i], values[i]);
+}
+
+Scene read_head(const Hdf5Group& root) {
+  const std::string format = root.read_attribute("format");
+  if (format != kRunFormat)
+    root.fail(fmt::format("format = \"{}\", expected \"{}\"", format, kRunFormat));
+  return parse_scene(root.read_attribute("scene"), root.read_attribute("scene_file"));
+}
+
+void read_status(const Hdf5Group& sweep, const Unit& unit, Poses& poses) {
+  const Shape n = {poses.size()};
+  take(sweep, "value", n, poses,
+       [&](PoseResult& p, const double* row) { p.value = *row * unit.factor; });
+  take(sweep, "status", n, poses, [&](PoseResult& p, const double* row) {
+    if (!(*row >= 0 && *row < kPoseStatusCount))
+      sweep.fail(fmt::format("status = {}, which has no meaning", *row));
+    p.status = static_cast<PoseStatus>(static_cast<int>(*row));
+  });
+  const std::vector<std::string> reasons = sweep.read_texts("reason");
+  if (reasons.size() != poses.size()) sweep.fail("dataset reason has not one text for each value");
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].reason = reasons[i];
+  if (!sweep.has("remark")) return;
+  const std::vector<std::string> remarks = sweep.read_texts("remark");
+  if (remarks.size() != poses.size()) sweep.fail("dataset remark has not one text for each value");
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i].remark = remarks[i];
+}
+
+void read_pose(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
+  const std::size_t n = poses.size();
+  const Hdf5Group pose = sweep.open("pose");
+  take(pose, "translation", {n, 3}, poses,
+       [](PoseResult& p, const double* row) { std::copy_n(row, 3, p.X_BA.p.data()); });
+  take(pose, "rotation", {n, 3, 3}, poses, [](PoseResult& p, const double* row) {
+    for (int i = 0; i < 9; ++i) p.X_BA.R(i / 3, i % 3) = row[i];
+  });
+  if (!scene.joint) return;
+  const Hdf5Group joint = sweep.open("joint");
+  for (const auto& column : kJointColumns) {
+    take(joint, column.name, {n}, poses,
+         [&](PoseResult& p, const double* row) { p.joint.*column.member = *row * column.unit; });
+  }
+  read_joint_stiffness(joint, poses);
+}
+
+void read_contact(const Hdf5Group& group, std::size_t index, Poses& poses) {
+  const std::size_t n = poses.size();
+  take(group, "state", {n}, poses,
+       [&](PoseResult& p, const double* row) { p.contacts[index].closed = *row == 1; });
+  take(group, "force", {n}, poses,
+       [&](PoseResult& p, const double* row) { p.contacts[index].force = *row; });
+  const Hdf5Group points = group.open("points");
+  const std::vector<int> counts = points.read_integers("count", {n});
+  const Hdf5Array edges = points.read("on_edge");
+  const std::size_t slots = edges.shape.size() == 2 && edges.shape[0] == n ? edges.shape[1] : 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (counts[i] < 0 || static_cast<std::size_t>(counts[i]) > slots)
+      points.fail("count is not the number of points");
+    std::vector<ContactPointResult>& list = poses[i].contacts[index].points;
+    list.resize(static_cast<std::size_t>(counts[i]));
+    for (std::size_t k = 0; k < list.size(); ++k)
+      list[k].on_edge = edges.values[i * slots + k] == 1;
+  }
+  for (const PointColumn& column : kPointColumns) {
+    if (!points.has(column.name)) continue;  // edge_distance, in files of version 0.1.0
+    const Shape shape = column.width > 1 ? Shape{n, slots, column.width} : Shape{n, slots};
+    take(points, column.name, shape, poses, [&](PoseResult& p, const double* row) {
+      for (ContactPointResult& point : p.contacts[index].points) {
+        std::copy_n(row, column.width, column.data(point));
+        row += column.width;
+      }
+    });
+  }
+  read_contact_estimates(group, points, poses, index);
+}
+
+void read_elements(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
+  const Shape n = {poses.size()};
+  for (PoseResult& pose : poses) {
+    pose.contacts.resize(scene.contacts.size());
+    pose.ligaments.resize(scene.ligaments.size());
+    pose.conditions.resize(scene.conditions.size());
+  }
+  const Hdf5Group contacts = sweep.open("contacts"), ligaments = sweep.open("ligaments");
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i)
+    read_contact(contacts.open(scene.contacts[i].name), i, poses);
+  for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
+    const Hdf5Group group = ligaments.open(scene.ligaments[i].name);
+    for (const auto& column : kLigamentColumns) {
+      take(group, column.name, n, poses,
+           [&](PoseResult& p, const double* row) { p.ligaments[i].*column.member = *row; });
+    }
+  }
+  const Hdf5Group conditions = sweep.open("conditions");
+  for (std::size_t i = 0; i < scene.conditions.size(); ++i) {
+    const Hdf5Group group = conditions.open(scene.conditions[i].name);
+    const double unit = is_angle(scene.conditions[i].kind) ? kDegree : 1;
+    take(group, "value", n, poses,
+         [&](PoseResult& p, const double* row) { p.conditions[i].value = *row * unit; });
+    take(group, "multiplier", n, poses,
+         [&](PoseResult& p, const double* row) { p.conditions[i].multiplier = *row; });
+  }
+}
+
+void read_solver(const Hdf5Group& sweep, Poses& poses) {
+  const Shape n = {poses.size()};
+  const Hdf5Group stability = sweep.open("stability"), newton = sweep.open("newton");
+  take_integers(stability, "stable", poses,
+                [](PoseResult& p, int stable) { p.stability = stable; });
+  take(stability, "lowest_stiffness", n, poses,
+       [](PoseResult& p, const double* row) { p.lowest_stiffness = *row; });
+  take_integers(newton, "iterations", poses,
+                [](PoseResult& p, int iterations) { p.iterations = iterations; });
+  take(newton, "residual", n, poses, [](PoseResult& p, const double* row) { p.residual = *row; });
+  take(newton, "seconds", n, poses, [](PoseResult& p, const double* row) { p.seconds = *row; });
+  if (!newton.has("event_seconds")) return;
+  take(newton, "event_seconds", n, poses,
+       [](PoseResult& p, const double* row) { p.event_seconds = *row; });
+}
+
+RunStudy read_study(const Hdf5Group& root, const Scene& scene) {
+  const auto held = [](auto study) {
+    return std::make_shared<const decltype(study)>(std::move(study));
+  };
+  if (root.has("simulate")) return held(read_simulation(root.open("simulate"), scene));
+  if (root.has("reference")) return held(read_comparison(root, scene));
+  if (root.has("laxity")) return held(read_laxity(root.open("laxity"), scene));
+  if (root.has("sweep")) return SweepStudy{};
+  return FitStudy{};
+}
+
+void read_events(const Hdf5Group& group, const Unit& unit, Run& run) {
+  const std::vector<double> values = group.read("value").values;
+  const Shape n = {values.size()};
+  const std::vector<int> kinds = group.read_integers("kind", n);
+  const std::vector<int> contacts = group.read_integers("contact", n);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (kinds[i] < 0 || kinds[i] >= kEventKindCount || contacts[i] < -1 ||
+        contacts[i] >= static_cast<int>(run.scene.contacts.size()))
+      group.fail("holds an event of no known kind or contact");
+    run.sweep.events.push_back(
+        {values[i] * unit.factor, static_cast<EventKind>(kinds[i]), contacts[i]});
+  }
+}
+
+std::vector<Eigen::Vector3d> read_points(const Hdf5Group& group, const char* name, Shape& shape) {
+  const Hdf5Array array = group.read(name);
+  shape = array.shape;
+  if (shape.empty() || shape.back() != 3)
+    group.fail(fmt::format("dataset {} does not hold points", name));
+  std::vector<Eigen::Vector3d> points(array.values.size() / 3);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] = Eigen::Map<const Eigen::Vector3d>(&array.values[3 * i]);
+  return points;
+}
+
+FitReport read_fit(const Hdf5Group& patch, const std::string& surface, const PatchData& data) {
+  FitReport report;
+  report.surface = surface;
+  report.control_points = {data.nu, data.nv};
+  report.rms = patch.read("rms_mm", {})[0];
+  report.max = patch.read("max_mm", {})[0];
+  const Hdf5Group fit = patch.open("fit");
+  for (const auto& column : kFitColumns)
+    report.*column.member = fit.read(column.name, {})[0] * column.unit;
+  report.mesh_vertices = fit.read_integers("mesh_vertices", {})[0];
+  const std::vector<double> range = fit.read("curvature_range", {2});
+  report.curvature_range = {range[0], range[1]};
+  const std::vector<double> extent = fit.read("extent", {2}), turn = fit.read("turn", {2});
+  report.extent = {extent[0], extent[1]};
+  report.turn = {kDegree * turn[0], kDegree * turn[1]};
+  report.notes = fit.read_texts("notes");
+  return report;
+}
+
+RunPatch read_patch(const Hdf5Group& group, const std::string& surface, const Scene& scene) {
+  RunPatch patch;
+  patch.surface = surface;
+  patch.body = body_named(scene, group.read_attribute("body"));
+  PatchData& data = patch.data;
+  const std::vector<int> degree = group.read_integers("degree", {2});
+  data.degree = {degree[0], degree[1]};
+  Shape net;
+  data.control_points = read_points(group, "control_points", net);
+  const bool sized = net.size() == 3 && std::min(degree[0], degree[1]) >= 1 &&
+                     std::max(degree[0], degree[1]) <= kMaxDegree &&
+                     net[0] > static_cast<std::size_t>(degree[0]) &&
+                     net[1] > static_cast<std::size_t>(degree[1]);
+  if (!sized || patch.body < 0) group.fail("is not a patch of this scene");
+  data.nu = static_cast<int>(net[0]);
+  data.nv = static_cast<int>(net[1]);
+  data.knots_u = group.read("knots_u", {net[0] + static_cast<std::size_t>(degree[0]) + 1});
+  data.knots_v = group.read("knots_v", {net[1] + static_cast<std::size_t>(degree[1]) + 1});
+  data.orientation = group.read_integers("orientation", {})[0];
+  Hdf5Array mask = group.read("mask");
+  if (mask.shape.size() != 2) group.fail("dataset mask is not a grid");
+  data.mask_nu = std::max(0, static_cast<int>(mask.shape[0]) - 1);
+  data.mask_nv = std::max(0, static_cast<int>(mask.shape[1]) - 1);
+  data.mask = std::move(mask.values);
+  patch.report = read_fit(group, surface, data);
+  return patch;
+}
+
+std::vector<InputFile> read_inputs(const Hdf5Group& group) {
+  const std::vector<std::string> files = group.read_texts("file");
+  const std::vector<std::string> digests = group.read_texts("sha256");
+  if (files.size() != digests.size()) group.fail("has not one checksum for each file");
+  std::vector<InputFile> inputs;
+  for (std::size_t i = 0; i < files.size(); ++i) inputs.push_back({files[i], digests[i]});
+  return inputs;
+}
+
+BodyMesh read_body(const Hdf5Group& group, const std::string& name) {
+  BodyMesh body;
+  body.name = name;
+  Shape shape;
+  body.mesh.vertices = read_points(group, "vertices", shape);
+  const Hdf5Array corners = group.read("triangles");
+  const auto count = static_cast<double>(body.mesh.vertices.size());
+  for (std::size_t i = 0; i + 2 < corners.values.size(); i += 3) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(corners.values[i + k] >= 0 && corners.values[i + k] < count))
+        group.fail("triangles name no vertex");
+    }
+    body.mesh.triangles.push_back({static_cast<int>(corners.values[i]),
+                                   static_cast<int>(corners.values[i + 1]),
+                                   static_cast<int>(corners.values[i + 2])});
+  }
+  return body;
+}
+
+}  // namespace
+
+Poses read_sweep(const Hdf5Group& sweep, const Scene& scene, const Unit& unit) {
+  Poses poses(sweep.read("value").values.size());
+  if (poses.empty()) sweep.fail("dataset value is empty");
+  read_status(sweep, unit, poses);
+  read_pose(sweep, scene, poses);
+  read_elements(sweep, scene, poses);
+  read_solver(sweep, poses);
+  return poses;
+}
+
+Run read_run(const std::filesystem::path& path) {
+  const Hdf5Reader reader(path);
+  const Hdf5Group root = reader.root();
+  Run run;
+  run.scene = read_head(root);
+  if (root.has_attribute("program")) run.program = root.read_attribute("program");
+  if (root.has_attribute("created")) run.created = root.read_attribute("created");
+  if (root.has("inputs")) run.inputs = read_inputs(root.open("inputs"));
+  run.study = read_study(root, run.scene);
+  const Unit unit = swept_quantity(run).unit;
+  if (root.has("sweep")) run.sweep.poses = read_sweep(root.open("sweep"), run.scene, unit);
+  if (root.has("events")) read_events(root.open("events"), unit, run);
+  if (root.has("fit")) run.start = root.open("fit").read_texts("start");
+  const Hdf5Group patches = root.open("patches");
+  for (const std::string& name : patches.names())
+    run.patches.push_back(read_patch(patches.open(name), name, run.scene));
+  const Hdf5Group bodies = root.open("bodies");
+  for (const std::string& name : bodies.names())
+    run.bodies.push_back(read_body(bodies.open(name), name));
+  return run;
+}
+
+}  // namespace condyle

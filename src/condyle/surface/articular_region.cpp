@@ -1,0 +1,370 @@
+#include "condyle/surface/articular_region.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "condyle/input_error.h"
+#include "condyle/mesh/mesh_measures.h"
+#include "condyle/mesh/orient_mesh.h"
+#include "condyle/surface/condyle_chart.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kCrestCosine = 0.55;   // of normal and radial direction: what the chart follows
+constexpr double kPlateauCosine = 0.5;  // of normal and plateau direction: what gives its slope
+constexpr double kChartCosine = 0.5;    // of normal and chart direction: beyond it the chart folds
+constexpr double kBeyondCrest = 3;      // that a plateau may reach over its crest [mm]
+constexpr double kBeyondDivide = 8;     // that a condyle may reach over the dividing plane [mm]
+
+void turn_components(CleanMesh& mesh, const std::vector<double>& outwardness) {
+  for (std::size_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
+    const int c = mesh.component[t];
+    if (!mesh.closed[c] && outwardness[c] < 0)
+      std::swap(mesh.mesh.triangles[t][1], mesh.mesh.triangles[t][2]);
+  }
+}
+
+int count_inward(const CleanMesh& mesh, const std::vector<double>& outwardness) {
+  int count = 0;
+  for (std::size_t c = 0; c < outwardness.size(); ++c)
+    count += !mesh.closed[c] && outwardness[c] < 0;
+  return count;
+}
+
+/// Normals averaged over a few rings, about as far as `distance`; a staircase of voxels has no say
+/// in them.
+std::vector<Vector3d> smoothed_normals(const TriangleMesh& mesh, double distance) {
+  std::vector<Vector3d> normals = vertex_normals(mesh);
+  const double edge = mean_edge_length(mesh);
+  const int rounds =
+      edge > 0
+          ? std::clamp(static_cast<int>(std::lround(distance * distance / (edge * edge))), 0, 12)
+          : 0;
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<Vector3d> next(normals.size(), Vector3d::Zero());
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Vector3d sum = normals[a] + normals[b] + normals[c];
+      next[a] += sum, next[b] += sum, next[c] += sum;
+    }
+    for (Vector3d& n : next) n = n.stableNormalized();
+    normals = std::move(next);
+  }
+  return normals;
+}
+
+/// Keeps the linked part of the largest area.
+std::vector<bool> largest_part(const TriangleMesh& mesh, const std::vector<bool>& keep) {
+  const SubMesh part = sub_mesh(mesh, keep);
+  const std::vector<int> component = find_components(part.mesh, TriangleLinks(part.mesh));
+  std::vector<bool> result(keep.size(), false);
+  for (std::size_t t = 0, k = 0; t < keep.size(); ++t)
+    if (keep[t]) result[t] = component[k++] == 0;
+  return result;
+}
+
+/// The largest linked part of the triangles whose three vertices all pass.
+std::vector<bool> select(const TriangleMesh& mesh, const std::vector<bool>& vertex_passes) {
+  std::vector<bool> keep(mesh.triangles.size());
+  for (std::size_t t = 0; t < keep.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    keep[t] = vertex_passes[a] && vertex_passes[b] && vertex_passes[c];
+  }
+  return largest_part(mesh, keep);
+}
+
+using Chart = std::function<Vector2d(const Vector3d&)>;
+using ChartDirection = std::function<Vector3d(const Vector3d&)>;
+
+/// Vertices of the triangles that are kept.
+std::vector<bool> vertices_of(const TriangleMesh& mesh, const std::vector<bool>& keep) {
+  std::vector<bool> used(mesh.vertices.size());
+  for (std::size_t t = 0; t < keep.size(); ++t)
+    if (keep[t])
+      for (const int v : mesh.triangles[t]) used[v] = true;
+  return used;
+}
+
+/// The triangles that are kept, with those of `face` as the articular face proper.
+ArticularRegion make_region(const TriangleMesh& mesh,
+                            const std::vector<bool>& keep,
+                            const std::vector<bool>& face,
+                            const Chart& chart,
+                            const ChartDirection& direction) {
+  const std::vector<Vector3d> normals = vertex_normals(mesh);
+  const std::vector<bool> on_face = vertices_of(mesh, face);
+  const SubMesh part = sub_mesh(mesh, keep);
+  ArticularRegion region;
+  region.mesh = part.mesh;
+  for (std::size_t i = 0; i < part.mesh.vertices.size(); ++i) {
+    const Vector3d& p = part.mesh.vertices[i];
+    region.normals.push_back(normals[part.old_index[i]]);
+    region.face.push_back(on_face[part.old_index[i]]);
+    region.chart.push_back(chart(p));
+    region.slope.push_back(region.normals.back().dot(direction(p)));
+  }
+  if (region.mesh.triangles.empty()) throw InputError("no articular area found");
+  return region;
+}
+
+/// Is a vertex within the box of the options?
+bool in_box(const RegionOptions& options, const Vector3d& p) {
+  if (!options.box) return true;
+  Eigen::AlignedBox3d box((*options.box)[0]);
+  box.extend((*options.box)[1]);
+  return box.contains(p);
+}
+
+/// Area vector of the triangles that are kept [mm²].
+Vector3d total_area(const TriangleMesh& mesh, const std::vector<bool>& keep) {
+  const std::vector<Vector3d> areas = triangle_areas(mesh);
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t t = 0; t < keep.size(); ++t)
+    if (keep[t]) sum += areas[t];
+  return sum;
+}
+
+Vector3d centroid(const TriangleMesh& mesh, const std::vector<bool>& keep) {
+  Vector3d sum = Vector3d::Zero();
+  double count = 0;
+  for (std::size_t t = 0; t < keep.size(); ++t)
+    if (keep[t]) {
+      sum += mesh.vertices[mesh.triangles[t][0]];
+      ++count;
+    }
+  return sum / std::max(count, 1.0);
+}
+
+/// Region and chart over a plane, (0, 0) at `origin`: `forward` gives the direction of u.
+ArticularRegion plane_region(const TriangleMesh& mesh,
+                             const std::vector<bool>& keep,
+                             const std::vector<bool>& face,
+                             const Vector3d& origin,
+                             const Vector3d& height,
+                             const Vector3d& forward) {
+  const Vector3d u = (forward - height * height.dot(forward)).normalized(), v = height.cross(u);
+  return make_region(
+      mesh, keep, face,
+      [=](const Vector3d& p) { return Vector2d(u.dot(p - origin), v.dot(p - origin)); },
+      [=](const Vector3d&) { return height; });
+}
+
+/// Inner ends of the two plateaus, along the lateral direction [mm].
+struct InnerEnds {
+  double medial, lateral;
+};
+
+/// Of their articular faces, and of all that belongs to either.
+struct PlateauEnds {
+  InnerEnds face, all;
+};
+
+/// In the gap between two sheets. On a whole bone the faces end at the crests of the medial and the
+/// lateral half of the eminence, and what belongs to them 3 mm beyond, or at the saddle between. A
+/// mesh that is deeper than wide is one plateau alone.
+PlateauEnds inner_ends(const TriangleMesh& mesh,
+                       const BoneFrame& frame,
+                       const std::vector<bool>& upward) {
+  std::vector<double> z;
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (!upward[i]) continue;
+    const Vector3d p = frame.components(mesh.vertices[i] - frame.origin);
+    box.extend(p);
+    z.push_back(p.z());
+  }
+  if (z.size() < 20)
+    throw InputError(
+        "no tibial plateau found: expected faces towards the proximal direction of [joint]");
+  if (box.sizes().z() < 1.1 * box.sizes().x()) {
+    const InnerEnds none{box.max().z() + 1, box.min().z() - 1};
+    return {none, none};
+  }
+  const double first = box.min().z(), extent = box.sizes().z();
+  if (const Gap gap = widest_gap(std::move(z)); gap.width > 0.03 * extent)
+    return {{gap.center, gap.center}, {gap.center, gap.center}};
+
+  constexpr int kBins = 40;
+  std::vector<double> top(kBins, -1e300);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (!upward[i]) continue;
+    const Vector3d p = frame.components(mesh.vertices[i] - frame.origin);
+    const int bin = std::clamp(static_cast<int>((p.z() - first) / extent * kBins), 0, kBins - 1);
+    top[bin] = std::max(top[bin], p.y());
+  }
+  const auto highest = [&](int from, int to) {
+    return std::max_element(top.begin() + from, top.begin() + to) - top.begin();
+  };
+  const auto medial = highest(kBins / 3, kBins / 2),
+             lateral = highest(kBins / 2, kBins - kBins / 3);
+  const auto lowest = std::min_element(top.begin() + medial, top.begin() + lateral) - top.begin();
+  const auto place = [&](std::ptrdiff_t bin) {
+    return first + (static_cast<double>(bin) + 0.5) / kBins * extent;
+  };
+  return {{place(medial), place(lateral)},
+          {std::min(place(lowest), place(medial) + kBeyondCrest),
+           std::max(place(lowest), place(lateral) - kBeyondCrest)}};
+}
+
+}  // namespace
+
+int face_out_of_femur(CleanMesh& mesh, const BoneFrame& frame) {
+  std::vector<Eigen::AlignedBox3d> boxes(mesh.closed.size());
+  for (std::size_t t = 0; t < mesh.component.size(); ++t)
+    for (const int v : mesh.mesh.triangles[t])
+      boxes[mesh.component[t]].extend(frame.components(mesh.mesh.vertices[v]));
+  const std::vector<Vector3d> areas = triangle_areas(mesh.mesh);
+  std::vector<double> outwardness(mesh.closed.size(), 0.0);
+  for (std::size_t t = 0; t < areas.size(); ++t) {
+    const int c = mesh.component[t];
+    const Vector3d& p = mesh.mesh.vertices[mesh.mesh.triangles[t][0]];
+    outwardness[c] += frame.components(areas[t]).dot(frame.components(p) - boxes[c].center());
+  }
+  turn_components(mesh, outwardness);
+  return count_inward(mesh, outwardness);
+}
+
+int face_out_of_tibia(CleanMesh& mesh, const BoneFrame& frame) {
+  const std::vector<Vector3d> areas = triangle_areas(mesh.mesh);
+  std::vector<double> outwardness(mesh.closed.size(), 0.0);
+  for (std::size_t t = 0; t < areas.size(); ++t)
+    outwardness[mesh.component[t]] += areas[t].dot(frame.proximal);
+  turn_components(mesh, outwardness);
+  return count_inward(mesh, outwardness);
+}
+
+ArticularRegion femoral_region(const TriangleMesh& mesh,
+                               const CondylarAxis& axis,
+                               Half half,
+                               const RegionOptions& options) {
+  const double radius = half == Half::kMedial ? axis.medial_radius : axis.lateral_radius;
+  const std::vector<Vector3d> normals = smoothed_normals(mesh, options.normal_smoothing);
+  const auto passing = [&](const auto& test) {
+    std::vector<bool> passes(mesh.vertices.size());
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+      const AboutAxis q = about_axis(axis, mesh.vertices[i]);
+      passes[i] = q.angle > options.femur_first_angle && q.angle < options.femur_last_angle &&
+                  q.radius > 0.55 * radius && q.radius < 2.2 * radius &&
+                  in_box(options, mesh.vertices[i]) && test(i, q);
+    }
+    return select(mesh, passes);
+  };
+  // Beyond the dividing plane, positive towards the other condyle.
+  const auto beyond = [half](const AboutAxis& q) {
+    return half == Half::kMedial ? q.along : -q.along;
+  };
+  const std::vector<bool> crest = passing([&](std::size_t i, const AboutAxis& q) {
+    return beyond(q) < 0 && normals[i].dot(q.radial) > kCrestCosine;
+  });
+  const CondyleChart chart(mesh, crest, axis, radius);
+  const std::vector<bool> keep = passing([&](std::size_t i, const AboutAxis& q) {
+    return beyond(q) < kBeyondDivide && normals[i].dot(q.radial) > options.femur_least_cosine &&
+           normals[i].dot(chart.direction(mesh.vertices[i])) > kChartCosine;
+  });
+  ArticularRegion region = make_region(
+      mesh, keep, crest, [&](const Vector3d& p) { return chart.at(p); },
+      [&](const Vector3d& p) { return chart.direction(p); });
+  double low = 10, high = -10;
+  for (const Vector2d& uv : region.chart) {
+    low = std::min(low, uv.x() / radius);
+    high = std::max(high, uv.x() / radius);
+  }
+  region.notes.push_back(fmt::format(
+      "condylar axis: radius {:.2f} mm, {:.2f} mm rms; condyle from {:.0f} to {:.0f} degrees",
+      radius, axis.rms, low * 180 / M_PI, high * 180 / M_PI));
+  return region;
+}
+
+ArticularRegion tibial_region(const TriangleMesh& mesh,
+                              const BoneFrame& frame,
+                              Half half,
+                              const RegionOptions& options) {
+  const std::vector<Vector3d> normals = smoothed_normals(mesh, options.normal_smoothing);
+  double top = -1e300, low = 1e300, high = -1e300;
+  for (const Vector3d& p : mesh.vertices) {
+    const Vector3d q = frame.components(p - frame.origin);
+    top = std::max(top, q.y());
+    low = std::min(low, q.z());
+    high = std::max(high, q.z());
+  }
+  const double depth = 0.4 * (high - low);  // of the head below the eminence
+  std::vector<bool> upward(mesh.vertices.size());
+  for (std::size_t i = 0; i < upward.size(); ++i)
+    upward[i] = normals[i].dot(frame.proximal) > kPlateauCosine &&
+                frame.proximal.dot(mesh.vertices[i] - frame.origin) > top - depth;
+  const PlateauEnds ends = inner_ends(mesh, frame, upward);
+
+  Vector3d height = frame.proximal;
+  // Vertices whose normal is steeper than that of a plateau pass only on the inner side of
+  // `middle`.
+  const auto passing = [&](const InnerEnds& inner, double middle, double least_cosine) {
+    std::vector<bool> passes(mesh.vertices.size());
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+      const Vector3d q = frame.components(mesh.vertices[i] - frame.origin);
+      const bool medial = half == Half::kMedial;
+      const double least = (q.z() > middle) == medial ? least_cosine : kPlateauCosine;
+      passes[i] = (medial ? q.z() < inner.medial : q.z() > inner.lateral) && q.y() > top - depth &&
+                  normals[i].dot(height) > least && in_box(options, mesh.vertices[i]);
+    }
+    return select(mesh, passes);
+  };
+  std::vector<bool> face;
+  for (int round = 0; round < 3; ++round) {
+    face = passing(ends.face, 0, kPlateauCosine);
+    if (std::find(face.begin(), face.end(), true) == face.end())
+      throw InputError("no tibial plateau found");
+    height = total_area(mesh, face).normalized();
+  }
+  const double middle = frame.lateral.dot(centroid(mesh, face) - frame.origin);
+  const std::vector<bool> keep = passing(ends.all, middle, options.tibia_least_cosine);
+  ArticularRegion region = plane_region(mesh, keep, face, frame.origin, height, frame.anterior);
+  const Vector3d h = frame.components(height);
+  region.notes.push_back(
+      fmt::format("plateau slopes {:.1f} degrees backwards, {:.1f} towards lateral",
+                  std::atan2(-h.x(), h.y()) * 180 / M_PI, std::atan2(h.z(), h.y()) * 180 / M_PI));
+  return region;
+}
+
+ArticularRegion box_region(const TriangleMesh& mesh, const std::array<Vector3d, 2>& corners) {
+  Eigen::AlignedBox3d box(corners[0]);
+  box.extend(corners[1]);
+  const Vector3d round_off = Vector3d::Constant(1e-9 * box.diagonal().norm());
+  box = {box.min() - round_off, box.max() + round_off};
+  std::vector<bool> inside(mesh.vertices.size());
+  for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = box.contains(mesh.vertices[i]);
+  const std::vector<bool> all = select(mesh, inside);
+  const Vector3d height = total_area(mesh, all).stableNormalized();
+  const std::vector<Vector3d> normals = vertex_normals(mesh);
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    inside[i] = inside[i] && normals[i].dot(height) > 0.25;
+  const std::vector<bool> keep = select(mesh, inside);
+  if (std::find(keep.begin(), keep.end(), true) == keep.end())
+    throw InputError("the region box holds no part of the mesh");
+
+  const Vector3d center = centroid(mesh, keep);
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (std::size_t t = 0; t < keep.size(); ++t)
+    if (keep[t]) {
+      const Vector3d q = mesh.vertices[mesh.triangles[t][0]] - center;
+      const Vector3d flat = q - height * height.dot(q);
+      spread += flat * flat.transpose();
+    }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(spread);
+  Vector3d forward = principal.eigenvectors().col(2);
+  double third = 0;  // moment: an axis has no sense of its own
+  for (std::size_t t = 0; t < keep.size(); ++t)
+    if (keep[t]) third += std::pow(forward.dot(mesh.vertices[mesh.triangles[t][0]] - center), 3);
+  if (third < 0) forward = -forward;
+  return plane_region(mesh, keep, keep, center, height, forward);
+}
+
+}  // namespace condyle

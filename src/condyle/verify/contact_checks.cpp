@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/verify/coordinates.h"
+#include "condyle/verify/laws.h"
+#include "condyle/verify/pose_checks.h"
+
+namespace condyle::verification {
+namespace {
+
+std::string place(const Vector3d& p) {
+  return fmt::format("[{:.4f}, {:.4f}, {:.4f}] mm", p.x(), p.y(), p.z());
+}
+
+/// Forces and moments on the moving body about a point of the ground frame, and how much of each
+/// there is.
+struct Sums {
+  Vector3d about, force = Vector3d::Zero(), moment = Vector3d::Zero();
+  double forces = 0, moments = 0;
+  void pull(const Vector3d& at, const Vector3d& f) {
+    force += f;
+    forces += f.norm();
+    twist((at - about).cross(f), (at - about).norm() * f.norm());
+  }
+  void twist(const Vector3d& m, double magnitude) {
+    moment += m;
+    moments += magnitude;
+  }
+};
+
+/// The middle of all points where a force acts.
+Vector3d middle_of(const Scene& scene, const PoseResult& pose) {
+  Vector3d sum = Vector3d::Zero();
+  double count = 0;
+  for (const LigamentDescription& ligament : scene.ligaments)
+    for (const Attachment& end : ligament.ends) sum += in_ground(scene, end, pose.X_BA), ++count;
+  for (const ContactResult& contact : pose.contacts)
+    if (contact.closed)
+      for (const ContactPointResult& point : contact.points) sum += point.point_ground, ++count;
+  for (const LoadDescription& load : scene.loads)
+    if (!load.moment) sum += pose.X_BA * load.at, ++count;
+  return count > 0 ? Vector3d(sum / count) : pose.X_BA.p;
+}
+
+void add_ligaments(const Scene& scene, const PoseResult& pose, Sums& sums) {
+  for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
+    const std::array<Attachment, 2>& ends = scene.ligaments[i].ends;
+    const bool first = ends[0].body == scene.moving_body();
+    const Vector3d on_A = in_ground(scene, ends[first ? 0 : 1], pose.X_BA),
+                   on_B = in_ground(scene, ends[first ? 1 : 0], pose.X_BA);
+    const Vector3d way = on_B - on_A;
+    if (way.norm() > 0) sums.pull(on_A, pose.ligaments[i].force * way.normalized());
+  }
+}
+
+void add_loads(const Subject& subject, const PoseResult& pose, Sums& sums) {
+  const Scene& scene = subject.run.scene;
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    const LoadDescription& load = scene.loads[i];
+    Vector3d vector = load_scale(subject, i, pose) * load.vector;
+    if (load.follows_body) vector = pose.X_BA.R * vector;
+    if (load.moment)
+      sums.twist(vector, vector.norm());
+    else
+      sums.pull(pose.X_BA * load.at, vector);
+  }
+}
+
+void add_contacts(const PoseResult& pose, Sums& sums) {
+  for (const ContactResult& contact : pose.contacts)
+    if (contact.closed)
+      for (const ContactPointResult& point : contact.points)
+        sums.pull(point.point_ground, point.force * point.normal_ground);
+}
+
+/// A multiplier does the work -σ dk.
+void add_reactions(const Scene& scene, const PoseResult& pose, Sums& sums) {
+  for (std::size_t i = 0; i < scene.conditions.size(); ++i) {
+    const double sigma = pose.conditions[i].multiplier;
+    const Eigen::Matrix<double, 6, 1> dk =
+        gradient(scene, scene.conditions[i], pose.X_BA, sums.about);
+    sums.force -= sigma * dk.head<3>();
+    sums.forces += std::abs(sigma) * dk.head<3>().norm();
+    sums.twist(-sigma * dk.tail<3>(), std::abs(sigma) * dk.tail<3>().norm());
+  }
+}
+
+Sums everything(const Subject& subject, const PoseResult& pose) {
+  const Scene& scene = subject.run.scene;
+  Sums sums{.about = middle_of(scene, pose)};
+  add_ligaments(scene, pose, sums);
+  add_loads(subject, pose, sums);
+  add_contacts(pose, sums);
+  add_reactions(scene, pose, sums);
+  return sums;
+}
+
+void check_point(const PairOfSides& pair,
+                 const Scene& scene,
+                 const RigidTransform& X,
+                 const ContactPointResult& point,
+                 const std::string& element,
+                 bool closed,
+                 Ledger& ledger) {
+  const Foot on_B = pair.fixed->foot(point.point_ground),
+             on_A = pair.moving->foot(point.point_moving);
+  const auto body = [&](int surface) {
+    return scene
+        .bodies[static_cast<std::size_t>(scene.surfaces[static_cast<std::size_t>(surface)].body)]
+        .name;
+  };
+  const double far = 1e-14 * (point.point_ground.norm() + X.p.norm() + point.point_moving.norm());
+  const auto on_surface = [&](const Foot& foot, const Vector3d& p, int surface) {
+    const double off = (p - foot.point).norm();
+    ledger.note(
+        Check::kOnSurface, off, element,
+        fmt::format("{} of {} lies {:.3g} mm beside surface \"{}\"", place(p), body(surface), off,
+                    scene.surfaces[static_cast<std::size_t>(surface)].name),
+        1e-8 + 100 * far);
+    if (!closed) return;
+    ledger.note(Check::kKnown, -foot.edge, element,
+                fmt::format("{} of {} lies {:.3g} mm beyond the known part of surface \"{}\"",
+                            place(p), body(surface), -foot.edge,
+                            scene.surfaces[static_cast<std::size_t>(surface)].name));
+  };
+  on_surface(on_B, point.point_ground, pair.fixed_surface);
+  on_surface(on_A, point.point_moving, pair.moving_surface);
+
+  const Vector3d way = X * point.point_moving - point.point_ground;
+  const double gap = point.normal_ground.dot(way);
+  const double apart = closed ? way.norm() : std::abs(gap - point.gap);
+  ledger.note(Check::kTogether, apart, element,
+              fmt::format("{} of {} is {:.6g} mm from the point of {}, {:.6g} mm along the normal; "
+                          "the file says {:.6g} mm",
+                          place(point.point_ground), body(pair.fixed_surface), way.norm(),
+                          body(pair.moving_surface), gap, point.gap),
+              1e-8 + 100 * far);
+  if (closed) ledger.note(Check::kTogether, std::abs(point.gap), element, "", 1e-8 + 100 * far);
+
+  const Vector3d& n = point.normal_ground;
+  // Where an open gap is smallest at an edge the normals need not agree.
+  const double off = std::max(
+      {(n - on_B.n).norm(), closed ? (n + X.R * on_A.n).norm() : 0.0, std::abs(n.norm() - 1)});
+  ledger.note(Check::kNormal, off, element,
+              fmt::format("the normal at {} of {} is off by {:.3g} rad from those of the surfaces",
+                          place(point.point_ground), body(pair.fixed_surface), off));
+}
+
+}  // namespace
+
+void check_contacts(const Subject& subject, const PoseResult& pose, Ledger& ledger) {
+  const Scene& scene = subject.run.scene;
+  double scale = everything(subject, pose).forces;
+  if (!(scale > 0)) scale = 1;
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    const ContactResult& contact = pose.contacts[i];
+    const std::string element = fmt::format("contact \"{}\"", scene.contacts[i].name);
+    const PairOfSides pair = pair_of(subject, i);
+    double sum = 0;
+    for (const ContactPointResult& point : contact.points) {
+      sum += point.force;
+      check_point(pair, scene, pose.X_BA, point, element, contact.closed, ledger);
+      if (scene.contacts[i].state == ContactState::kAuto)
+        ledger.note(
+            Check::kPush, -point.force / scale, element,
+            fmt::format("pulls with {:.6g} N at {} of {}", -point.force, place(point.point_ground),
+                        scene.bodies[static_cast<std::size_t>(scene.fixed_body())].name));
+      if (!contact.closed)
+        ledger.note(Check::kPush, std::abs(point.force) / scale, element,
+                    fmt::format("is open and carries {:.6g} N", point.force));
+    }
+    ledger.note(Check::kPush, std::abs(sum - contact.force) / scale, element,
+                fmt::format("carries {:.12g} N, its points {:.12g} N", contact.force, sum));
+  }
+}
+
+void check_balance(const Subject& subject, const PoseResult& pose, Ledger& ledger) {
+  const Sums sums = everything(subject, pose);
+  const double force = sums.force.norm(), moment = sums.moment.norm();
+  // Where only the one acts, the other is compared with it by way of an arm: 1 m, and 1 um.
+  const double forces = sums.forces + 1e-3 * sums.moments,
+               moments = sums.moments + 1e-3 * sums.forces;
+  ledger.note(Check::kForces, force == 0 ? 0 : force / forces, "",
+              fmt::format("forces add up to {:.3g} N of {:.6g} N that act", force, forces));
+  ledger.note(
+      Check::kMoments, moment == 0 ? 0 : moment / moments, "",
+      fmt::format("moments add up to {:.3g} N mm of {:.6g} N mm that act", moment, moments));
+}
+
+}  // namespace condyle::verification

@@ -1,0 +1,203 @@
+#include "condyle/verify/gap_probe.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace condyle::verification {
+namespace {
+
+constexpr double kCell = 2;         ///< [mm]
+constexpr double kNoise = 5e-7;     ///< gaps of which no lower ones are looked for beside [mm]
+constexpr std::size_t kGroup = 24;  ///< cells
+constexpr double kBeside = 1;       ///< so near to each other two points have feet that do too [mm]
+constexpr double kLeaf = 0.15;      ///< [mm]
+
+}  // namespace
+
+GapProbe::GapProbe(const SurfaceSide& sampled, const SurfaceSide& other)
+    : sampled_(sampled), other_(other) {
+  // A size that fits small things too: 2 mm for a knee.
+  const std::vector<Cell> coarse = sampled.cells(1e9);
+  if (coarse.empty()) return;
+  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const Cell& cell : coarse)
+    for (const double u : {cell.u0, cell.u1})
+      for (const double v : {cell.v0, cell.v1}) {
+        const Vector3d p = sampled.at(cell.chart, u, v).p;
+        low = low.cwiseMin(p), high = high.cwiseMax(p);
+      }
+  const double extent = (high - low).norm(), size = std::min(kCell, extent / 20);
+  leaf_ = kLeaf / kCell * size;
+  for (const Cell& cell : sampled.cells(size)) {
+    const Node made = node(cell);
+    const double edge = sampled.edge(cell.chart, (cell.u0 + cell.u1) / 2, (cell.v0 + cell.v1) / 2);
+    if (edge > -1.5 * made.radius) cells_.push_back(made);
+  }
+  if (!cells_.empty()) group(0, cells_.size());
+}
+
+GapProbe::Node GapProbe::node(const Cell& cell) const {
+  const double u = (cell.u0 + cell.u1) / 2, v = (cell.v0 + cell.v1) / 2;
+  Node node{cell, sampled_.at(cell.chart, u, v).p, 0, sampled_.curvature(cell.chart, u, v)};
+  for (const double a : {cell.u0, u, cell.u1})
+    for (const double b : {cell.v0, v, cell.v1}) {
+      node.radius = std::max(node.radius, (sampled_.at(cell.chart, a, b).p - node.middle).norm());
+      node.curvature = std::max(node.curvature, sampled_.curvature(cell.chart, a, b));
+    }
+  node.radius *= 1.1;  // a way on the surface is longer than the chord
+  return node;
+}
+
+GapProbe::Reading GapProbe::read(
+    const RigidTransform& X, int chart, double u, double v, const Foot* near) const {
+  const ChartPoint at = sampled_.at(chart, u, v);
+  const Vector3d p = X * at.p;
+  const Foot foot = near != nullptr ? other_.foot_near(p, *near) : other_.foot(p);
+  const Vector3d n = X.R.transpose() * foot.n, normal = at.p_u.cross(at.p_v).normalized();
+  const bool known = foot.edge >= 0 && sampled_.edge(chart, u, v) >= 0;
+  const double slope = (n - n.dot(normal) * normal).norm();
+  return {foot.distance, known, at.p, {n.dot(at.p_u), n.dot(at.p_v)}, slope, foot};
+}
+
+LowestGap GapProbe::refine(
+    const RigidTransform& X, int chart, double u, double v, const Foot* near) const {
+  Reading now = read(X, chart, u, v, near);
+  LowestGap lowest;
+  if (!now.known) return lowest;
+  const ChartPoint at = sampled_.at(chart, u, v);
+  const double U = 1 / at.p_u.norm(), V = 1 / at.p_v.norm();  // parameter per mm
+  for (int i = 0; i < 25; ++i) {
+    constexpr double kStep = 1e-4, kLongest = 0.5;  // [mm]
+    const Eigen::Vector2d g(now.gradient.x() * U, now.gradient.y() * V);
+    const Reading du = read(X, chart, u + kStep * U, v, &now.foot),
+                  dv = read(X, chart, u, v + kStep * V, &now.foot);
+    Eigen::Matrix2d H;
+    H << du.gradient.x() * U - g.x(), dv.gradient.x() * U - g.x(), du.gradient.y() * V - g.y(),
+        dv.gradient.y() * V - g.y();
+    H = (H + H.transpose()).eval() / (2 * kStep);
+    Eigen::Vector2d step = -g / std::max(g.norm(), 1e-300) * std::min(kLongest, leaf_);
+    if (H.determinant() > 1e-12 && H.trace() > 0) step = -H.inverse() * g;
+    if (step.norm() > kLongest) step *= kLongest / step.norm();
+    bool moved = false;
+    for (int half = 0; half < 12 && !moved; ++half, step /= 2) {
+      const Reading next = read(X, chart, u + step.x() * U, v + step.y() * V, &now.foot);
+      if (!next.known || !(next.gap < now.gap)) continue;
+      moved = true;
+      u += step.x() * U, v += step.y() * V, now = next;
+      if (step.norm() < 1e-9) i = 25;
+    }
+    if (!moved) break;
+  }
+  return {now.gap, now.point};
+}
+
+void GapProbe::keep(const LowestGap& found, LowestGap& best) const {
+  if (found.gap < best.gap) best = found;
+}
+
+/// The middle of a leaf, or a corner where that is not known.
+void GapProbe::look_closely(const RigidTransform& X,
+                            const Node& node,
+                            const Foot* near,
+                            LowestGap& best) const {
+  const Cell& c = node.cell;
+  const double u = (c.u0 + c.u1) / 2, v = (c.v0 + c.v1) / 2;
+  LowestGap found = refine(X, c.chart, u, v, near);
+  if (std::isinf(found.gap))
+    for (const double a : {c.u0, c.u1})
+      for (const double b : {c.v0, c.v1}) keep(refine(X, c.chart, a, b, near), found);
+  keep(found, best);
+}
+
+void GapProbe::look(const RigidTransform& X,
+                    const Node& node,
+                    const Foot* near,
+                    LowestGap& best) const {
+  if (near == nullptr && other_.is_clear(X * node.middle, node.radius)) return;
+  const Cell& c = node.cell;
+  look_into(X, node, read(X, c.chart, (c.u0 + c.u1) / 2, (c.v0 + c.v1) / 2, near), best);
+}
+
+/// Over a cell of radius r the gap is no lower than φ - r, nor than φ - s r - k r²/2 with its slope
+/// s and the curvatures of both surfaces.
+void GapProbe::look_into(const RigidTransform& X,
+                         const Node& node,
+                         const Reading& at,
+                         LowestGap& best) const {
+  const double wanted = std::min(best.gap, 0.0) - kNoise, r = node.radius;
+  const Cell& c = node.cell;
+  if (at.known) keep({at.gap, at.point}, best);
+  // Below what is not known of the other side nothing is said.
+  if (at.gap < 0 && at.foot.edge < -3 * r) return;
+  double bound = at.gap - r;
+  if (std::abs(at.gap) * at.foot.curvature < 0.5)
+    bound = std::max(bound,
+                     at.gap - at.slope * r - (node.curvature + 2 * at.foot.curvature) * r * r / 2);
+  if (bound > wanted) return;
+  if (r <= leaf_) return look_closely(X, node, &at.foot, best);
+  const double du = (c.u1 - c.u0) / 2, dv = (c.v1 - c.v0) / 2;
+  for (const double a : {c.u0, c.u0 + du})
+    for (const double b : {c.v0, c.v0 + dv}) {
+      const double u = a + du / 2, v = b + dv / 2;
+      if (sampled_.edge(c.chart, u, v) < -1.5 * r) continue;
+      const Node part{
+          {c.chart, a, a + du, b, b + dv}, sampled_.at(c.chart, u, v).p, 0.55 * r, node.curvature};
+      look(X, part, r < kBeside ? &at.foot : nullptr, best);
+    }
+}
+
+/// Cells in groups of neighbours, each within a ball.
+void GapProbe::group(std::size_t begin, std::size_t end) {
+  Vector3d low = cells_[begin].middle, high = low;
+  for (std::size_t i = begin; i < end; ++i)
+    low = low.cwiseMin(cells_[i].middle), high = high.cwiseMax(cells_[i].middle);
+  int axis = 0;
+  (high - low).maxCoeff(&axis);
+  if (end - begin > kGroup) {
+    const std::size_t middle = (begin + end) / 2;
+    const auto at = [&](std::size_t i) { return cells_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(begin), at(middle), at(end), [axis](const Node& a, const Node& b) {
+      return a.middle[axis] < b.middle[axis];
+    });
+    group(begin, middle);
+    group(middle, end);
+    return;
+  }
+  Group made{(low + high) / 2, 0, begin, end};
+  for (std::size_t i = begin; i < end; ++i)
+    made.radius = std::max(made.radius, (cells_[i].middle - made.middle).norm() + cells_[i].radius);
+  groups_.push_back(made);
+}
+
+LowestGap GapProbe::lowest(const RigidTransform& X) const {
+  struct Seen {
+    const Node* node;
+    Reading at;
+  };
+  std::vector<Seen> seen;
+  for (const Group& group : groups_) {
+    if (other_.is_clear(X * group.middle, group.radius)) continue;
+    for (std::size_t i = group.begin; i < group.end; ++i) {
+      const Node& node = cells_[i];
+      const Cell& c = node.cell;
+      if (other_.is_clear(X * node.middle, node.radius)) continue;
+      seen.push_back({&node, read(X, c.chart, (c.u0 + c.u1) / 2, (c.v0 + c.v1) / 2)});
+    }
+  }
+  // First where it is lowest by the middles of the cells: all bounds are then the sharper.
+  std::sort(seen.begin(), seen.end(),
+            [](const Seen& a, const Seen& b) { return a.at.gap < b.at.gap; });
+  LowestGap best;
+  for (const Seen& one : seen) {
+    if (!one.at.known) continue;
+    look_closely(X, *one.node, &one.at.foot, best);
+    break;
+  }
+  for (const Seen& one : seen) look_into(X, *one.node, one.at, best);
+  return best;
+}
+
+}  // namespace condyle::verification

@@ -1,0 +1,76 @@
+#pragma once
+
+/// The lowest gap of two surfaces at a pose, looked for on all of the known part of both: branch
+/// and bound over the cells of one, with the distance to the other. Nothing is taken over from
+/// other poses.
+
+#include <optional>
+#include <vector>
+
+#include "condyle/math/rigid_transform.h"
+#include "condyle/verify/side.h"
+
+namespace condyle::verification {
+
+struct LowestGap {
+  double gap = std::numeric_limits<double>::infinity();  ///< [mm], negative: overlap
+  Vector3d point;                                        ///< in the frame of the sampled side
+};
+
+/// Samples one side; the sides must outlive it.
+class GapProbe {
+ public:
+  GapProbe(const SurfaceSide& sampled, const SurfaceSide& other);
+
+  /// Does the sampled side have bounds, so that there is anything to look at?
+  [[nodiscard]] bool covers() const { return !cells_.empty(); }
+
+  /// X takes the sampled side's frame to the other's. Exact where some gap is below zero or within
+  /// a fraction of a cell of it; where all are greater, the lowest that was met.
+  [[nodiscard]] LowestGap lowest(const RigidTransform& X) const;
+
+ private:
+  struct Node {
+    Cell cell;
+    Vector3d middle;
+    double radius, curvature;
+  };
+  struct Reading {
+    double gap;
+    bool known;  ///< on both sides
+    Vector3d point;
+    Eigen::Vector2d gradient;  ///< per unit of parameter
+    double slope;              ///< of the gap along the surface, per mm
+    Foot foot;                 ///< on the other side
+  };
+  struct Group {
+    Vector3d middle;
+    double radius;
+    std::size_t begin, end;  ///< in cells_
+  };
+  void group(std::size_t begin, std::size_t end);
+  [[nodiscard]] Node node(const Cell& cell) const;
+  /// `near`, where given, is the foot of a point beside.
+  [[nodiscard]] Reading read(
+      const RigidTransform& X, int chart, double u, double v, const Foot* near = nullptr) const;
+  void look(const RigidTransform& X, const Node& node, const Foot* near, LowestGap& best) const;
+  void look_into(const RigidTransform& X,
+                 const Node& node,
+                 const Reading& at,
+                 LowestGap& best) const;
+  void look_closely(const RigidTransform& X,
+                    const Node& node,
+                    const Foot* near,
+                    LowestGap& best) const;
+  /// The local minimum that a place leads to; infinite where it is not known.
+  [[nodiscard]] LowestGap refine(
+      const RigidTransform& X, int chart, double u, double v, const Foot* near) const;
+  void keep(const LowestGap& found, LowestGap& best) const;
+
+  const SurfaceSide &sampled_, &other_;
+  double leaf_ = 0;  ///< radius of a cell that is not divided any more [mm]
+  std::vector<Node> cells_;
+  std::vector<Group> groups_;
+};
+
+}  // namespace condyle::verification

@@ -1,0 +1,146 @@
+#include "condyle/verify/pose_checks.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "condyle/verify/coordinates.h"
+#include "condyle/verify/laws.h"
+
+namespace condyle::verification {
+namespace {
+
+constexpr const char* kJointNames[] = {"flexion",       "adduction",       "internal rotation",
+                                       "lateral shift", "anterior drawer", "distraction"};
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+std::string named(const char* kind, const std::string& name) {
+  return fmt::format("{} \"{}\"", kind, name);
+}
+
+/// What rounding of coordinates so far from the origin comes to [mm].
+double round_off(const Vector3d& a, const Vector3d& b) { return 1e-14 * (a.norm() + b.norm()); }
+
+double slack_of(const ForceLaw& law) {
+  if (const auto* toe = std::get_if<ToeLinearLaw>(&law)) return toe->slack_length;
+  if (const auto* quadratic = std::get_if<QuadraticLaw>(&law)) return quadratic->slack_length;
+  return 0;
+}
+
+}  // namespace
+
+PairOfSides pair_of(const Subject& subject, std::size_t contact) {
+  const Scene& scene = subject.run.scene;
+  auto [a, b] = scene.contacts[contact].surfaces;
+  if (scene.surfaces[static_cast<std::size_t>(a)].body != scene.fixed_body()) std::swap(a, b);
+  return {a, b, subject.sides[static_cast<std::size_t>(a)].get(),
+          subject.sides[static_cast<std::size_t>(b)].get()};
+}
+
+double prescribed(const Subject& subject, std::size_t condition, const PoseResult& pose) {
+  const bool swept = subject.swept.condition == static_cast<int>(condition);
+  return swept ? pose.value : subject.run.scene.conditions[condition].value;
+}
+
+double load_scale(const Subject& subject, std::size_t load, const PoseResult& pose) {
+  return subject.swept.load == static_cast<int>(load) ? pose.value : 1;
+}
+
+void check_slack_lengths(const Scene& scene, Ledger& ledger) {
+  for (const LigamentDescription& ligament : scene.ligaments) {
+    if (!ligament.reference_strain) continue;
+    const RigidTransform X = start_of(scene);
+    const Vector3d a = in_ground(scene, ligament.ends[0], X),
+                   b = in_ground(scene, ligament.ends[1], X);
+    const double slack = (a - b).norm() / (1 + *ligament.reference_strain);
+    ledger.note(Check::kSlack, std::abs(slack - slack_of(ligament.law)),
+                named("ligament", ligament.name));
+  }
+}
+
+bool check_motion(const Subject& subject, const PoseResult& pose, Ledger& ledger) {
+  const Eigen::Matrix3d& R = pose.X_BA.R;
+  const double off = (R.transpose() * R - Eigen::Matrix3d::Identity()).norm();
+  const bool finite = R.allFinite() && pose.X_BA.p.allFinite() && R.determinant() > 0;
+  ledger.note(Check::kPose, finite ? off : std::nan(""), "",
+              finite ? "" : "the pose is no rotation and translation");
+  if (!finite) return false;
+  if (!subject.run.scene.joint) return true;
+  const std::array<double, 6> q = grood_suntay(subject.run.scene, pose.X_BA);
+  const JointCoordinates& j = pose.joint;
+  const double stored[] = {j.flexion,       j.adduction,       j.internal_rotation,
+                           j.lateral_shift, j.anterior_drawer, j.distraction};
+  const double node = std::max(1e-3, std::cos(q[1]));  // at 90 degrees of adduction there is none
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double off_by = i < 3 ? kDegrees * std::remainder(stored[i] - q[i], 2 * std::numbers::pi)
+                                : stored[i] - q[i];
+    ledger.note(
+        Check::kJoint, std::abs(off_by) * node, kJointNames[i],
+        fmt::format("is stored {:.3g} {} off what the pose gives", off_by, i < 3 ? "deg" : "mm"));
+  }
+  return true;
+}
+
+void check_ligaments(const Subject& subject, const PoseResult& pose, Ledger& ledger) {
+  const Scene& scene = subject.run.scene;
+  const bool viscous = subject.moving() && scene.simulation && scene.simulation->viscous_time > 0;
+  double greatest = 0;
+  for (const LigamentResult& ligament : pose.ligaments)
+    greatest = std::max(greatest, std::abs(ligament.force));
+  for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
+    const LigamentDescription& ligament = scene.ligaments[i];
+    const LigamentResult& stored = pose.ligaments[i];
+    const std::string element = named("ligament", ligament.name);
+    const Vector3d a = in_ground(scene, ligament.ends[0], pose.X_BA),
+                   b = in_ground(scene, ligament.ends[1], pose.X_BA);
+    const double length = (a - b).norm();
+    const double rounding = round_off(a, b);
+    ledger.note(Check::kLength, std::abs(stored.length - length), element, "",
+                1e-9 + 10 * rounding);
+    const double slack = slack_of(ligament.law);
+    const double strain = slack > 0 ? (length - slack) / slack : 0;
+    ledger.note(Check::kStrain, std::abs(stored.strain - strain), element, "",
+                1e-10 + (slack > 0 ? (1e-9 + 10 * rounding) / slack : 0));
+    if (viscous) continue;
+    // A law may be so steep that the rounding of the length is felt.
+    const double force = force_at(ligament.law, length);
+    const double scale = std::max(std::abs(force), 1e-3 * greatest) +
+                         std::abs(slope_at(ligament.law, length)) * (1e-4 + 1e9 * rounding);
+    const double off = std::abs(stored.force - force);
+    ledger.note(Check::kLaw, off == 0 ? 0 : off / scale, element,
+                off <= 1e-9 * scale
+                    ? ""
+                    : fmt::format("force = {:.12g} N, but its law gives {:.12g} N at {:.10g} mm",
+                                  stored.force, force, length));
+  }
+}
+
+void check_conditions(const Subject& subject, const PoseResult& pose, Ledger& ledger) {
+  const Scene& scene = subject.run.scene;
+  for (std::size_t i = 0; i < scene.conditions.size(); ++i) {
+    const ConditionDescription& condition = scene.conditions[i];
+    if (subject.moving() && scene.simulation) {
+      const std::vector<int>& hold = scene.simulation->hold;
+      if (std::find(hold.begin(), hold.end(), static_cast<int>(i)) == hold.end()) continue;
+    }
+    const double unit = is_angle(condition.kind) ? kDegrees : 1;
+    const double now = coordinate(scene, condition, pose.X_BA);
+    const double wanted =
+        subject.moving() ? pose.conditions[i].value : prescribed(subject, i, pose);
+    const double off = unit * std::abs(difference(condition, now, wanted));
+    const double allowed = 1e-8 + unit * 1e-13 * pose.X_BA.p.norm();
+    ledger.note(Check::kCondition, off, named("condition", condition.name),
+                fmt::format("is {:.12g} {}, expected {:.12g}", unit * now,
+                            is_angle(condition.kind) ? "deg" : "mm", unit * wanted),
+                allowed);
+    ledger.note(Check::kCondition,
+                unit * std::abs(difference(condition, now, pose.conditions[i].value)),
+                named("condition", condition.name), "", allowed);
+  }
+}
+
+}  // namespace condyle::verification

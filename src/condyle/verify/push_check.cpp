@@ -1,0 +1,151 @@
+#include "condyle/verify/push_check.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include <cmath>
+#include <random>
+
+#include "condyle/verify/coordinates.h"
+#include "condyle/verify/laws.h"
+
+namespace condyle::verification {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+constexpr double kPush = 0.02;   ///< [mm], rotations at an arm of kArm
+constexpr double kArm = 30;      ///< [mm]
+constexpr int kDirections = 16;  ///< a pose
+constexpr int kCorrections = 6;
+
+struct Nearest {
+  double gap;
+  Vector3d point, n;  ///< on the fixed side, ground frame
+};
+
+/// The local minimum of the gap near a point of the moving side: Newton along its tangent plane.
+Nearest nearest(const PairOfSides& pair, const RigidTransform& X, Vector3d p) {
+  constexpr double kStep = 1e-4;  // [mm]
+  Foot on_B = pair.fixed->foot(X * p);
+  for (int i = 0; i < 12; ++i) {
+    const Foot on_A = pair.moving->foot(p);
+    Eigen::Matrix<double, 3, 2> T;
+    T.col(0) = on_A.n.unitOrthogonal();
+    T.col(1) = on_A.n.cross(T.col(0));
+    const auto slope = [&](const Vector3d& at) -> Eigen::Vector2d {
+      const Foot own = pair.moving->foot(at);
+      Vector3d n = X.R.transpose() * pair.fixed->foot(X * own.point).n;
+      n -= n.dot(own.n) * own.n;
+      return T.transpose() * n;
+    };
+    const Eigen::Vector2d g = slope(p);
+    Eigen::Matrix2d H;
+    H.col(0) = (slope(p + kStep * T.col(0)) - g) / kStep;
+    H.col(1) = (slope(p + kStep * T.col(1)) - g) / kStep;
+    if (std::abs(H.determinant()) < 1e-14) break;
+    Eigen::Vector2d step = -H.inverse() * g;
+    if (step.norm() > 1) step.normalize();
+    p = pair.moving->foot(p + T * step).point;
+    on_B = pair.fixed->foot(X * p);
+    if (step.norm() < 1e-10) break;
+  }
+  return {on_B.distance, on_B.point, on_B.n};
+}
+
+}  // namespace
+
+PushCheck::PushCheck(const Subject& subject) : subject_(subject) {}
+
+std::vector<PushCheck::Constraint> PushCheck::constraints(const PoseResult& pose,
+                                                          const RigidTransform& X) const {
+  const Scene& scene = subject_.run.scene;
+  std::vector<Constraint> list;
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    if (!pose.contacts[i].closed) continue;
+    for (const ContactPointResult& point : pose.contacts[i].points) {
+      const Nearest now = nearest(pair_of(subject_, i), X, point.point_moving);
+      Constraint c{now.gap, {}};
+      c.gradient << now.n, (now.point - X.p).cross(now.n);
+      list.push_back(c);
+    }
+  }
+  for (std::size_t i = 0; i < scene.conditions.size(); ++i) {
+    const ConditionDescription& condition = scene.conditions[i];
+    list.push_back(
+        {difference(condition, coordinate(scene, condition, X), prescribed(subject_, i, pose)),
+         gradient(scene, condition, X, X.p)});
+  }
+  return list;
+}
+
+/// Energy that ligaments gain, less the work of loads, on a short way [N mm].
+double PushCheck::work(const PoseResult& pose,
+                       const RigidTransform& from,
+                       const RigidTransform& to) const {
+  const Scene& scene = subject_.run.scene;
+  double sum = 0;
+  for (const LigamentDescription& ligament : scene.ligaments) {
+    const auto length = [&](const RigidTransform& X) {
+      return (in_ground(scene, ligament.ends[0], X) - in_ground(scene, ligament.ends[1], X)).norm();
+    };
+    sum += work_between(ligament.law, length(from), length(to));
+  }
+  const Eigen::AngleAxisd turned(Eigen::Matrix3d(to.R * from.R.transpose()));
+  const Vector3d theta = turned.angle() * turned.axis();
+  const Eigen::Matrix3d half = turn(theta / 2) * from.R;
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    const LoadDescription& load = scene.loads[i];
+    Vector3d vector = load_scale(subject_, i, pose) * load.vector;
+    if (load.follows_body) vector = half * vector;
+    sum -= vector.dot(load.moment ? theta : Vector3d(to * load.at - from * load.at));
+  }
+  return sum;
+}
+
+void PushCheck::check(const PoseResult& pose, Ledger& ledger) const {
+  if (pose.stability != 1) return;
+  for (const ContactResult& contact : pose.contacts)
+    if (contact.closed && contact.shape != ContactShape::kPoint) return;
+  Vector6 scale;
+  scale << 1, 1, 1, 1 / kArm, 1 / kArm, 1 / kArm;
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  double worst = 0;
+  for (int k = 0; k < kDirections; ++k) {
+    Vector6 push;
+    for (double& x : push) x = normal(random);
+    push = (push.normalized() * kPush).cwiseProduct(scale);
+    double gained = 0, length = 0;
+    for (const double sign : {1.0, -1.0}) {
+      RigidTransform X = pose.X_BA;
+      Vector6 step = sign * push;
+      for (int i = 0; i <= kCorrections; ++i) {
+        // The step that is nearest to the wanted one and meets the constraints.
+        const std::vector<Constraint> list = constraints(pose, X);
+        Eigen::MatrixXd G(list.size(), 6);
+        Eigen::VectorXd value(list.size());
+        for (std::size_t c = 0; c < list.size(); ++c) {
+          G.row(static_cast<Eigen::Index>(c)) = list[c].gradient.cwiseProduct(scale).transpose();
+          value[static_cast<Eigen::Index>(c)] = list[c].value;
+        }
+        const Vector6 free = step.cwiseQuotient(scale);
+        Vector6 taken = free;
+        if (!list.empty()) taken -= G.completeOrthogonalDecomposition().solve(G * free + value);
+        if (i == 0) length = taken.norm();
+        taken = taken.cwiseProduct(scale);
+        X = moved(X, taken.head<3>(), taken.tail<3>(), X.p);
+        step.setZero();
+      }
+      gained += work(pose, pose.X_BA, X);
+    }
+    if (length > 1e-3 * kPush) worst = std::max(worst, -gained / (length * length));
+  }
+  ledger.note(
+      Check::kStability, worst, "",
+      fmt::format("is called stable, but a small push lowers the energy by {:.3g} N/mm", worst));
+}
+
+}  // namespace condyle::verification

@@ -1,0 +1,68 @@
+#pragma once
+
+/// Surfaces as the verifier sees them: written from the definitions in the scene and in /patches,
+/// with nothing of the room `surface`. A side of a contact is covered by charts (for grids of
+/// points) and knows the foot of any point on it (for distances). Lengths in mm, in the frame of
+/// the body that carries the surface.
+
+#include <Eigen/Core>
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "condyle/results/run_file.h"
+
+namespace condyle::verification {
+
+using Eigen::Vector3d;
+
+/// A rectangle of the parameters of one chart.
+struct Cell {
+  int chart = 0;
+  double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
+};
+
+struct ChartPoint {
+  Vector3d p, p_u, p_v;  ///< [mm], and per unit of parameter
+};
+
+/// What is nearest to a point on a surface.
+struct Foot {
+  double distance = 0;   ///< along the normal, negative within the solid [mm]
+  Vector3d point, n;     ///< the foot, and the unit normal out of the solid there
+  double edge = 0;       ///< from the foot to the end of the known part, negative beyond it [mm]
+  double curvature = 0;  ///< no principal curvature about the foot is greater [1/mm]
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< of the foot on a spline
+};
+
+class SurfaceSide {
+ public:
+  virtual ~SurfaceSide() = default;
+
+  /// Cells that cover the known part, no wider than about `size`; none for a surface without
+  /// bounds.
+  [[nodiscard]] virtual std::vector<Cell> cells(double size) const = 0;
+  [[nodiscard]] virtual ChartPoint at(int chart, double u, double v) const = 0;
+  /// As Foot::edge, of a point of a chart.
+  [[nodiscard]] virtual double edge(int chart, double u, double v) const = 0;
+  /// No principal curvature about a point of a chart is greater [1/mm].
+  [[nodiscard]] virtual double curvature(int chart, double u, double v) const = 0;
+
+  [[nodiscard]] virtual Foot foot(const Vector3d& p) const = 0;
+  /// The same, searched from the foot of a point near p.
+  [[nodiscard]] virtual Foot foot_near(const Vector3d& p, const Foot&) const { return foot(p); }
+  /// Is p outside the solid and certainly farther than r from the surface? `false` says nothing.
+  [[nodiscard]] virtual bool is_clear(const Vector3d& p, double r) const {
+    return foot(p).distance > r;
+  }
+};
+
+/// The sides of a run's surfaces, in the order of Scene::surfaces. Throws InputError where a patch
+/// is missing or is no patch.
+[[nodiscard]] std::vector<std::unique_ptr<SurfaceSide>> make_sides(const Run& run);
+
+[[nodiscard]] std::unique_ptr<SurfaceSide> make_exact_side(const SurfaceDescription& surface);
+[[nodiscard]] std::unique_ptr<SurfaceSide> make_spline_side(const PatchData& patch);
+
+}  // namespace condyle::verification

@@ -1,0 +1,214 @@
+#include "condyle/contact/contact_search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "condyle/contact/bending.h"
+#include "condyle/contact/contact.h"
+#include "condyle/math/rotation.h"
+#include "condyle/surface/exact_surfaces.h"
+
+namespace condyle {
+namespace {
+
+ContactPair pair_of(std::unique_ptr<Surface> on_B, std::unique_ptr<Surface> on_A) {
+  ContactPair pair;
+  pair.name = "pair";
+  pair.on_B = std::move(on_B);
+  pair.on_A = std::move(on_A);
+  return pair;
+}
+
+TEST(ContactSearch, FindsTheLowestPointOfABallOverAPlane) {
+  const ContactPair pair =
+      pair_of(make_plane({0, 0, 0}, {0, 0, 1}), make_sphere({0, 0, 0}, 20, true));
+  ContactSearch search(pair);
+  std::vector<GapMinimum> minima;
+  search.find({exp_rotation({0.3, -0.8, 0.2}), {3, -7, 20.05}}, 0.1, minima);
+  ASSERT_EQ(minima.size(), 1u);
+  EXPECT_TRUE(minima[0].refined);
+  EXPECT_NEAR(minima[0].gap, 0.05, 1e-12);
+  EXPECT_LT((minima[0].point_B - Eigen::Vector3d(3, -7, 0)).norm(), 1e-9);
+}
+
+TEST(ContactSearch, SeesNothingBeyondTheCutoffAndAnOverlapBelowIt) {
+  const ContactPair pair =
+      pair_of(make_sphere({0, 0, 0}, 20, true), make_sphere({0, 0, 0}, 15, true));
+  ContactSearch search(pair);
+  std::vector<GapMinimum> minima;
+  search.find({Eigen::Matrix3d::Identity(), {0, 0, 35.5}}, 0.1, minima);
+  EXPECT_TRUE(minima.empty());
+  search.find({Eigen::Matrix3d::Identity(), {0, 0, 32}}, 0.1, minima);
+  ASSERT_EQ(minima.size(), 1u);
+  EXPECT_NEAR(minima[0].gap, -3, 1e-9);
+}
+
+// A wavy floor of height 0.5 cos(x) cos(y)-like polynomial bumps: x⁴ - 2x² has two pits at x = ±1
+// (scaled by 10 mm), so a large ball over a double ridge touches in two places.
+TEST(ContactSearch, FindsTwoPlacesWhereABallTouchesTwoRidges) {
+  // z = 2 x²/100 - x⁴/10000: ridges of height 1 at x = ±10.
+  const ContactPair pair = pair_of(make_polynomial({0, 0, 0}, Eigen::Matrix3d::Identity(),
+                                                   {{2, 0, 0.02}, {4, 0, -0.0001}}, true),
+                                   make_sphere({0, 0, 0}, 60, true));
+  ContactSearch search(pair);
+  std::vector<GapMinimum> minima;
+  search.find({Eigen::Matrix3d::Identity(), {0, 0, 60.3}}, 0.5, minima);
+  ASSERT_EQ(minima.size(), 2u);
+  EXPECT_NEAR(minima[0].gap, minima[1].gap, 1e-9);  // by symmetry
+  EXPECT_NEAR(std::abs(minima[0].point_B.x()), std::abs(minima[1].point_B.x()), 1e-9);
+  EXPECT_LT(minima[0].point_B.x() * minima[1].point_B.x(), 0);
+  // The gap there by a fine scan of the polynomial.
+  double lowest = 1e9;
+  for (double x = -20; x <= 20; x += 1e-3) {
+    const double z = 0.02 * x * x - 0.0001 * x * x * x * x;
+    lowest = std::min(lowest, std::hypot(x, 60.3 - z) - 60);
+  }
+  EXPECT_NEAR(minima[0].gap, lowest, 1e-6);
+}
+
+TEST(ContactSearch, FindsTheSameMinimumWarmAndFresh) {
+  const ContactPair pair =
+      pair_of(make_ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {30, 22, 20}, true),
+              make_ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {18, 12, 15}, true));
+  ContactSearch warm(pair);
+  std::vector<GapMinimum> minima, fresh_minima;
+  for (int k = 0; k < 20; ++k) {
+    const RigidTransform X{exp_rotation({0.1 * k, 0.05 * k, 0}), {2.0 * k - 20, 5, 33 - 0.2 * k}};
+    warm.find(X, 5, minima);
+    ContactSearch fresh(pair);
+    fresh.find(X, 5, fresh_minima);
+    ASSERT_EQ(minima.size(), fresh_minima.size()) << k;  // two convex bodies: one minimum at most
+    if (minima.empty()) continue;
+    EXPECT_EQ(minima.size(), 1u);
+    EXPECT_NEAR(minima[0].gap, fresh_minima[0].gap, 1e-9) << k;
+  }
+}
+
+// The ball rests on the inner side of the right ridge (z' = 0.1428 at x = 7), so far over that it
+// runs into the left one: 60 mm from its centre, but for the way that Pythagoras tells.
+TEST(ContactSearch, AKnownContactHidesNoOverlapElsewhere) {
+  const ContactPair pair = pair_of(make_polynomial({0, 0, 0}, Eigen::Matrix3d::Identity(),
+                                                   {{2, 0, 0.02}, {4, 0, -0.0001}}, true),
+                                   make_sphere({0, 0, 0}, 60, true));
+  const auto height = [](double x) { return 0.02 * x * x - 0.0001 * x * x * x * x; };
+  const double slope = 0.04 * 7 - 0.0004 * 343;
+  const Eigen::Vector3d touch(7, 0, height(7)), n = Eigen::Vector3d(-slope, 0, 1).normalized();
+  const RigidTransform X{Eigen::Matrix3d::Identity(), touch + 60 * n};
+  const Place on_B = pair.on_B->closest(touch, pair.on_B->seed(touch));
+  const Place on_A = pair.on_A->closest(-60 * n, pair.on_A->seed(-60 * n));
+  const ContactLinearization at = linearize_contact(*pair.on_B, on_B, *pair.on_A, on_A, X);
+  ASSERT_LT(at.g.norm(), 1e-9);
+  ASSERT_GT(at.relative_curvature[0], 0);
+  double lowest = 1e9;  // by a fine scan of the left ridge
+  for (double x = -20; x <= 0; x += 1e-3)
+    lowest = std::min(lowest, std::hypot(x - X.p.x(), X.p.z() - height(x)) - 60);
+  ASSERT_LT(lowest, -0.2);
+
+  ContactSearch search(pair);
+  std::vector<GapMinimum> minima;
+  search.find(X, 0, minima, 0.3, {{at.B.c, at.A.c, at.B.K, at.A.K, at.relative_curvature[0]}});
+  ASSERT_FALSE(minima.empty());
+  EXPECT_NEAR(minima[0].gap, lowest, 1e-6);
+}
+
+// Two hills 2.4 mm apart, a saddle of 2 micrometres between them, on a ridge that falls off to the
+// sides by ten times as much from one sample to the next: wherever the samples fall (spacing 1.2
+// mm), both hills are found where a plane lies half a micrometre too low.
+TEST(ContactSearch, FindsBothHillsOfAShallowRidgeWhereverTheSamplesFall) {
+  const double d = 1.2, a = 0.002 / std::pow(d, 4);
+  const std::vector<PolynomialTerm> hills = {
+      {0, 0, -a * std::pow(d, 4)}, {2, 0, 2 * a * d * d}, {4, 0, -a}, {0, 2, -0.02}};
+  for (int k = 0; k < 20; ++k) {
+    const Eigen::Matrix3d axes = exp_rotation({0, 0, 0.37 * k});
+    const Eigen::Vector3d origin(0.13 * k, 0.29 * k, 0);
+    const ContactPair pair =
+        pair_of(make_polynomial(origin, axes, hills, true, 8), make_plane({0, 0, 0}, {0, 0, -1}));
+    ContactSearch search(pair);
+    std::vector<GapMinimum> minima;
+    search.find({Eigen::Matrix3d::Identity(), {0, 0, -5e-4}}, 0, minima);
+    ASSERT_EQ(minima.size(), 2u) << k;
+    for (const GapMinimum& minimum : minima) {
+      EXPECT_TRUE(minimum.refined);
+      EXPECT_NEAR(minimum.gap, -5e-4, 1e-12) << k;
+      EXPECT_NEAR(std::abs(axes.col(0).dot(minimum.point_B - origin)), d, 1e-6) << k;
+    }
+  }
+}
+
+// From the saddle between those hills, and from a little beside it.
+TEST(RefineMinimum, IsNotHeldByASaddle) {
+  const double d = 1.2, a = 0.002 / std::pow(d, 4);
+  const auto hills = make_polynomial(
+      {0, 0, 0}, Eigen::Matrix3d::Identity(),
+      {{0, 0, -a * std::pow(d, 4)}, {2, 0, 2 * a * d * d}, {4, 0, -a}, {0, 2, -0.02}}, true, 8);
+  const auto plane = make_plane({0, 0, 0}, {0, 0, -1});
+  const RigidTransform X{Eigen::Matrix3d::Identity(), {0, 0, 0.1}};
+  for (const double x : {1e-3, -0.1, 0.3}) {
+    const Eigen::Vector3d start(x, 0.2, 0);
+    Place on_hills = hills->closest(start, hills->seed(start));
+    Place on_plane = plane->closest(start, plane->seed(start));
+    ASSERT_TRUE(refine_minimum(*hills, on_hills, *plane, on_plane, X, 5)) << x;
+    const Eigen::Vector3d found = hills->evaluate(on_hills).c;
+    EXPECT_NEAR(found.x(), std::copysign(d, x), 1e-9);
+    EXPECT_NEAR(found.y(), 0, 1e-9);
+  }
+}
+
+/// How far a dense sampling of an ellipsoid rises over quadrics that are said to hold it.
+class CoverOfAnEllipsoid : public testing::Test {
+ protected:
+  CoverOfAnEllipsoid() {
+    for (const Place& place : surface->samples(0.3)) dense.push_back(surface->evaluate(place).c);
+  }
+  /// Over the quadric of a cell, within its radius [mm].
+  [[nodiscard]] double rise_over(const SurfaceCell& cell) const {
+    double rise = 0;
+    for (const Eigen::Vector3d& c : dense) {
+      const Eigen::Vector3d d = c - cell.at.c;
+      const Eigen::Vector3d t = d - cell.at.n.dot(d) * cell.at.n;
+      if (d.norm() < cell.radius)
+        rise = std::max(rise, cell.at.n.dot(d) - 0.5 * t.dot(cell.at.K * t));
+    }
+    return rise;
+  }
+  const std::unique_ptr<const Surface> surface =
+      make_ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {19, 26, 24}, true);
+  const SurfaceCover cover{*surface, 1.2};
+  std::vector<Eigen::Vector3d> dense;
+};
+
+// A quarter of the spacing at which it was measured: between the samples too.
+TEST_F(CoverOfAnEllipsoid, NoPointRisesAboveWhatItsClustersAllow) {
+  std::vector<const SurfaceCell*> scratch;
+  int told = 0;
+  for (int k = 0; k < static_cast<int>(cover.clusters().size()); k += 7) {
+    const SurfaceCell around = cover.around(k, 2 * cover.clusters()[k].cell.radius, scratch);
+    if (!std::isfinite(around.rise)) continue;
+    ++told;
+    EXPECT_LE(rise_over(around), around.rise) << "cluster " << k << ", " << around.radius << " mm";
+  }
+  EXPECT_GT(told, 50);
+}
+
+TEST_F(CoverOfAnEllipsoid, NoPointRisesAboveWhatItsShellsAllow) {
+  int told = 0;
+  for (int k = 0; k < cover.size(); k += 31)
+    for (const double radius : {4.0, 8.0, 12.0}) {
+      const SurfacePoint& at = cover.sample(k);
+      const double allowance = cover.rise(at, 0, 0, radius).over_quadric;
+      if (!std::isfinite(allowance)) continue;
+      ++told;
+      for (const Eigen::Vector3d& c : dense) {
+        const Eigen::Vector3d d = c - at.c;
+        if (d.norm() > radius) continue;
+        const Eigen::Vector3d t = d - at.n.dot(d) * at.n;
+        EXPECT_LE(at.n.dot(d) - 0.5 * t.dot(at.K * t), 0.5 * allowance * t.squaredNorm() + 1e-9)
+            << at.c.transpose() << " by " << d.transpose();
+      }
+    }
+  EXPECT_GT(told, 300);
+}
+
+}  // namespace
+}  // namespace condyle

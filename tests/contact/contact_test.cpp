@@ -1,0 +1,136 @@
+#include "condyle/contact/contact.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "condyle/math/rotation.h"
+#include "condyle/surface/exact_surfaces.h"
+#include "support/numerical_jacobian.h"
+
+namespace condyle {
+namespace {
+
+/// Two ellipsoids near each other; the places solve g = h = 0 after each displacement only up to
+/// the gap, so the tests follow the pair of points whose normals are opposite and whose connection
+/// is normal.
+struct Pair {
+  std::unique_ptr<Surface> on_B =
+      make_ellipsoid({0, 0, 0}, exp_rotation({0.2, 0.1, -0.3}), {30, 22, 20}, true);
+  std::unique_ptr<Surface> on_A =
+      make_ellipsoid({1, -2, 3}, exp_rotation({0.5, -0.1, 0.2}), {25, 18, 21}, true);
+  Place B = on_B->seed({0, 0, 50}), A = on_A->seed({0, 0, -50});
+
+  /// Newton on the two places at a fixed pose.
+  ContactLinearization settle(const RigidTransform& X) {
+    for (int k = 0; k < 60; ++k) {
+      const ContactLinearization contact = linearize_contact(*on_B, B, *on_A, A, X);
+      const Eigen::Vector3d along = contact.gap() * contact.B.n;
+      const Place next_B = on_B->moved(B, contact.B, contact.D0());
+      A = on_A->moved(A, contact.A, X.R.transpose() * (contact.D0() - (contact.g - along)));
+      B = next_B;
+    }
+    return linearize_contact(*on_B, B, *on_A, A, X);
+  }
+};
+
+/// A pose at which the ellipsoids touch.
+RigidTransform touching(Pair& pair) {
+  RigidTransform X{exp_rotation({0.3, -0.2, 0.4}), {2, 3, 40}};
+  for (int k = 0; k < 60; ++k) {
+    const ContactLinearization contact = pair.settle(X);
+    X.p -= contact.gap() * contact.B.n;
+  }
+  return X;
+}
+
+TEST(Contact, SlidesAsDifferencesSay) {
+  Pair pair;
+  const RigidTransform X = touching(pair);
+  const ContactLinearization contact = pair.settle(X);
+  ASSERT_LT(contact.g.norm(), 1e-10);
+  ASSERT_LT(contact.h.norm(), 1e-12);
+  EXPECT_GT(contact.relative_curvature[0], 0);
+  // Motions that keep the gap closed: along the tangent plane, and turns about the point of
+  // contact.
+  const auto point_after = [&](const Eigen::Vector3d& da,
+                               const Eigen::Vector3d& dpi) -> Eigen::Vector3d {
+    return pair.settle(test::displaced(X, da, dpi)).B.c;
+  };
+  const Eigen::Vector3d t = contact.B.n.unitOrthogonal();
+  const double h = 1e-4;
+  const Eigen::Vector3d slid =
+      (point_after(h * t, Eigen::Vector3d::Zero()) - point_after(-h * t, Eigen::Vector3d::Zero())) /
+      (2 * h);
+  EXPECT_LT((slid - contact.D1() * t).norm(), 1e-6);
+  const Eigen::Vector3d turn(0.3, -0.8, 0.5);
+  const Eigen::Vector3d a = -turn.cross(contact.s);
+  const Eigen::Vector3d rolled =
+      (point_after(h * a, h * turn) - point_after(-h * a, -h * turn)) / (2 * h);
+  EXPECT_LT((rolled - (contact.D1() * a + contact.D2() * turn)).norm(), 1e-5);
+}
+
+// A ball of radius r on a plane: K + Kr = -1/r twice.
+TEST(Contact, RelativeCurvatureOfABallOnAPlane) {
+  const auto plane = make_plane({0, 0, 0}, {0, 0, 1});
+  const auto ball = make_sphere({0, 0, 0}, 20, true);
+  const ContactLinearization contact = linearize_contact(*plane, {3, 4, 0}, *ball, {0, 0, -20},
+                                                         {Eigen::Matrix3d::Identity(), {3, 4, 20}});
+  EXPECT_NEAR(contact.relative_curvature[0], 0.05, 1e-15);
+  EXPECT_NEAR(contact.relative_curvature[1], 0.05, 1e-15);
+  EXPECT_NEAR(contact.gap(), 0, 1e-14);
+}
+
+// A ball in a socket of nearly its radius, and a cylinder on a plane: finite, whatever the
+// curvature.
+TEST(Contact, StaysFiniteWhereTheCurvatureVanishes) {
+  const auto socket = make_sphere({0, 0, 0}, 20, false);
+  const auto ball = make_sphere({0, 0, 0}, 20, true);
+  const ContactLinearization conforming =
+      linearize_contact(*socket, {0, 0, -20}, *ball, {0, 0, -20}, RigidTransform());
+  EXPECT_TRUE(conforming.D1().allFinite() && conforming.D2().allFinite() &&
+              conforming.D0().allFinite());
+  EXPECT_NEAR(conforming.relative_curvature[0], 0, 1e-15);
+  const auto plane = make_plane({0, 0, 0}, {0, 0, 1});
+  const auto roll = make_cylinder({0, 0, 0}, {1, 0, 0}, 10, true);
+  const ContactLinearization line = linearize_contact(*plane, {0, 0, 0}, *roll, {0, 0, -10},
+                                                      {Eigen::Matrix3d::Identity(), {0, 0, 10}});
+  EXPECT_TRUE(line.D1().allFinite() && line.D2().allFinite());
+  EXPECT_NEAR(line.relative_curvature[0], 0, 1e-15);
+  EXPECT_NEAR(line.relative_curvature[1], 0.1, 1e-15);
+}
+
+// A point at the end of a roller stays there while the roller moves, also along its axis and turned
+// a little about the normal: the point of the floor follows.
+TEST(Contact, APointAtTheEndOfALineStaysThere) {
+  const auto plane = make_plane({0, 0, 0}, {0, 0, 1});
+  const auto roll = make_cylinder({0, 0, 0}, {1, 0, 0}, 10, true, 30);
+  const RigidTransform X{exp_rotation({0, 0, 0.3}), {2, 3, 10}};
+  Place on_A(15, 0, -10), on_B = X * on_A;
+  const ContactLinearization contact = linearize_contact(*plane, on_B, *roll, on_A, X);
+  const Eigen::Vector3d da(0.2, -0.1, 0);
+  const Eigen::Vector3d dpi = 0.01 * X.R.col(0) + 0.02 * Eigen::Vector3d::UnitZ();  // stays level
+  slide_contact(*plane, on_B, *roll, on_A, contact, X, da, dpi, 100);
+  EXPECT_NEAR(on_A.x(), 15, 1e-12);
+  const RigidTransform moved = test::displaced(X, da, dpi);
+  EXPECT_LT((moved * on_A - on_B).norm(), 5e-3);  // of second order in the turn of 0.02
+  // Where the floor ends first, the point of the floor stays and that of the roller follows.
+  const auto short_floor = make_plane(X * Place(10, 0, -10) - 8 * X.R.col(0), {0, 0, 1}, 8);
+  Place at_A(10, 0, -10), at_B = X * at_A;
+  const Place before = at_B;
+  const ContactLinearization at = linearize_contact(*short_floor, at_B, *roll, at_A, X);
+  slide_contact(*short_floor, at_B, *roll, at_A, at, X, 0.2 * X.R.col(0), {0, 0, 0}, 100);
+  EXPECT_LT((at_B - before).norm(), 1e-12);
+  EXPECT_NEAR(at_A.x(), 9.8, 1e-12);
+}
+
+TEST(Contact, LeastCurvatureLiesAlongTheLine) {
+  const auto plane = make_plane({0, 0, 0}, {0, 0, 1});
+  const auto roll = make_cylinder({0, 0, 0}, {1, 0, 0}, 10, true);
+  const RigidTransform X{exp_rotation({0, 0, 0.3}), {0, 0, 10}};
+  const ContactLinearization line = linearize_contact(*plane, {0, 0, 0}, *roll, {0, 0, -10}, X);
+  EXPECT_NEAR(std::abs(direction_of_least_curvature(line, X.R).dot(X.R.col(0))), 1, 1e-14);
+}
+
+}  // namespace
+}  // namespace condyle
