@@ -1,5 +1,7 @@
 #include "app/run_program.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -95,14 +97,19 @@ TEST_F(SimulateCommand, ADecayingSineSwingsTheShankToAndFro) {
 }
 
 // What leaves the surfaces ends with its reason and angle, and what was computed is kept.
-TEST_F(SimulateCommand, AMotionThatLeavesItsSurfacesSaysWhereAndKeepsItsFrames) {
-  const std::string source = contents(CONDYLE_SOURCE_DIR "/data/phantom/blow.toml");
-  std::string scene = with(source, "vector = [-50, 0, 0]", "vector = [-140, 0, 0]");
+/// A blow on the phantom's shank for 150 ms, followed for twice as long.
+std::string hard_blow(int newton) {
+  std::string scene = contents(CONDYLE_SOURCE_DIR "/data/phantom/blow.toml");
+  scene = with(scene, "vector = [-50, 0, 0]", fmt::format("vector = [-{}, 0, 0]", newton));
   scene = with(scene, "duration = 0.1", "duration = 0.15");
   scene = with(scene, "time = 0.2", "time = 0.3");
   for (int k = 0; k < 2; ++k)
     scene = with(scene, "\"../../meshes", "\"" CONDYLE_SOURCE_DIR "/meshes");
-  write("hard.toml", scene);
+  return scene;
+}
+
+TEST_F(SimulateCommand, AMotionThatLeavesItsSurfacesSaysWhereAndKeepsItsFrames) {
+  write("hard.toml", hard_blow(140));
   const Outcome outcome = run("simulate hard.toml -o hard.h5");
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.err.find("deg of flexion at the frame before"), std::string::npos)
@@ -110,6 +117,16 @@ TEST_F(SimulateCommand, AMotionThatLeavesItsSurfacesSaysWhereAndKeepsItsFrames) 
   const std::vector<double> flexions = flexions_of(at("hard.h5"));
   EXPECT_GT(flexions.size(), 100U);
   EXPECT_GT(flexions.back(), 90);
+}
+
+// At 0.2167 s and 98 degrees the lateral compartment opens with neither speed nor acceleration. The
+// motion goes on, to where the medial contact leaves the upper end of its condyle.
+TEST_F(SimulateCommand, ACompartmentThatOpensGentlyEndsNoMotion) {
+  write("gentle.toml", hard_blow(110));
+  const Outcome outcome = run("simulate gentle.toml -o gentle.h5");
+  EXPECT_EQ(outcome.err.find("without end"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("beyond the edge"), std::string::npos) << outcome.err;
+  EXPECT_GT(flexions_of(at("gentle.h5")).back(), 125);
 }
 
 // A scene may hold both tables; each command does its own.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -67,7 +66,6 @@ class Integration {
     motion_.events.resize(moment.events);
     motion_.completed = true;
     motion_.reason.clear();
-    released_at_.clear();
     hopeless_ = false;
   }
 
@@ -138,17 +136,11 @@ class Integration {
   /// The state at t exactly on the constraints: between steps it is interpolated.
   bool land(double t) { return moving_.land(t) || give_up(t, "the constraints could not be met"); }
 
-  /// One that was released this very moment, a hair before its force had vanished, does not strike:
-  /// it stays open, or it would open and close without end.
+  /// Closed contacts whose force has vanished are released, open ones whose gap has are struck.
   bool handle_root(double t) {
-    constexpr double kSameMoment = 1e-9;  // [s]
     std::vector<int> struck, released;
-    for (const int contact : moving_.found()) {
-      double& last = released_at_.try_emplace(contact, -INFINITY).first->second;
-      const bool closed = moving_.state().contacts[contact].closed;
-      if (closed) last = t;
-      (closed || t - last < kSameMoment ? released : struck).push_back(contact);
-    }
+    for (const int contact : moving_.found())
+      (moving_.state().contacts[contact].closed ? released : struck).push_back(contact);
     return handle_event(t, struck, released);
   }
 
@@ -170,9 +162,8 @@ class Integration {
   MovingNetwork moving_;
   Motion motion_;
   double end_ = 0;
-  long steps_before_ = 0;              ///< this frame
-  int attempts_ = 0;                   ///< at this frame
-  std::map<int, double> released_at_;  ///< when a contact's force vanished last [s]
+  long steps_before_ = 0;  ///< this frame
+  int attempts_ = 0;       ///< at this frame
   bool hopeless_ = false;
 };
 

@@ -14,6 +14,10 @@
 namespace condyle {
 namespace {
 
+/// An open contact strikes where it approaches and is this deep, of L: less is round-off.
+constexpr double kStrike = 1e-10 / 30;
+constexpr double kSpeedAsLength = 0.1;  // [s], of speeds that are compared with lengths
+
 bool is_constrained(const Network& network) {
   if (!network.contacts.empty() || !network.joints.empty() || !network.conditions.empty())
     return true;
@@ -170,17 +174,22 @@ bool MovingNetwork::event_is_far(const double* values) const {
   return true;
 }
 
-/// The force of a closed contact, the gap of an open one.
+/// The force of a closed contact; of an open one what is below zero where it is deep and
+/// approaches. Depth alone is no strike: a gap that opens with neither speed nor acceleration is
+/// for some microseconds less than the integrator's error of a position.
 bool MovingNetwork::set_event_values(double* values) {
   for (std::size_t k = 0; k < watched_.size(); ++k) {
     const auto contact = static_cast<std::size_t>(watched_[k]);
-    ContactPlaces& places = state_.contacts[contact];
+    const ContactPlaces& places = state_.contacts[contact];
     if (places.closed) {
       values[k] = equations_.contact_force(contact);
-    } else {
-      if (places.followed && !equations_.settle(contact, state_)) return false;
-      values[k] = places.followed ? equations_.contact(contact).gap() : 1;
+      continue;
     }
+    if (places.followed && !equations_.settle(contact, state_)) return false;
+    values[k] = places.followed
+                    ? std::max(equations_.contact(contact).gap() + kStrike * network_.length,
+                               kSpeedAsLength * equations_.settled_gap_rate(contact, state_))
+                    : 1;
   }
   return true;
 }

@@ -133,6 +133,14 @@ bool NetworkEquations::settle(std::size_t contact, NetworkState& state) {
                         state.contacts[contact], contacts_[contact]);
 }
 
+double NetworkEquations::settled_gap_rate(std::size_t contact, const NetworkState& state) const {
+  const int b = network_.contacts[contact].body;
+  const BodyState& body = state.bodies[b];
+  const ContactLinearization& at = contacts_[contact].at;
+  const Eigen::Vector3d arm = body.X.R * (at.A.c - network_.bodies[b].reference);
+  return at.B.n.dot(body.v + body.omega.cross(arm));
+}
+
 CONDYLE_FMA_CLONE
 void NetworkEquations::set_inertia(const NetworkState& state) {
   for (std::size_t b = 0; b < network_.bodies.size(); ++b) {

@@ -38,6 +38,8 @@ class NetworkEquations {
 
   /// One contact that is followed, at the state's pose; false where it is lost.
   bool settle(std::size_t contact, NetworkState& state);
+  /// The rate of its gap at the state at which it was settled [mm/s].
+  [[nodiscard]] double settled_gap_rate(std::size_t contact, const NetworkState& state) const;
 
   /// Accelerations and multipliers, after assemble(). False for dependent constraints.
   bool solve();
