@@ -8,7 +8,9 @@
 #include <map>
 
 #include "condyle/equilibrium/carried_pose.h"
+#include "condyle/equilibrium/passed_through.h"
 #include "condyle/equilibrium/sweep.h"
+#include "condyle/surface/exact_surfaces.h"
 #include "support/known_part.h"
 #include "support/quadric_knee.h"
 #include "support/truss.h"
@@ -178,6 +180,26 @@ TEST(PassedThrough, AStartOnTheWrongSideIsOverlapAtOnce) {
             std::string::npos)
       << pose.reason;
   EXPECT_EQ(pose.iterations, 0);
+}
+
+// Two discs that face each other: one that slid off the other's edge and went on behind it faces
+// nothing, beside it and in front it is only open.
+TEST(PassedThrough, WhatSlidOffAnEdgeAndWentOnBehindIsBehind) {
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), origin = Eigen::Vector3d::Zero();
+  ContactPair pair;
+  pair.on_B = make_plane(origin, up, 12);
+  pair.on_A = make_plane(origin, -up, 12);
+  const PassedThrough passed(pair, 30);
+  const auto depth = [&](double x, double z) {
+    return passed.depth({exp_rotation({0.05, -0.1, 0.3}), {x, 0, z}});
+  };
+  EXPECT_FALSE(depth(0, 2).has_value());
+  EXPECT_FALSE(depth(40, 5).has_value());
+  EXPECT_FALSE(depth(40, -10).has_value()) << "as deep as the search sees";
+  ASSERT_TRUE(depth(40, -40).has_value());
+  EXPECT_NEAR(*depth(40, -40), 40, 4);
+  ASSERT_TRUE(depth(0, -20).has_value());
+  EXPECT_NEAR(*depth(0, -20), 20, 2);
 }
 
 TEST(CarriedPose, HasThePrescribedCoordinatesAndKeepsTheOthers) {

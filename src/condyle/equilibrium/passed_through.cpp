@@ -14,19 +14,29 @@ bool has_edge(const Surface& surface) {
   return std::isfinite(surface.edge_distance(surface.seed(Eigen::Vector3d::Zero())));
 }
 
-/// Signed distances of samples from the known part of a surface that they face [mm].
+/// Signed distances of samples from the other surface [mm].
+struct Gaps {
+  std::vector<double> facing;  ///< of those that face its known part
+  std::vector<double> all;     ///< beyond an edge from the surface as it goes on there
+};
+
 template <typename Samples>
-void add_gaps(const Samples& samples,
-              const RigidTransform& X,
-              const Surface& other,
-              std::vector<double>& gaps) {
+void add_gaps(const Samples& samples, const RigidTransform& X, const Surface& other, Gaps& gaps) {
   for (const auto& sample : samples) {
     const Eigen::Vector3d p = X * sample.c;
-    const Place foot = other.closest(p, other.seed(p));
-    if (other.edge_distance(foot) <= 0) continue;
-    const SurfacePoint at = other.evaluate_frame(foot);
-    if (at.n.dot(X.R * sample.n) < kOpposed) gaps.push_back(at.n.dot(p - at.c));
+    const Place closest = other.closest(p, other.seed(p));
+    const SurfacePoint at = other.evaluate_frame(closest);
+    const double gap = at.n.dot(p - at.c);
+    gaps.all.push_back(gap);
+    if (other.edge_distance(closest) > 0 && at.n.dot(X.R * sample.n) < kOpposed)
+      gaps.facing.push_back(gap);
   }
+}
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 }  // namespace
@@ -49,14 +59,13 @@ PassedThrough::PassedThrough(const ContactPair& pair, double L)
 }
 
 std::optional<double> PassedThrough::depth(const RigidTransform& X_BA) const {
-  std::vector<double> gaps;
+  Gaps gaps;
   add_gaps(samples_A_, X_BA, *on_B_, gaps);
   add_gaps(samples_B_, X_BA.inverse(), *on_A_, gaps);
-  if (gaps.size() < kFew) return std::nullopt;
-  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-  std::nth_element(gaps.begin(), middle, gaps.end());
-  if (*middle > -kDeep * L_) return std::nullopt;
-  return -*middle;
+  if (gaps.all.size() < kFew) return std::nullopt;
+  const double gap = median(gaps.facing.size() < kFew ? gaps.all : gaps.facing);
+  if (gap > -kDeep * L_) return std::nullopt;
+  return -gap;
 }
 
 bool PassedThrough::moved_far(const RigidTransform& X_BA) const {
