@@ -47,6 +47,18 @@ TEST(BoneCheck, KnowsAFemurByItsCondyles) {
       << text;
 }
 
+// Rims of a plateau bend about one axis too, with a radius of an eighth of the bone's width.
+TEST(BoneCheck, TellsWiderAndNarrowerBonesApart) {
+  for (const double width : {0.88, 0.94, 1.06, 1.12, 1.2}) {
+    SCOPED_TRACE(width);
+    CleanMesh femur = clean_bone("femur.stl"), tibia = clean_bone("tibia.stl");
+    for (CleanMesh* wider : {&femur, &tibia})
+      for (Eigen::Vector3d& vertex : wider->mesh.vertices) vertex.z() *= width;
+    EXPECT_NO_THROW(check_is_no_femur(tibia, kRight));
+    EXPECT_THROW(check_is_no_femur(femur, kRight), InputError);
+  }
+}
+
 TEST(BoneCheck, FindsNoCondylesOnATibia) {
   const TriangleMesh tibia = bone("tibia.stl");
   const std::string text =

@@ -21,6 +21,8 @@ using Eigen::Vector3d;
 
 constexpr double kWidest = 125;    // of a knee; epicondylar widths of men are 83 +- 4 [mm]
 constexpr double kGoodAxis = 1.5;  // rms of posterior condyles from their cylinders [mm]
+// Of the width of the bone: femoral condyles have radii of 0.22 to 0.27, the rims of a plateau 0.13.
+constexpr double kLeastRadius = 0.17;
 
 std::optional<CondylarAxis> find_axis(CleanMesh mesh, const BoneFrame& frame) {
   face_out_of_femur(mesh, frame);
@@ -29,6 +31,15 @@ std::optional<CondylarAxis> find_axis(CleanMesh mesh, const BoneFrame& frame) {
   } catch (const InputError&) {
     return std::nullopt;
   }
+}
+
+double width_of(const TriangleMesh& mesh, const BoneFrame& frame) {
+  double low = 1e300, high = -1e300;
+  for (const Vector3d& p : mesh.vertices) {
+    low = std::min(low, frame.lateral.dot(p));
+    high = std::max(high, frame.lateral.dot(p));
+  }
+  return high - low;
 }
 
 /// From front to back, of what lies at most `below` the highest point [mm]; 0 of no points.
@@ -46,22 +57,20 @@ double depth_near_top(const std::vector<Vector3d>& points, double below) {
 }  // namespace
 
 void check_one_knee(const TriangleMesh& mesh, const BoneFrame& frame) {
-  double low = 1e300, high = -1e300;
-  for (const Vector3d& p : mesh.vertices) {
-    low = std::min(low, frame.lateral.dot(p));
-    high = std::max(high, frame.lateral.dot(p));
-  }
-  if (high - low > kWidest)
+  const double width = width_of(mesh, frame);
+  if (width > kWidest)
     throw InputError(
         fmt::format("the mesh is {:.0f} mm wide from medial to lateral, expected at most {:.0f} "
                     "mm: two knees in "
                     "one file, or a wrong unit",
-                    high - low, kWidest));
+                    width, kWidest));
 }
 
 void check_is_no_femur(const CleanMesh& mesh, const BoneFrame& frame) {
   const std::optional<CondylarAxis> axis = find_axis(mesh, frame);
   if (!axis || axis->rms > kGoodAxis || axis->coverage < 0.8) return;
+  const double radius = std::min(axis->medial_radius, axis->lateral_radius);
+  if (radius < kLeastRadius * width_of(mesh.mesh, frame)) return;
   throw InputError(fmt::format(
       "looks like a femur, expected a tibia: it has posterior condyles of radius {:.1f} "
       "and {:.1f} mm about one axis, {:.2f} mm rms",
