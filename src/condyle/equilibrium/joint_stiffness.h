@@ -5,9 +5,8 @@
 /// An added load Q has the components (flexion, adduction, internal rotation [N mm]; lateral shift,
 /// anterior drawer, distraction [N]) and does the work Q.dq on the body that moves relative to the
 /// other. With J = ∂q/∂(a, π), K = -∂wrench/∂(a, π) and the directions G of what constrains:
-///     stiffness  S = J⁻ᵀ K J⁻¹             contact forces and multipliers held, their points
-///     rolling compliance C = J Z (Zᵀ K Z)⁻¹ Zᵀ Jᵀ  contacts kept closed, conditions kept (Zᵀ G =
-///     0)
+///     stiffness   S = J⁻ᵀ K J⁻¹            contact forces and multipliers held, their points rolling
+///     compliance  C = J Z (Zᵀ K Z)⁻¹ Zᵀ Jᵀ  contacts kept closed, conditions kept (Zᵀ G = 0)
 /// S is exact because the wrench vanishes at equilibrium; it is symmetric but for follower loads.
 /// Rows and columns of angles are per rad: N mm/rad, N/rad = N mm/(rad mm), N/mm; C has the inverse
 /// units.

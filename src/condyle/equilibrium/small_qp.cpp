@@ -70,7 +70,6 @@ SmallQpSolution solve_qp(const SmallQp& qp) {
   solution.lambda = Eigen::VectorXd::Zero(n);
   if (free > 0) {
     const Eigen::SelfAdjointEigenSolver<SmallMatrix> eigen(SmallMatrix(Z.transpose() * qp.H * Z));
-    solution.least_eigenvalue = eigen.eigenvalues().minCoeff();
     const Eigen::VectorXd inverse =
         eigen.eigenvalues().cwiseAbs().cwiseMax(qp.floor).cwiseInverse();
     const Eigen::MatrixXd W =

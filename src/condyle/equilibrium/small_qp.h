@@ -28,9 +28,8 @@ struct SmallQp {
 
 struct SmallQpSolution {
   Eigen::Matrix<double, 6, 1> x;
-  Eigen::VectorXd lambda;       ///< of A x >= d, >= 0
-  Eigen::VectorXd nu;           ///< of C x = b
-  double least_eigenvalue = 0;  ///< of the reduced H before it was made positive definite
+  Eigen::VectorXd lambda;  ///< of A x >= d, >= 0
+  Eigen::VectorXd nu;      ///< of C x = b
 };
 
 [[nodiscard]] SmallQpSolution solve_qp(const SmallQp& qp);
