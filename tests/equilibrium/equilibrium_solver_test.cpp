@@ -10,6 +10,7 @@
 #include "condyle/surface/exact_surfaces.h"
 #include "support/ball_on_floor.h"
 #include "support/hold.h"
+#include "support/quadric_knee.h"
 #include "support/report_problems.h"
 #include "support/spring_knee.h"
 
@@ -175,6 +176,17 @@ TEST(EquilibriumSolver, SevenConditionsAreTooMany) {
   const PoseResult pose = solver.solve();
   EXPECT_EQ(pose.status, PoseStatus::kSingular);
   EXPECT_NE(pose.reason.find("six"), std::string::npos);
+}
+
+// The same pose with other contacts is another state.
+TEST(EquilibriumSolver, TakesOverAStateOfTheSamePoseWithOtherContacts) {
+  EquilibriumSolver solver(test::quadric_knee());
+  ASSERT_TRUE(solver.solve().converged());
+  EquilibriumState other = solver.state();
+  ASSERT_FALSE(other.contacts.empty());
+  other.contacts.pop_back();
+  solver.set_state(other, drive_of(solver.model()));
+  EXPECT_EQ(solver.state().contacts.size(), other.contacts.size());
 }
 
 }  // namespace

@@ -3,13 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <fstream>
 
+#include "condyle/equilibrium/edge_in_words.h"
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/scene/read_scene.h"
+#include "condyle/surface/exact_surfaces.h"
+#include "support/known_part.h"
 #include "support/scratch_folder.h"
 
 namespace condyle {
@@ -136,28 +141,34 @@ std::string off_file(const std::vector<Sheet>& sheets) {
   return fmt::format("OFF\n{} {} 0\n", n * nu * nv, 2 * n * (nu - 1) * (nv - 1)) + vertices + faces;
 }
 
-// The sagittal radius of the insert is 1 to 6 mm greater, the coronal one 2 mm. The meshes have no
-// texture that would have to be smoothed away.
+/// A total knee as meshes in a folder, and its scene; the coronal radius of the insert is 2 mm
+/// greater.
+Scene fitted_knee(const fs::path& folder, double insert, const char* fit, double to) {
+  std::vector<Sheet> femur, tibia;
+  std::string text = kHead;
+  for (const char* side : {"medial", "lateral"}) {
+    const double z = side[0] == 'm' ? -kAside : kAside;
+    femur.push_back({kCondyle, 20, 0, z, -150, 60, 60, true});
+    tibia.push_back({insert, 22, insert - kCondyle, z, -50, 50, 39, false});
+    text += fmt::format(
+        "[[surface]]\nname = \"{0} condyle\"\nbody = \"femur\"\nkind = \"patch\"\n"
+        "compartment = \"{0}\"\nmesh = \"femur.off\"\n{1}"
+        "[[surface]]\nname = \"{0} insert\"\nbody = \"tibia\"\nkind = \"patch\"\n"
+        "compartment = \"{0}\"\nmesh = \"insert.off\"\n{1}"
+        "[[contact]]\nname = \"{0}\"\nsurfaces = [\"{0} condyle\", \"{0} insert\"]\n",
+        side, fit);
+  }
+  std::ofstream(folder / "femur.off") << off_file(femur);
+  std::ofstream(folder / "insert.off") << off_file(tibia);
+  return parse_scene(text + rest(to), folder / "implant.toml");
+}
+
+// The sagittal radius of the insert is 1 to 6 mm greater. The meshes have no texture that would
+// have to be smoothed away.
 TEST(Implants, FittedCondylesOnDishedInsertsAreCarried) {
   const fs::path folder = test::fresh_folder("implants");
   for (const double insert : {25.0, 27.0, 30.0}) {
-    std::vector<Sheet> femur, tibia;
-    std::string text = kHead;
-    for (const char* side : {"medial", "lateral"}) {
-      const double z = side[0] == 'm' ? -kAside : kAside;
-      femur.push_back({kCondyle, 20, 0, z, -150, 60, 60, true});
-      tibia.push_back({insert, 22, insert - kCondyle, z, -50, 50, 39, false});
-      text += fmt::format(
-          "[[surface]]\nname = \"{0} condyle\"\nbody = \"femur\"\nkind = \"patch\"\n"
-          "compartment = \"{0}\"\nmesh = \"femur.off\"\nfit = {{ smoothing = 1 }}\n"
-          "[[surface]]\nname = \"{0} insert\"\nbody = \"tibia\"\nkind = \"patch\"\n"
-          "compartment = \"{0}\"\nmesh = \"insert.off\"\nfit = {{ smoothing = 1 }}\n"
-          "[[contact]]\nname = \"{0}\"\nsurfaces = [\"{0} condyle\", \"{0} insert\"]\n",
-          side);
-    }
-    std::ofstream(folder / "femur.off") << off_file(femur);
-    std::ofstream(folder / "insert.off") << off_file(tibia);
-    const Scene scene = parse_scene(text + rest(100), folder / "implant.toml");
+    const Scene scene = fitted_knee(folder, insert, "fit = { smoothing = 1 }\n", 100);
     const SweepResult result = sweep(scene, fit_surfaces(scene));
     ASSERT_EQ(result.poses.size(), 11U);
     expect_all(result);
@@ -165,6 +176,71 @@ TEST(Implants, FittedCondylesOnDishedInsertsAreCarried) {
     EXPECT_LT(std::abs(result.poses[0].joint.distraction), 0.1);
   }
   fs::remove_all(folder);
+}
+
+// With the automatic smoothing the patches are 0.01 to 0.03 mm off, and the upper end of the
+// condyle meets the insert from 95 degrees on, while the contact is still 8 mm from it. A point at
+// an edge has no normal in common with the other surface: no rigid contact, and said so.
+TEST(Implants, ACondyleThatEndsInTheInsertSaysWhichEndAndHowDeep) {
+  const fs::path folder = test::fresh_folder("implants");
+  const Scene scene = fitted_knee(folder, 25, "", 120);
+  const SweepResult result = sweep(scene, fit_surfaces(scene));
+  ASSERT_EQ(result.poses.size(), 13U);
+  for (const PoseResult& pose : result.poses) {
+    const double degrees = pose.value / kDegree;
+    SCOPED_TRACE(degrees);
+    if (degrees < 91) {
+      EXPECT_TRUE(pose.converged()) << pose.reason;
+      continue;
+    }
+    EXPECT_FALSE(pose.converged());
+    for (const char* words : {" runs over an edge: ", " condyle\" ends 0.0",
+                              " mm deep in the other surface at its posterior end, "})
+      EXPECT_NE(pose.reason.find(words), std::string::npos) << pose.reason;
+    if (degrees < 101) {
+      EXPECT_EQ(name(pose.status), std::string("left patch"));
+      for (const ContactResult& contact : pose.contacts) {
+        EXPECT_GT(contact.force, 0);
+        EXPECT_GT(contact.points.at(0).edge_distance, 5);
+      }
+    }
+  }
+  fs::remove_all(folder);
+}
+
+// Ends of a condyle are named along its surface: 150 degrees behind its lowest point it leads
+// forwards again. Neither side nor the directions of the files matter.
+TEST(Implants, EndsOfACondyleAreNamedAlongItsSurface) {
+  const std::shared_ptr<const Surface> ball = make_sphere({0, 0, 0}, kCondyle, true);
+  for (const double side : {1.0, -1.0})
+    for (const double turned : {0.0, 1.0, 2.5})
+      for (const double end : {-110.0, -80.0, -20.0, 20.0, 80.0, 110.0, 150.0}) {
+        SCOPED_TRACE(testing::Message() << side << " " << turned << " " << end);
+        RigidTransform X;
+        X.R = Eigen::AngleAxisd(turned, Vector3d(1, 2, 3).normalized());
+        // From the lowest point backwards; columns of the frame: lateral or medial, forwards, up.
+        const auto angle = [X](const Vector3d& c) {
+          const Vector3d p = X.R.transpose() * c;
+          return std::atan2(-p.y(), -p.z());
+        };
+        const auto known = [angle, end](const Vector3d& c) {
+          return kCondyle * (std::abs(end) * kDegree - std::copysign(1.0, end) * angle(c));
+        };
+        Model model;
+        model.length = 30;
+        model.joint = JointFrames{X, {}, true, side};
+        ContactPair pair;
+        pair.name = "medial";
+        pair.on_B = std::make_shared<test::KnownPart>(ball, known);
+        pair.on_A = make_plane({0, 0, 0}, {0, 0, 1});
+        model.pairs = {pair};
+        const double a = end * kDegree;
+        const Vector3d at = X.R * Vector3d(0, -kCondyle * std::sin(a), -kCondyle * std::cos(a));
+        const std::string words =
+            edge_in_words(model, {0, pair.on_B->seed(at), pair.on_A->seed({0, 0, 0}), 0});
+        const char* expected = end > 0 ? " at its posterior end, " : " at its anterior end, ";
+        EXPECT_NE(words.find(expected), std::string::npos) << words;
+      }
 }
 
 }  // namespace

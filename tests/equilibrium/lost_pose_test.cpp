@@ -113,6 +113,42 @@ TEST_F(UnknownBand, IsToldWithTheContactTheSurfaceTheSideAndTheDistance) {
   }
 }
 
+// A ligament whose force is no number over some lengths: there is no equilibrium at all while it has
+// such a length, and the sweep goes on behind.
+TEST(LostPoses, WithoutAnyEquilibriumStayAlone) {
+  const ByValue whole = by_value(run(knee(), values(0, 120, 1)));
+  Model model = knee();
+  LineElement& bursting = model.elements[4];  // aMCL
+  const auto length = [&](long degrees) {
+    return line_element_state(bursting, whole.at(degrees).X_BA).length;
+  };
+  const double least = std::min(length(53), length(67)), most = std::max(length(53), length(67));
+  CustomLaw law;
+  law.tension = [inner = bursting.law, least, most](double at) {
+    Tension tension = condyle::tension(inner, at);
+    if (at > least && at < most) tension.force = tension.energy = NAN;
+    return tension;
+  };
+  bursting.law = law;
+  for (const SweepResult& sweep : every_way(model)) {
+    SCOPED_TRACE(testing::Message()
+                 << sweep.poses.size() << " poses from " << sweep.poses[0].value / kDegree);
+    for (const auto& [degrees, pose] : by_value(sweep)) {
+      SCOPED_TRACE(degrees);
+      if (pose.converged()) expect_near(pose, whole.at(degrees), 1e-7);
+      // Behind its greatest length the strand comes back to those of the band.
+      const bool within = length(degrees) > least && length(degrees) < most;
+      if (within && degrees != 53 && degrees != 67) {
+        EXPECT_FALSE(pose.converged());
+        EXPECT_NE(pose.reason.find("\"aMCL\" has no finite force"), std::string::npos)
+            << pose.reason;
+      } else if (degrees != 53 && degrees != 67) {
+        EXPECT_TRUE(pose.converged()) << pose.reason;
+      }
+    }
+  }
+}
+
 // Poses that do not converge wait for the next one that does: all are told once, in order.
 TEST_F(UnknownBand, PosesAreToldOnceAndInOrder) {
   EquilibriumSolver solver(model);

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "condyle/equilibrium/descent.h"
@@ -12,12 +13,13 @@
 
 namespace condyle {
 
-/// An equilibrium off the known surfaces: a contact lies beyond an edge, or an open pair is not
-/// over each other.
+/// An equilibrium off the known surfaces: a contact lies beyond an edge, an edge lies within the
+/// other surface, or an open pair is not over each other.
 struct OffSurfaces {
   EquilibriumState state;
-  double beyond = std::numeric_limits<double>::infinity();  ///< farthest beyond an edge [mm]
-  int contact = -1;  ///< of the state that lies there; -1 for an open pair
+  double beyond = std::numeric_limits<double>::infinity();  ///< an edge, or the edge's depth [mm]
+  int contact = -1;                  ///< of the state that lies there; else -1
+  std::optional<ClosedContact> rim;  ///< where an edge is deepest; it is none of the state
 };
 
 struct Attempt {
@@ -26,6 +28,7 @@ struct Attempt {
   NewtonReport newton;    ///< the last
   DescentReport descent;  ///< the last
   int zero_element = -1;  ///< that had no length on the way from the pose before
+  std::string overflow;   ///< what had no finite force on the way, in words
   int passed_pair = -1;   ///< whose surfaces had passed through each other
   double depth = 0;       ///< by which they had [mm]
   /// Of those met with the values asked for the one least beyond an edge.

@@ -66,26 +66,6 @@ std::string driving_load(const Model& model,
   return name.empty() ? "what pushes it" : "load " + quoted(name);
 }
 
-/// What has a number that is none; empty where all are finite.
-std::string overflowed(const Model& model,
-                       const Parameters& parameters,
-                       const EquilibriumState& state,
-                       const Drive& drive) {
-  for (std::size_t i = 0; i < parameters.elements.size(); ++i) {
-    Wrench wrench;
-    add_line_element(parameters.elements[i], state.X, wrench);
-    if (!wrench.f.allFinite() || !wrench.m.allFinite() || !wrench.F1.allFinite())
-      return "line element " + quoted(model.element_names[i]);
-  }
-  for (std::size_t i = 0; i < parameters.loads.size(); ++i) {
-    Wrench wrench;
-    add_load(parameters.loads[i], drive.scales[i], state.X, wrench);
-    if (!wrench.f.allFinite() || !wrench.m.allFinite())
-      return "load " + quoted(model.load_names[i]);
-  }
-  return {};
-}
-
 /// The condition that asks a middle angle, which turns back at 90 degrees, for more.
 std::string angle_out_of_range(const Model& model, const Drive& drive) {
   for (std::size_t i = 0; i < model.conditions.size(); ++i) {
@@ -144,7 +124,8 @@ std::string too_many_conditions(const Failure& f) {
 
 std::string overflowed_force(const Failure& f) {
   const std::string what = overflowed(f.model, f.system.parameters(), f.state, f.drive);
-  return what.empty() ? what : what + " has no finite force at the last pose";
+  if (!what.empty()) return what + " has no finite force at the last pose";
+  return f.attempt.overflow.empty() ? "" : f.attempt.overflow + " has no finite force on the way";
 }
 
 std::string passed_through(const Failure& f) {
@@ -178,9 +159,12 @@ std::string without_length(const Failure& f) {
 std::string at_an_edge(const Failure& f) {
   const std::optional<OffSurfaces>& off = f.attempt.off ? f.attempt.off : f.attempt.off_on_the_way;
   constexpr const char* kNone = ", and no equilibrium was found with the values asked for";
+  constexpr const char* kOnTheWay = " on the way from the pose before";
+  if (off && off->rim)
+    return rim_in_words(f.model, *off->rim, off->beyond) + (f.attempt.off ? "" : kOnTheWay) + kNone;
   if (off && off->contact >= 0)
     return edge_in_words(f.model, off->state.contacts[static_cast<std::size_t>(off->contact)]) +
-           (f.attempt.off ? "" : " on the way from the pose before") + kNone;
+           (f.attempt.off ? "" : kOnTheWay) + kNone;
   constexpr double kTouching = 1e-4, kNear = 0.02;  // of L
   std::vector<GapMinimum> minima;
   for (std::size_t p = 0; p < f.model.pairs.size(); ++p) {
@@ -228,6 +212,20 @@ std::string no_set_of_contacts(const Failure& f) {
          " were found that carry without overlap or pull";
 }
 
+/// The motion along which the body was still driven while its contacts and conditions kept, and by
+/// how much; empty where it was not.
+std::string still_driven(const Failure& f) {
+  constexpr double kDriven = 1e-3;  // of all forces
+  const EquilibriumState all = with_all_contacts(f.model, f.searches, f.state);
+  if (!f.system.assemble(all, f.drive)) return {};
+  const Motions free = admissible_motions(f.model, f.system);
+  const Motions driven =
+      free * (free.transpose() * scaled_wrench(f.system.wrench(), f.model.length));
+  if (!(driven.norm() > kDriven * f.system.force_scale())) return {};
+  return fmt::format("the body was still driven along {}, {:.2g} N out of balance",
+                     name_motions(f.model, f.state.X, driven.normalized()), driven.norm());
+}
+
 std::string left_all_bounds(const Failure& f) {
   if (f.attempt.newton.outcome != NewtonOutcome::kDiverged) return {};
   f.system.assemble(f.state, f.drive);
@@ -236,9 +234,10 @@ std::string left_all_bounds(const Failure& f) {
 }
 
 std::string unsettled(const Failure& f) {
+  constexpr const char* kLimit = "nothing settled within the iteration limit: ";
+  if (const std::string driven = still_driven(f); !driven.empty()) return kLimit + driven;
   f.system.assemble(f.state, f.drive);
-  return "nothing settled within the iteration limit: " +
-         worst_condition(f.model, f.system, f.attempt.descent.step);
+  return kLimit + worst_condition(f.model, f.system, f.attempt.descent.step);
 }
 
 /// What may be to blame, causes before what follows from them. The first that has words is it.
@@ -266,6 +265,25 @@ constexpr Cause kCauses[] = {
 };
 
 }  // namespace
+
+std::string overflowed(const Model& model,
+                       const Parameters& parameters,
+                       const EquilibriumState& state,
+                       const Drive& drive) {
+  for (std::size_t i = 0; i < parameters.elements.size(); ++i) {
+    Wrench wrench;
+    add_line_element(parameters.elements[i], state.X, wrench);
+    if (!wrench.f.allFinite() || !wrench.m.allFinite() || !wrench.F1.allFinite())
+      return "line element " + quoted(model.element_names[i]);
+  }
+  for (std::size_t i = 0; i < parameters.loads.size(); ++i) {
+    Wrench wrench;
+    add_load(parameters.loads[i], drive.scales[i], state.X, wrench);
+    if (!wrench.f.allFinite() || !wrench.m.allFinite())
+      return "load " + quoted(model.load_names[i]);
+  }
+  return {};
+}
 
 std::string why_singular(const Model& model, const NewtonSystem& system, const RigidTransform& X) {
   const std::string dependent = dependent_constraints(model, system);

@@ -9,6 +9,12 @@
 
 namespace condyle {
 
+/// What has a force that is no number at a state; empty where all are finite.
+[[nodiscard]] std::string overflowed(const Model& model,
+                                     const Parameters& parameters,
+                                     const EquilibriumState& state,
+                                     const Drive& drive);
+
 /// Where Newton has just stopped for a singular matrix: what depends on what, or which motion is
 /// free.
 [[nodiscard]] std::string why_singular(const Model& model,

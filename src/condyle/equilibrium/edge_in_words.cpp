@@ -19,6 +19,7 @@ struct Seen {
   const std::string& name;
   std::optional<RigidTransform> X;  ///< of the anatomical frame in the body's; absent: no joint
   double side = 1;                  ///< -1: the first axis points medially
+  double up = 1;                    ///< -1: the surface faces downwards, as a femur's does
   Eigen::Vector3d origin;           ///< of the model's frame of the body, in the file's [mm]
 
   [[nodiscard]] Eigen::Vector3d direction(const Eigen::Vector3d& v) const {
@@ -32,15 +33,14 @@ struct Seen {
 };
 
 Seen see(const Model& model, const ContactPair& pair, bool on_A) {
-  Seen seen{on_A ? *pair.on_A : *pair.on_B,
-            on_A ? pair.surface_A : pair.surface_B,
-            {},
-            1,
-            on_A ? model.origins.A : model.origins.B};
+  Seen seen{
+      on_A ? *pair.on_A : *pair.on_B,          on_A ? pair.surface_A : pair.surface_B, {}, 1, 1,
+      on_A ? model.origins.A : model.origins.B};
   if (!model.joint) return seen;
   const bool tibia = model.joint->tibia_moves == on_A;
   seen.X = tibia ? model.joint->X_T : model.joint->X_F;
   seen.side = model.joint->side;
+  seen.up = tibia ? 1 : -1;
   return seen;
 }
 
@@ -66,6 +66,12 @@ Eigen::Vector3d middle(const Seen& seen, double L) {
   return places.empty() ? sum : Eigen::Vector3d(sum / static_cast<double>(places.size()));
 }
 
+/// How far a tangent leads forwards along the surface. Where a condyle has turned up behind, forwards
+/// is downwards.
+double forwards(const Seen& seen, const Eigen::Vector3d& normal, const Eigen::Vector3d& way) {
+  return seen.up * way.dot(normal.cross(Eigen::Vector3d::UnitX()));
+}
+
 /// "notch side", "rim side" where there are two compartments, else "medial side", "lateral side";
 /// "anterior end", "posterior end"; "edge" where no direction can be told.
 std::string side_in_words(const Model& model, const Seen& seen, bool on_A, const Place& place) {
@@ -73,20 +79,18 @@ std::string side_in_words(const Model& model, const Seen& seen, bool on_A, const
       seen.X ? seen.direction(outward(seen.surface, place, 0.02 * model.length))
              : Eigen::Vector3d::Zero();
   if (way.isZero()) return "edge";
-  const Eigen::Vector3d here = seen.point(seen.surface.evaluate_frame(place).c);
-  const Eigen::Vector3d own = middle(seen, model.length);
   constexpr double kOblique = 0.5;
   if (std::abs(way.x()) < kOblique * way.norm()) {
-    // A condyle turns upwards at both ends.
-    const double ahead = std::abs(way.y()) > std::abs(way.z()) ? way.y() : here.y() - own.y();
-    return ahead > 0 ? "anterior end" : "posterior end";
+    const Eigen::Vector3d n = seen.direction(seen.surface.evaluate_frame(place).n);
+    return forwards(seen, n, way) > 0 ? "anterior end" : "posterior end";
   }
+  if (model.pairs.size() < 2) return way.x() > 0 ? "lateral side" : "medial side";
   double midline = 0;
   for (const ContactPair& pair : model.pairs)
     midline +=
         middle(see(model, pair, on_A), model.length).x() / static_cast<double>(model.pairs.size());
-  if (model.pairs.size() < 2) return way.x() > 0 ? "lateral side" : "medial side";
-  return way.x() * (own.x() - midline) > 0 ? "rim side" : "notch side";
+  const double own = middle(seen, model.length).x();
+  return way.x() * (own - midline) > 0 ? "rim side" : "notch side";
 }
 
 std::string place_in_words(const Seen& seen, const Place& place) {
@@ -102,19 +106,39 @@ std::string place_in_words(const Seen& seen, const Place& place) {
                      p.z() < 0 ? "distal" : "proximal");
 }
 
+/// The surface of a contact whose edge is nearer, and the place on it.
+struct At {
+  bool on_A;
+  Seen seen;
+  Place place;
+  std::string contact, surface;  ///< in words
+};
+At nearer_edge(const Model& model, const ClosedContact& contact) {
+  const ContactPair& pair = model.pairs[static_cast<std::size_t>(contact.pair)];
+  const bool on_A = pair.on_A->edge_distance(contact.on_A) < pair.on_B->edge_distance(contact.on_B);
+  const Seen seen = see(model, pair, on_A);
+  return {on_A, seen, on_A ? contact.on_A : contact.on_B, quoted(pair.name),
+          seen.name.empty() ? "its surface" : quoted(seen.name)};
+}
+
 }  // namespace
 
 std::string edge_in_words(const Model& model, const ClosedContact& contact) {
   constexpr double kAt = 0.05;  // nearer than this to an edge [mm] is at it
-  const ContactPair& pair = model.pairs[static_cast<std::size_t>(contact.pair)];
-  const bool on_A = pair.on_A->edge_distance(contact.on_A) < pair.on_B->edge_distance(contact.on_B);
-  const Seen seen = see(model, pair, on_A);
-  const Place& place = on_A ? contact.on_A : contact.on_B;
-  const double beyond = -seen.surface.edge_distance(place);
+  const At at = nearer_edge(model, contact);
+  const double beyond = -at.seen.surface.edge_distance(at.place);
   const std::string how = beyond > kAt ? fmt::format("{:.2f} mm beyond", beyond) : "at the edge of";
-  const std::string of = seen.name.empty() ? "its surface" : quoted(seen.name);
-  return fmt::format("contact {} lies {} the known part of {} at its {}, {}", quoted(pair.name),
-                     how, of, side_in_words(model, seen, on_A, place), place_in_words(seen, place));
+  return fmt::format("contact {} lies {} the known part of {} at its {}, {}", at.contact, how,
+                     at.surface, side_in_words(model, at.seen, at.on_A, at.place),
+                     place_in_words(at.seen, at.place));
+}
+
+std::string rim_in_words(const Model& model, const ClosedContact& rim, double depth) {
+  const At at = nearer_edge(model, rim);
+  return fmt::format(
+      "contact {} runs over an edge: {} ends {:.2g} mm deep in the other surface at its {}, {}",
+      at.contact, at.surface, depth, side_in_words(model, at.seen, at.on_A, at.place),
+      place_in_words(at.seen, at.place));
 }
 
 }  // namespace condyle

@@ -14,4 +14,9 @@ namespace condyle {
 /// joint the place in the body's frame [mm].
 [[nodiscard]] std::string edge_in_words(const Model& model, const ClosedContact& contact);
 
+/// 'contact "medial" runs over an edge: "medial condyle" ends 0.004 mm deep in the other surface at
+/// its posterior end, 20.4 mm medial ...': the place is a point at the edge of a known part,
+/// `depth` [mm] deep in the other surface, where the two have no common normal.
+[[nodiscard]] std::string rim_in_words(const Model& model, const ClosedContact& rim, double depth);
+
 }  // namespace condyle

@@ -10,6 +10,7 @@
 #include "condyle/equilibrium/contact_rules.h"
 #include "condyle/equilibrium/contact_shape.h"
 #include "condyle/equilibrium/diagnosis.h"
+#include "condyle/equilibrium/edge_in_words.h"
 #include "condyle/equilibrium/second_equilibrium.h"
 #include "condyle/math/rotation.h"
 
@@ -26,6 +27,15 @@ struct Failed {
   std::string singular;  ///< why the matrix was, where it was
 };
 
+bool same_state(const EquilibriumState& a, const EquilibriumState& b) {
+  const auto same_contact = [](const ClosedContact& x, const ClosedContact& y) {
+    return x.pair == y.pair && x.on_B == y.on_B && x.on_A == y.on_A && x.p == y.p;
+  };
+  return a.X.p == b.X.p && a.X.R == b.X.R && a.sigma == b.sigma &&
+         std::equal(a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(),
+                    same_contact);
+}
+
 }  // namespace
 
 EquilibriumSolver::EquilibriumSolver(std::shared_ptr<const Model> model,
@@ -41,6 +51,7 @@ EquilibriumSolver::EquilibriumSolver(std::shared_ptr<const Model> model,
   for (const ContactPair& pair : model_->pairs) passed_.emplace_back(pair, model_->length);
   state_.contacts.reserve(kMaxConstraints);
   minima_.reserve(kMinimaOfAPair);
+  rims_.reserve(kMinimaOfAPair);
   reset();
 }
 
@@ -68,9 +79,7 @@ void EquilibriumSolver::set_parameters(const Parameters& parameters) {
 
 void EquilibriumSolver::set_state(const EquilibriumState& state, const Drive& drive) {
   check_drive(drive, *model_);
-  const bool same =
-      has_state_ && state.X.p == state_.X.p && state.X.R == state_.X.R && drive == solved_;
-  if (same) return;
+  if (has_state_ && drive == solved_ && same_state(state, state_)) return;
   predictor_.clear();
   state_ = state;
   solved_ = drive;
@@ -109,9 +118,17 @@ void EquilibriumSolver::set_known(int pair, const EquilibriumState& state) {
   }
 }
 
-bool EquilibriumSolver::add_overlaps(EquilibriumState& state, bool& too_many) {
-  bool added = false;
+/// Those at a rim only where there are no others: they are no contacts, but may lead Newton to one.
+EquilibriumSolver::Overlaps EquilibriumSolver::add_overlaps(EquilibriumState& state) {
+  constexpr double kRim = 2 * kSampleSpacing;  // of L, from an edge
   const double L = model_->length;
+  const std::size_t contacts = state.contacts.size();
+  rims_.clear();
+  const auto add = [&state](const ClosedContact& contact) {
+    const bool room = state.contacts.size() + state.sigma.size() < kMaxConstraints;
+    if (room) state.contacts.push_back(contact);
+    return room;
+  };
   for (std::size_t p = 0; p < searches_.size(); ++p) {
     if (model_->pairs[p].mode != ContactMode::kAuto) continue;
     set_known(static_cast<int>(p), state);
@@ -119,15 +136,17 @@ bool EquilibriumSolver::add_overlaps(EquilibriumState& state, bool& too_many) {
     for (const GapMinimum& minimum : minima_) {
       if (minimum.gap > -options_.description.overlap * L / 30) continue;
       if (is_contact_of(*model_, state, static_cast<int>(p), minimum)) continue;
-      if (state.contacts.size() + state.sigma.size() >= kMaxConstraints) {
-        too_many = true;
-        return added;
-      }
-      state.contacts.push_back({static_cast<int>(p), minimum.on_B, minimum.on_A, 0});
-      added = true;
+      const ClosedContact contact{static_cast<int>(p), minimum.on_B, minimum.on_A, 0};
+      if (!minimum.refined && minimum.edge < kRim * L)
+        rims_.push_back(contact);
+      else if (!add(contact))
+        return Overlaps::kTooMany;
     }
   }
-  return added;
+  if (state.contacts.size() > contacts) return Overlaps::kAdded;
+  for (const ClosedContact& rim : rims_)
+    if (!add(rim)) return Overlaps::kTooMany;
+  return rims_.empty() ? Overlaps::kNone : Overlaps::kRimsAdded;
 }
 
 /// False where Newton has led a contact to a place where the solids interpenetrate beside it.
@@ -168,18 +187,41 @@ bool EquilibriumSolver::on_surfaces(const EquilibriumState& state, Attempt& atte
     if (attempt.passed_pair >= 0) return false;  // no equilibrium to be told of
     off.beyond = OffSurfaces().beyond;
   }
-  std::optional<OffSurfaces>& kept = on_the_way_ ? attempt.off_on_the_way : attempt.off;
-  if (!kept || (!on_the_way_ && off.beyond < kept->beyond)) {
-    off.state = state;
-    kept = off;
-  }
+  off.state = state;
+  keep_off_surfaces(off, attempt);
   return false;
 }
 
+/// Of several the one least beyond an edge; on the way the first.
+void EquilibriumSolver::keep_off_surfaces(const OffSurfaces& off, Attempt& attempt) const {
+  std::optional<OffSurfaces>& kept = on_the_way_ ? attempt.off_on_the_way : attempt.off;
+  if (!kept || (!on_the_way_ && off.beyond < kept->beyond)) kept = off;
+}
+
+/// An equilibrium whose only overlaps, the contacts beyond the first `contacts`, are at rims: a
+/// point at the edge of a known part has no normal in common with the other surface, and cannot
+/// carry.
+void EquilibriumSolver::note_rim(const EquilibriumState& with_rims,
+                                 std::size_t contacts,
+                                 Attempt& attempt) const {
+  OffSurfaces off{with_rims, 0, -1, {}};
+  off.state.contacts.resize(contacts);
+  if (!on_minima(off.state) || farthest_beyond(off.state).first >= 0) return;
+  for (std::size_t k = contacts; k < with_rims.contacts.size(); ++k) {
+    const ClosedContact& rim = with_rims.contacts[k];
+    const ContactPair& pair = model_->pairs[static_cast<std::size_t>(rim.pair)];
+    const double depth =
+        -linearize_contact(*pair.on_B, rim.on_B, *pair.on_A, rim.on_A, with_rims.X).gap();
+    if (off.rim && depth <= off.beyond) continue;
+    off.beyond = depth;
+    off.rim = rim;
+  }
+  keep_off_surfaces(off, attempt);
+}
+
 bool EquilibriumSolver::carries_and_clear(EquilibriumState& state, Attempt& attempt) {
-  bool too_many = false;
   EquilibriumState copy = state;
-  return on_minima(state) && !release_pulling(copy) && !add_overlaps(copy, too_many) && !too_many &&
+  return on_minima(state) && !release_pulling(copy) && add_overlaps(copy) == Overlaps::kNone &&
          on_surfaces(state, attempt);
 }
 
@@ -207,6 +249,14 @@ bool EquilibriumSolver::faces(const EquilibriumState& state, Attempt& attempt) {
   return true;
 }
 
+/// A force that is no number at a pose that still is one.
+void EquilibriumSolver::note_overflow(const EquilibriumState& state, Attempt& attempt) const {
+  constexpr double kReasonable = 10;  // of L, from the pose before
+  const bool at_a_pose = distance(*model_, state.X, state_.X) < kReasonable * model_->length;
+  if (at_a_pose && attempt.overflow.empty())
+    attempt.overflow = overflowed(*model_, parameters(), state, drive_);
+}
+
 bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
   constexpr int kRounds = 8;
   for (int round = 0; round < kRounds; ++round) {
@@ -214,11 +264,14 @@ bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
     attempt.spent.iterations += attempt.newton.iterations;
     if (attempt.newton.outcome == NewtonOutcome::kZeroLength)
       attempt.zero_element = attempt.newton.zero_element;
+    if (attempt.newton.outcome == NewtonOutcome::kDiverged) note_overflow(state, attempt);
     if (attempt.newton.outcome != NewtonOutcome::kConverged) return false;
     if (release_pulling(state)) continue;
-    bool too_many = false;
-    if (add_overlaps(state, too_many)) continue;
-    if (too_many || !on_minima(state)) return false;
+    const std::size_t contacts = state.contacts.size();
+    const Overlaps overlaps = add_overlaps(state);
+    if (overlaps == Overlaps::kRimsAdded) note_rim(state, contacts, attempt);
+    if (overlaps == Overlaps::kRimsAdded || overlaps == Overlaps::kAdded) continue;
+    if (overlaps == Overlaps::kTooMany || !on_minima(state)) return false;
     return on_surfaces(state, attempt);
   }
   return false;
@@ -249,13 +302,13 @@ void EquilibriumSolver::solve(const Drive& drive, PoseResult& result, Patience p
     if (!at_once) solved = solve_from_elsewhere(next_, attempt) || solve_from_edge(next_, attempt);
   }
   drive_ = target_;
-  if (!solved) solved = take_off_surfaces(next_, attempt);
+  const bool off_surfaces = !solved && take_off_surfaces(next_, attempt);
   clear(result);
   result.iterations = attempt.spent.iterations;
   spent_ = attempt.spent;
   result.residual = attempt.newton.residual;
-  if (solved) {
-    describe(attempt, result);
+  if (solved || off_surfaces) {
+    describe(attempt, off_surfaces, result);
   } else if (failed) {
     attempt.newton = failed->newton;
     attempt.descent = failed->descent;
@@ -267,9 +320,13 @@ void EquilibriumSolver::solve(const Drive& drive, PoseResult& result, Patience p
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-void EquilibriumSolver::describe(const Attempt& attempt, PoseResult& result) {
+void EquilibriumSolver::describe(const Attempt& attempt, bool off_surfaces, PoseResult& result) {
   result.status = PoseStatus::kConverged;
   describe_pose(*model_, newton_.system(), next_, searches_, options_.description, minima_, result);
+  if (off_surfaces && attempt.off->rim && result.converged()) {
+    result.status = PoseStatus::kLeftPatch;
+    result.reason = rim_in_words(*model_, *attempt.off->rim, attempt.off->beyond);
+  }
   if (result.status == PoseStatus::kLeftPatch && attempt.off) {
     edge_ = *attempt.off;
     has_edge_ = true;

@@ -119,15 +119,20 @@ class EquilibriumSolver {
   bool solve_from_edge(EquilibriumState& state, Attempt& attempt);
   bool take_off_surfaces(EquilibriumState& state, const Attempt& attempt);
   bool starts_passed_through(Attempt& attempt);
-  void describe(const Attempt& attempt, PoseResult& result);
+  void describe(const Attempt& attempt, bool off_surfaces, PoseResult& result);
   bool release_pulling(EquilibriumState& state) const;
   void set_known(int pair, const EquilibriumState& state);
-  bool add_overlaps(EquilibriumState& state, bool& too_many);
+  /// What add_overlaps has done.
+  enum class Overlaps { kNone, kAdded, kRimsAdded, kTooMany };
+  Overlaps add_overlaps(EquilibriumState& state);
   [[nodiscard]] bool carries_and_clear(EquilibriumState& state, Attempt& attempt);
   [[nodiscard]] bool on_minima(const EquilibriumState& state) const;
   [[nodiscard]] bool on_surfaces(const EquilibriumState& state, Attempt& attempt);
   [[nodiscard]] std::pair<int, double> farthest_beyond(const EquilibriumState& state) const;
   [[nodiscard]] bool faces(const EquilibriumState& state, Attempt& attempt);
+  void note_rim(const EquilibriumState& with_rims, std::size_t contacts, Attempt& attempt) const;
+  void note_overflow(const EquilibriumState& state, Attempt& attempt) const;
+  void keep_off_surfaces(const OffSurfaces& off, Attempt& attempt) const;
 
   std::shared_ptr<const Model> model_;
   ContactCovers covers_;
@@ -149,6 +154,7 @@ class EquilibriumSolver {
   Work spent_;
   std::vector<GapMinimum> minima_;
   std::vector<KnownContact> known_;
+  std::vector<ClosedContact> rims_;  ///< lowest samples at an edge, which overlap
 };
 
 }  // namespace condyle
