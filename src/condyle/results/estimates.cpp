@@ -4,6 +4,8 @@
 #include <array>
 #include <limits>
 
+#include "condyle/results/run_view.h"
+
 namespace condyle {
 namespace {
 
@@ -63,9 +65,9 @@ void write_hertz(const Hdf5Group& group, const Poses& poses, Shape shape, const 
 }
 
 std::vector<ContactPointResult> main_point(const ContactResult& contact) {
-  if (contact.points.empty()) return {};
-  return {*std::max_element(contact.points.begin(), contact.points.end(),
-                            [](const auto& a, const auto& b) { return a.force < b.force; })};
+  const ContactPointResult* point = strongest_point(contact);
+  if (point == nullptr) return {};
+  return {*point};
 }
 
 using Matrix = JointStiffness::Matrix6 JointStiffness::*;
