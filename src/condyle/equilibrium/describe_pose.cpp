@@ -1,6 +1,9 @@
 #include "condyle/equilibrium/describe_pose.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "condyle/contact/contact_scales.h"
@@ -9,6 +12,8 @@
 #include "condyle/equilibrium/contact_shape.h"
 #include "condyle/equilibrium/edge_in_words.h"
 #include "condyle/equilibrium/joint_stiffness.h"
+#include "condyle/equilibrium/motion_name.h"
+#include "condyle/equilibrium/second_equilibrium.h"
 #include "condyle/equilibrium/stability.h"
 
 namespace condyle {
@@ -122,6 +127,24 @@ void describe_closed(const Model& model,
     if (contact.closed) set_resultant(contact);
 }
 
+/// Of a contact whose surfaces bend nearly alike in some direction: it lies where errors of a
+/// hundredth of a millimetre put it, √(2δ/κ) aside.
+std::string nearly_conforming(const ContactPair& pair,
+                              const ContactLinearization& at,
+                              const Eigen::Matrix3d& R_BA) {
+  constexpr double kAlike = 0.05;      // of the curvature of either surface
+  constexpr double kDeviation = 0.01;  // [mm]
+  const double least = at.relative_curvature[0];
+  if (!(least > 0) || least > kAlike * std::max(at.B.K.norm(), at.A.K.norm())) return {};
+  const Eigen::Vector3d e = direction_of_least_curvature(at, R_BA), e_A = R_BA.transpose() * e;
+  if (least > kAlike * std::max(std::abs(e.dot(at.B.K * e)), std::abs(e_A.dot(at.A.K * e_A))))
+    return {};
+  return fmt::format(
+      "contact {} nearly conforms: relative curvature {:.2g} 1/mm, {:g} mm on either surface move "
+      "it by {:.1f} mm",
+      quoted(pair.name), least, kDeviation, std::sqrt(2 * kDeviation / least));
+}
+
 /// The nearest place of an open contact; one that is nowhere, or buried, lowers the status.
 void describe_open(const ContactPair& pair,
                    const EquilibriumState& state,
@@ -222,6 +245,10 @@ void describe_pose(const Model& model,
     result.softest_motion = s.motion;
     result.stability = s.stable() ? 1 : 0;
     result.remark = stability_remark(model, system, state.X, s);
+    for (std::size_t k = 0; k < state.contacts.size(); ++k)
+      add_remark(result,
+                 nearly_conforming(model.pairs[static_cast<std::size_t>(state.contacts[k].pair)],
+                                   system.contacts()[k], state.X.R));
   }
   to_file_frames(model.origins, result);
 }

@@ -234,10 +234,11 @@ std::string left_all_bounds(const Failure& f) {
 }
 
 std::string unsettled(const Failure& f) {
-  constexpr const char* kLimit = "nothing settled within the iteration limit: ";
-  if (const std::string driven = still_driven(f); !driven.empty()) return kLimit + driven;
+  const std::string driven = still_driven(f);
   f.system.assemble(f.state, f.drive);
-  return kLimit + worst_condition(f.model, f.system, f.attempt.descent.step);
+  return "nothing settled within the iteration limit: " +
+         worst_condition(f.model, f.system, f.attempt.descent.step) +
+         (driven.empty() ? "" : "; " + driven);
 }
 
 /// What may be to blame, causes before what follows from them. The first that has words is it.
