@@ -77,6 +77,7 @@ TEST_F(JournalFile, GivesBackTheLastBit) {
     EXPECT_EQ(a.pose.X_BA.R, b.pose.X_BA.R);
     EXPECT_EQ(a.pose.X_BA.p, b.pose.X_BA.p);
     EXPECT_EQ(a.pose.seconds, b.pose.seconds);
+    expect_same_trace(a.pose.trace, b.pose.trace);
     EXPECT_EQ(a.pose.conditions[0].multiplier, b.pose.conditions[0].multiplier);
     EXPECT_EQ(b.pose.contacts[0].force, a.pose.contacts[0].force);
     EXPECT_EQ(b.pose.contacts[0].points[1].point_moving, a.pose.contacts[0].points[1].point_moving);
@@ -120,6 +121,21 @@ TEST_F(JournalFile, ReadsALineWithoutARemark) {
   EXPECT_EQ(back.pose.reason, known.pose.reason);
   EXPECT_EQ(back.pose.remark, "");
   EXPECT_FALSE(back.from_elsewhere);
+}
+
+// Lines of runs before traces were kept go from the events to the words.
+TEST_F(JournalFile, ReadsALineWithoutATrace) {
+  const KnownPose known = made_up_known(1);
+  std::string line;
+  write_journal_line(known, line);
+  const std::size_t trace = line.find(" trace "), words = line.find(" \"");
+  ASSERT_LT(trace, words);
+  line = line.substr(0, trace) + line.substr(words, line.rfind(' ') - words);
+  line += " " + std::to_string(hash_bytes(line));
+  KnownPose back;
+  ASSERT_TRUE(read_journal_line(line, 1, 1, back));
+  EXPECT_EQ(back.pose.remark, known.pose.remark);
+  EXPECT_FALSE(back.pose.trace.told());
 }
 
 // Cut after every single byte: never an error, and every whole line is there.

@@ -2,6 +2,11 @@
 
 /// A run that nobody computed: numbers that are easy to recognise in a file.
 
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
 #include "condyle/results/run_file.h"
 #include "condyle/scene/read_scene.h"
 #include "scene/small_scene.h"
@@ -39,6 +44,14 @@ inline PoseResult made_up_pose(double i) {
   pose.iterations = 3;
   pose.residual = 1e-12;
   pose.seconds = 5e-6;
+  pose.trace.route = PoseRoute::kPartsDescents;
+  pose.trace.origin = PoseOrigin::kNextPose;
+  pose.trace.parts = 3;
+  pose.trace.searches = 12;
+  pose.trace.closings = 2;
+  pose.trace.openings = 1;
+  for (int k = 0; k < 3 + static_cast<int>(i); ++k)
+    pose.trace.residuals.add(std::pow(0.3, 1 << k));
   return pose;
 }
 
@@ -69,6 +82,17 @@ inline RunPatch made_up_patch() {
   patch.report.seconds = 0.3;
   patch.report.notes = {"2 strays dropped", "with \xC2\xB5"};
   return patch;
+}
+
+inline void expect_same_trace(const PoseTrace& a, const PoseTrace& b) {
+  EXPECT_EQ(a.route, b.route);
+  EXPECT_EQ(a.origin, b.origin);
+  EXPECT_EQ(a.parts, b.parts);
+  EXPECT_EQ(a.searches, b.searches);
+  EXPECT_EQ(a.closings, b.closings);
+  EXPECT_EQ(a.openings, b.openings);
+  EXPECT_EQ(std::vector<double>(a.residuals.begin(), a.residuals.end()),
+            std::vector<double>(b.residuals.begin(), b.residuals.end()));
 }
 
 /// Three poses: one with a single contact point, one that failed, one with two contact points.

@@ -86,7 +86,26 @@ TEST_F(RunFile, GivesBackThePoses) {
     EXPECT_EQ(a.iterations, b.iterations);
     EXPECT_EQ(a.residual, b.residual);
     EXPECT_EQ(a.seconds, b.seconds);
+    expect_same_trace(a.trace, b.trace);
   }
+}
+
+// What a run of before holds: nothing of how its poses were found.
+TEST_F(RunFile, WithoutTracesIsRead) {
+  condyle::Run run = made_up_run();
+  for (PoseResult& pose : run.sweep.poses) pose.trace = PoseTrace();
+  write_run(path_, run);
+  EXPECT_FALSE(Hdf5Reader(path_).root().open("sweep").has("route"));
+  for (const PoseResult& pose : read_run(path_).sweep.poses) EXPECT_FALSE(pose.trace.told());
+}
+
+// A pose that was not found keeps what its last iterations left.
+TEST_F(RunFile, KeepsTheResidualsOfAPoseThatWasNotFound) {
+  condyle::Run run = made_up_run();
+  ResidualHistory& residuals = run.sweep.poses[1].trace.residuals;
+  for (int k = 0; k < ResidualHistory::kMost; ++k) residuals.add(1.0 / (1 + k));
+  write_run(path_, run);
+  expect_same_trace(run.sweep.poses[1].trace, read_run(path_).sweep.poses[1].trace);
 }
 
 TEST_F(RunFile, GivesBackPatchesMeshesAndScene) {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "condyle/equilibrium/contact_rules.h"
-#include "condyle/equilibrium/events.h"
+#include "condyle/equilibrium/walker.h"
 
 namespace condyle {
 namespace {
@@ -23,26 +23,25 @@ class PathFollower {
                double to,
                double largest_step,
                const PathOptions& options)
-      : solver_(solver),
+      : walker_(solver, swept, drive),
         model_(solver.model()),
-        swept_(swept),
-        drive_(drive),
         from_(from),
         to_(to),
         largest_step_(largest_step),
         options_(options),
         system_(model_, swept, drive, std::abs(to - from)),
-        contacts_(model_, solver.covers()) {
+        searches_(make_searches(model_, solver.covers())),
+        rules_(model_, searches_, solver.largest_overlap()) {
     system_.set_parameters(solver.parameters());
   }
 
   SweepResult follow() {
-    swept_.in(drive_) = from_;
-    PoseResult first = solver_.solve(drive_);
-    first.value = from_;
-    append(first);
-    if (!first.converged()) return std::move(result_);
-    point_ = {solver_.state(), from_};
+    SolvedPose first;
+    walker_.step(from_, Patience::kAll, first);
+    const bool converged = first.result.converged();
+    append(std::move(first.result));
+    if (!converged) return std::move(result_);
+    point_ = {walker_.solver().state(), from_};
     if (!system_.tangent(point_, tangent_)) {
       stop("the path has no direction here");
       return std::move(result_);
@@ -77,12 +76,11 @@ class PathFollower {
 
   /// The pose at a point, with all that is told about it.
   bool describe(const PathPoint& point) {
-    swept_.in(drive_) = point.value;
-    solver_.set_state(point.state, drive_);
-    PoseResult pose = solver_.solve(drive_, Patience::kNone);
-    pose.value = point.value;
-    const bool usable = pose.solved();
-    append(std::move(pose));
+    SolvedPose pose;
+    walker_.stand_at(point.value, point.state);
+    const bool usable = walker_.step(point.value, Patience::kNone, pose);
+    if (usable) pose.result.trace.origin = PoseOrigin::kPath;
+    append(std::move(pose.result));
     return usable;
   }
 
@@ -98,8 +96,9 @@ class PathFollower {
     return point;
   }
 
-  Fault fault_of(const PathPoint& point) {
-    return system_.assemble(point) ? contacts_.fault(system_.newton(), point.state) : Fault();
+  ContactChanges changes_at(const PathPoint& point) {
+    if (!system_.assemble(point)) return {};
+    return rules_.changes(system_.newton(), point.state);
   }
 
   /// One pose further; false at the end of the path.
@@ -118,10 +117,10 @@ class PathFollower {
       // A path that turns much within a step was perhaps left for another.
       if (system_.product(next_tangent, tangent_) > 0.8) break;
     }
-    const bool fault = fault_of(*next).any();
-    if (fault) length = last_without_fault(length);
+    const bool changes = changes_at(*next).any();
+    if (changes) length = last_without_change(length);
     if (const std::optional<double> end = length_to_end(length)) return finish(*end, length);
-    if (!fault) {
+    if (!changes) {
       locate_limit(length, next_tangent);
       point_ = *next;
       tangent_ = next_tangent;
@@ -131,12 +130,12 @@ class PathFollower {
   }
 
   /// Bisection for the length up to which contacts push and nothing overlaps.
-  double last_without_fault(double length) {
+  double last_without_change(double length) {
     double good = 0, bad = length;
     while (bad - good > 1e-12 * model_.length + 1e-14 * length) {
       const double middle = 0.5 * (good + bad);
       const std::optional<PathPoint> point = at(middle);
-      (point && !fault_of(*point).any() ? good : bad) = middle;
+      (point && !changes_at(*point).any() ? good : bad) = middle;
     }
     return bad;
   }
@@ -145,8 +144,8 @@ class PathFollower {
   /// into the branch that agrees with it.
   bool change_contacts(double length) {
     const std::optional<PathPoint> there = at(length);
-    const Fault fault = there ? fault_of(*there) : Fault();
-    if (!fault.any()) {
+    const ContactChanges changes = there ? changes_at(*there) : ContactChanges();
+    if (!changes.any()) {
       stop(fmt::format("contacts could not be followed beyond {:.9g}", point_.value));
       return false;
     }
@@ -154,13 +153,14 @@ class PathFollower {
     system_.tangent(*there, before);
     if (system_.product(before, tangent_) < 0) reverse(before);
     PathPoint changed = *there;
-    const EventKind kind = fault.overlap ? EventKind::kClosing : EventKind::kOpening;
-    const int pair = fault.overlap
-                         ? fault.overlap->pair
-                         : there->state.contacts[static_cast<std::size_t>(fault.pulling)].pair;
+    const bool closes = changes.opens < 0;
+    const EventKind kind = closes ? EventKind::kClosing : EventKind::kOpening;
+    const ClosedContact& contact =
+        closes ? changes.closes[changes.deepest]
+               : there->state.contacts[static_cast<std::size_t>(changes.opens)];
+    const int pair = contact.pair;
     Direction after;
-    if (!(fault.overlap ? close(*fault.overlap, changed, after)
-                        : release(fault.pulling, changed, after))) {
+    if (!(closes ? close(contact, changed, after) : release(changes.opens, changed, after))) {
       stop(fmt::format("no way on was found where contact \"{}\" is {} at {:.9g}",
                        model_.pairs[static_cast<std::size_t>(pair)].name, name(kind),
                        changed.value));
@@ -255,14 +255,13 @@ class PathFollower {
     return false;
   }
 
-  EquilibriumSolver& solver_;
+  Walker walker_;
   const Model& model_;
-  Swept swept_;
-  Drive drive_;
   double from_, to_, largest_step_;
   const PathOptions& options_;
   PathSystem system_;
-  ContactRules contacts_;
+  std::vector<ContactSearch> searches_;
+  ContactRules rules_;
   PathPoint point_;
   Direction tangent_;
   SweepResult result_;

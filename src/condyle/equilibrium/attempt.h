@@ -9,6 +9,7 @@
 
 #include "condyle/equilibrium/descent.h"
 #include "condyle/equilibrium/newton.h"
+#include "condyle/equilibrium/pose_trace.h"
 #include "condyle/equilibrium/work.h"
 
 namespace condyle {
@@ -20,11 +21,13 @@ struct OffSurfaces {
   double beyond = std::numeric_limits<double>::infinity();  ///< an edge, or the edge's depth [mm]
   int contact = -1;                  ///< of the state that lies there; else -1
   std::optional<ClosedContact> rim;  ///< where an edge is deepest; it is none of the state
+  PoseTrace trace;                   ///< by which way it was met
 };
 
 struct Attempt {
   Work most;              ///< after which nothing more is begun
   Work spent;             ///< over the whole attempt
+  PoseTrace trace;        ///< of the way under way; effort over the whole attempt
   NewtonReport newton;    ///< the last
   DescentReport descent;  ///< the last
   int zero_element = -1;  ///< that had no length on the way from the pose before
@@ -38,6 +41,20 @@ struct Attempt {
   /// From where the descent has been tried in vain with the values asked for.
   std::vector<RigidTransform> descended_from;
   std::optional<RigidTransform> other;  ///< a second position of equilibrium at the same values
+
+  /// A way is begun.
+  void begin(PoseRoute route, PoseOrigin origin) {
+    trace.route = route;
+    trace.origin = origin;
+    trace.parts = 0;
+    trace.residuals.clear();
+  }
+  /// The way told by `found` led to the pose.
+  void found_by(const PoseTrace& found) {
+    begin(found.route, found.origin);
+    trace.parts = found.parts;
+    trace.residuals = found.residuals;
+  }
 };
 
 }  // namespace condyle

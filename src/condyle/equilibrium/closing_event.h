@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "condyle/equilibrium/events.h"
+#include "condyle/equilibrium/walker.h"
 
 namespace condyle {
 

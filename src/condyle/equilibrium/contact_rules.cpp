@@ -1,5 +1,4 @@
 #include "condyle/equilibrium/contact_rules.h"
-#include "condyle/equilibrium/model_covers.h"
 
 #include <algorithm>
 
@@ -8,15 +7,17 @@
 namespace condyle {
 namespace {
 
-constexpr double kOverlap = 5e-7 / 30;  // that a converged pose may have, in units of L
-constexpr double kPull = 1e-12;         // round-off, of all forces
+constexpr double kPull = 1e-12;              // round-off, of all forces
+constexpr double kFlat = 1e-7;               // relative curvature [1/mm] that counts as none
+constexpr double kRim = 2 * kSampleSpacing;  // of L, from an edge
+constexpr double kLeftByNewton = 1e-3;       // of the distance at which places count as one
+constexpr std::size_t kMinimaOfAPair = 64;   // room for them
 
 const ContactPair& pair_of(const Model& model, const ClosedContact& contact) {
   return model.pairs[static_cast<std::size_t>(contact.pair)];
 }
 
-}  // namespace
-
+/// The contact that pulls most, beyond round-off; -1 where none does.
 int most_pulling(const Model& model, const NewtonSystem& system, const EquilibriumState& state) {
   int worst = -1;
   double lowest = -kPull * system.force_scale();
@@ -29,12 +30,24 @@ int most_pulling(const Model& model, const NewtonSystem& system, const Equilibri
   return worst;
 }
 
+/// Has Newton led a contact to a place where the solids interpenetrate beside it?
+bool lies_off_minimum(const Model& model,
+                      const NewtonSystem& system,
+                      const EquilibriumState& state) {
+  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+    const bool automatic = pair_of(model, state.contacts[k]).mode == ContactMode::kAuto;
+    if (automatic && system.contacts()[k].relative_curvature[0] < -kFlat) return true;
+  }
+  return false;
+}
+
+/// Is a minimum of the gap one of the state's contacts, but for what Newton leaves?
 bool is_contact_of(const Model& model,
                    const EquilibriumState& state,
                    int pair,
                    const GapMinimum& minimum) {
   const double near = kMerge * model.length;
-  return minimum.gap > -1e-3 * near &&
+  return minimum.gap > -kLeftByNewton * near &&
          std::any_of(state.contacts.begin(), state.contacts.end(),
                      [&](const ClosedContact& contact) {
                        const Surface& on_B = *pair_of(model, contact).on_B;
@@ -43,30 +56,76 @@ bool is_contact_of(const Model& model,
                      });
 }
 
-ContactRules::ContactRules(const Model& model, const ContactCovers& covers)
-    : model_(model), searches_(make_searches(model, covers)) {}
+struct Overlaps {
+  std::vector<ClosedContact>& contacts;
+  double lowest = 0;  // gap [mm]
+  std::size_t deepest = 0;
 
-Fault ContactRules::fault(const NewtonSystem& system, const EquilibriumState& state) {
-  Fault fault;
-  fault.pulling = most_pulling(model_, system, state);
-  if (fault.pulling < 0) fault.overlap = overlap(state);
-  return fault;
+  void add(int pair, const GapMinimum& minimum) {
+    if (minimum.gap < lowest) deepest = contacts.size();
+    lowest = std::min(lowest, minimum.gap);
+    contacts.push_back({pair, minimum.on_B, minimum.on_A, 0});
+  }
+};
+
+}  // namespace
+
+void ContactChanges::apply(EquilibriumState& state) const {
+  if (opens >= 0) state.contacts.erase(state.contacts.begin() + opens);
+  state.contacts.insert(state.contacts.end(), closes.begin(), closes.end());
 }
 
-std::optional<ClosedContact> ContactRules::overlap(const EquilibriumState& state) {
-  std::optional<ClosedContact> deepest;
-  double lowest = -kOverlap * model_.length;
+ContactRules::ContactRules(const Model& model, std::vector<ContactSearch>& searches, double overlap)
+    : model_(model), searches_(searches), overlap_(overlap) {
+  changes_.closes.reserve(kMinimaOfAPair);
+  rims_.reserve(kMinimaOfAPair);
+  known_.reserve(kMaxConstraints);
+  minima_.reserve(kMinimaOfAPair);
+}
+
+const ContactChanges& ContactRules::changes(const NewtonSystem& system,
+                                            const EquilibriumState& state) {
+  changes_.closes.clear();
+  rims_.clear();
+  changes_.deepest = 0;
+  changes_.rims = changes_.too_many = false;
+  changes_.searches = 0;
+  changes_.off_minimum = lies_off_minimum(model_, system, state);
+  changes_.opens = most_pulling(model_, system, state);
+  if (changes_.opens < 0) find_overlaps(system, state);
+  return changes_;
+}
+
+/// What Newton has solved of a pair is a help to the search.
+void ContactRules::set_known(int pair, const NewtonSystem& system, const EquilibriumState& state) {
+  known_.clear();
+  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+    if (state.contacts[k].pair != pair) continue;
+    const ContactLinearization& at = system.contacts()[k];
+    known_.push_back({at.B.c, at.A.c, at.B.K, at.A.K, at.relative_curvature[0]});
+  }
+}
+
+/// Those at a rim only where there are no others: they are no contacts, but may lead Newton to one.
+void ContactRules::find_overlaps(const NewtonSystem& system, const EquilibriumState& state) {
+  Overlaps inner{changes_.closes}, rims{rims_};
   for (std::size_t p = 0; p < searches_.size(); ++p) {
     if (model_.pairs[p].mode != ContactMode::kAuto) continue;
-    searches_[p].find(state.X, 0.0, minima_, kMerge * model_.length);
+    const int pair = static_cast<int>(p);
+    set_known(pair, system, state);
+    searches_[p].find(state.X, 0.0, minima_, kMerge * model_.length, known_);
+    ++changes_.searches;
     for (const GapMinimum& minimum : minima_) {
-      if (minimum.gap >= lowest || is_contact_of(model_, state, static_cast<int>(p), minimum))
-        continue;
-      lowest = minimum.gap;
-      deepest = ClosedContact{static_cast<int>(p), minimum.on_B, minimum.on_A, 0};
+      if (minimum.gap > -overlap_ || is_contact_of(model_, state, pair, minimum)) continue;
+      const bool at_rim = !minimum.refined && minimum.edge < kRim * model_.length;
+      (at_rim ? rims : inner).add(pair, minimum);
     }
   }
-  return deepest;
+  changes_.rims = inner.contacts.empty() && !rims.contacts.empty();
+  if (changes_.rims) inner.contacts.assign(rims.contacts.begin(), rims.contacts.end());
+  changes_.deepest = changes_.rims ? rims.deepest : inner.deepest;
+  changes_.too_many =
+      state.contacts.size() + state.sigma.size() + inner.contacts.size() > kMaxConstraints;
 }
 
 }  // namespace condyle

@@ -1,49 +1,53 @@
 #pragma once
 
-/// What does not agree with unilateral contact at a position of equilibrium.
+/// Which contacts of a solved state open and which close, by unilateral contact: none pulls, nothing
+/// overlaps. The one rule of all who ask: Newton between its solutions, the descent about what Newton
+/// found from it, the path of equilibria at each of its points.
 
-#include <optional>
 #include <vector>
 
 #include "condyle/contact/contact_search.h"
-#include "condyle/equilibrium/model_covers.h"
 #include "condyle/equilibrium/newton.h"
 
 namespace condyle {
 
-struct Fault {
-  int pulling = -1;                      ///< the contact of the state that pulls most
-  std::optional<ClosedContact> overlap;  ///< the deepest overlap that is no contact yet
-  [[nodiscard]] bool any() const { return pulling >= 0 || overlap; }
+struct ContactChanges {
+  int opens = -1;                     ///< the contact of the state that pulls most
+  std::vector<ClosedContact> closes;  ///< overlaps that are no contacts yet, without force
+  std::size_t deepest = 0;            ///< of those
+  bool rims = false;      ///< those are at the edge of a known part, and there are no others
+  bool too_many = false;  ///< more overlaps than there may be constraints
+  /// A contact lies where the solids interpenetrate beside it: no minimum of the gap.
+  bool off_minimum = false;
+  int searches = 0;  ///< that this took
+
+  [[nodiscard]] bool any() const { return opens >= 0 || !closes.empty(); }
+  /// Does the state agree with unilateral contact as it is?
+  [[nodiscard]] bool none_needed() const { return !any() && !too_many && !off_minimum; }
+  void apply(EquilibriumState& state) const;
 };
-
-/// The contact of a state that pulls most, beyond round-off; -1 where none does. `system` assembled
-/// at the state.
-[[nodiscard]] int most_pulling(const Model& model,
-                               const NewtonSystem& system,
-                               const EquilibriumState& state);
-
-/// Is a minimum of the gap one of the state's contacts, but for what Newton leaves?
-[[nodiscard]] bool is_contact_of(const Model& model,
-                                 const EquilibriumState& state,
-                                 int pair,
-                                 const GapMinimum& minimum);
 
 class ContactRules {
  public:
-  /// `covers` as from cover_pairs(model).
-  ContactRules(const Model& model, const ContactCovers& covers);
+  /// Refers to both; `searches`: one for each pair. `overlap`: the largest that is none [mm].
+  ContactRules(const Model& model, std::vector<ContactSearch>& searches, double overlap);
 
   /// `system` assembled at the state, which is one of equilibrium with its contacts. Where one
-  /// pulls, overlaps are not looked for.
-  Fault fault(const NewtonSystem& system, const EquilibriumState& state);
+  /// pulls, overlaps are not looked for. Stays until the next call; allocates nothing once it has
+  /// held as many.
+  const ContactChanges& changes(const NewtonSystem& system, const EquilibriumState& state);
 
  private:
-  std::optional<ClosedContact> overlap(const EquilibriumState& state);
+  void find_overlaps(const NewtonSystem& system, const EquilibriumState& state);
+  void set_known(int pair, const NewtonSystem& system, const EquilibriumState& state);
 
   const Model& model_;
-  std::vector<ContactSearch> searches_;
+  std::vector<ContactSearch>& searches_;
+  double overlap_;
+  ContactChanges changes_;
   std::vector<GapMinimum> minima_;
+  std::vector<KnownContact> known_;
+  std::vector<ClosedContact> rims_;  ///< lowest samples at an edge, which overlap
 };
 
 }  // namespace condyle

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/equilibrium/admissible_motions.h"
 #include "condyle/equilibrium/motion_name.h"
-#include "condyle/equilibrium/stability.h"
 
 namespace condyle {
 namespace {

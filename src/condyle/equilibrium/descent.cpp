@@ -12,11 +12,47 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr std::size_t kMemorySize = 24;
+// Constraints: more than a knee has at once.
+constexpr std::size_t kMemorySize = 24;  // material points
 constexpr std::size_t kMostMinima = 12;  // of one pair
-constexpr double kNewtonReach = 0.05;  // a step shorter than this [L] is worth an attempt of Newton
-constexpr double kLeastReach = 1e-4;   // of a step [L]: below, nothing more is gained
-constexpr double kAtRest = 1e-6;       // nor where the programme asks for no more than this [L]
+
+// Lengths [L].
+constexpr double kNewtonReach = 0.05;   // a shorter step is worth an attempt of Newton
+constexpr double kLeastReach = 1e-4;    // of a step: below, nothing more is gained
+constexpr double kAtRest = 1e-6;        // nor where the programme asks for no more than this
+constexpr double kFarAway = 50;         // from the start: nothing carries the load
+constexpr double kHeldWithin = 20;      // a contact that is held closed is looked for
+constexpr double kSameMinimum = 0.003;  // minima nearer than this are one constraint
+constexpr double kSamePoint = 0.01;     // a material point beside a minimum says nothing new,
+constexpr double kPointsApart = 0.02;   // nor one so near to another
+constexpr double kNearPoint = 0.02;     // a minimum with a smaller gap becomes a material point
+constexpr double kSameRefused = 1e-6;   // two equilibria that were refused are one,
+constexpr double kThere = 0.01;         // and the descent has come to it
+constexpr double kLongestFree = 10;     // step where nothing is near
+
+// Of a trust region [Nocedal and Wright 2006, ch. 4, 18.5].
+constexpr double kGrow = 2;           // of the reach after a step that gained,
+constexpr double kShrink = 0.35;      // and after one that did not
+constexpr double kAnew = 0.1;         // of the longest step, without the material points
+constexpr double kLookAhead = 2;      // reaches within which gaps may close in the next step
+constexpr double kDemand = 0.7;       // of the reach: what constraints may ask for, so that a
+                                      // step of that reach can meet them [18.5]
+constexpr double kFirstFloor = 1e-2;  // stiffness that shortens a step, of the greatest,
+constexpr double kStiffer = 4;        // and so much more at each try,
+constexpr int kMostStiffer = 12;      // at most, until
+constexpr double kFits = 1.1;         // a step fits the reach as nearly as this
+
+// Of the l1 merit [Nocedal and Wright 2006, 15.4].
+constexpr double kOverMultiplier = 1.5;  // penalty over the greatest multiplier: above 1 the merit
+                                         // has its minimum where the programme has
+constexpr double kForget = 0.9;          // of the penalty, in each step
+constexpr double kLeastPenalty = 0.1;    // multiplier of a body that nothing presses yet [forces]
+constexpr double kRoundOff = 1e-10;      // of the forces' work over a step
+constexpr double kRestores = 0.9;        // of the violation: a step that leaves less restores it
+constexpr double kLongestSecond = 2;     // second-order correction, of the step [15.6]
+
+constexpr int kPatience = 2;       // iterations between attempts of Newton
+constexpr double kCarries = 1e-9;  // multiplier of a contact that carries, of the greatest
 
 /// X moved by a step in scaled components (da, L dπ).
 RigidTransform moved(const RigidTransform& X, const Vector6& step, double L) {
@@ -51,7 +87,7 @@ DescentReport Descent::solve(EquilibriumState& state,
   // Attempts of Newton's method within count as well.
   while (report.steps < most_steps && report.spent.iterations < most.iterations &&
          searches_made_ < most.searches && iterate(accept, report)) {
-    report.ran_away = (X_.p - origin).norm() > 50 * model_.length;
+    report.ran_away = (X_.p - origin).norm() > kFarAway * model_.length;
     if (report.ran_away) break;
   }
   report.spent.searches = searches_made_;
@@ -78,7 +114,7 @@ bool Descent::start_anew() {
   has_forgotten_ = true;
   memory_.clear();
   gather(X_, constraints_);
-  reach_ = 0.1 * options_.longest_step * model_.length;
+  reach_ = kAnew * options_.longest_step * model_.length;
   return true;
 }
 
@@ -99,12 +135,14 @@ bool Descent::iterate(const Accept& accept, DescentReport& report) {
   const bool settled = full < kNewtonReach * L && patience_-- <= 0;
   if (settled || reach_ < kLeastReach * L) {
     if (try_newton(forces, constraints_, accept, report)) return false;
-    patience_ = 2;
+    patience_ = kPatience;
     if (full < kAtRest * L) return false;
   }
   if (reach_ < kLeastReach * L) return start_anew();
   const Vector6 step = full > reach_ ? step_within_reach(programme) : solution.x;
-  penalty_ = std::max(0.9 * penalty_, 1.5 * std::max(forces.largest, 0.1 * programme.force_scale));
+  penalty_ =
+      std::max(kForget * penalty_,
+               kOverMultiplier * std::max(forces.largest, kLeastPenalty * programme.force_scale));
   remember(constraints_);
   take_step(programme, step, report);
   return true;
@@ -114,13 +152,13 @@ bool Descent::iterate(const Accept& accept, DescentReport& report) {
 /// farther than that, and the stiffness is raised until the step fits [Levenberg].
 Descent::Vector6 Descent::step_within_reach(Programme& programme) const {
   SmallQp& qp = programme.qp;
-  const double demand = 0.7 * reach_;
+  const double demand = kDemand * reach_;
   if (qp.b.norm() > demand) qp.b *= demand / qp.b.norm();
   qp.d = qp.d.cwiseMin(demand);
   Vector6 step = solve_qp(qp).x;
-  qp.floor = std::max(qp.floor, 1e-2 * programme.stiffness_scale);
-  for (int k = 0; k < 12 && step.norm() > 1.1 * reach_; ++k) {
-    qp.floor *= 4;
+  qp.floor = std::max(qp.floor, kFirstFloor * programme.stiffness_scale);
+  for (int k = 0; k < kMostStiffer && step.norm() > kFits * reach_; ++k) {
+    qp.floor *= kStiffer;
     step = solve_qp(qp).x;
   }
   if (step.norm() > reach_) step *= reach_ / step.norm();
@@ -141,13 +179,14 @@ Descent::Constraint Descent::constrain(int pair,
 void Descent::gather(const RigidTransform& X, std::vector<Constraint>& constraints) {
   constraints.clear();
   const double L = model_.length;
-  // The next step is at most twice as long as this one's reach, and must not pass through anything.
-  const double ahead = 2 * std::max(kNewtonReach * L, 2 * reach_);
+  // The next step is at most as much longer as the reach may grow, and must not pass through
+  // anything.
+  const double ahead = kLookAhead * std::max(kNewtonReach * L, kGrow * reach_);
   for (int p = 0; p < static_cast<int>(model_.pairs.size()); ++p) {
     const ContactMode mode = model_.pairs[p].mode;
     if (mode == ContactMode::kOpen) continue;
     const bool held = mode == ContactMode::kClosed;
-    searches_[p].find(X, held ? 20 * L : ahead, minima_, 0.003 * L);
+    searches_[p].find(X, held ? kHeldWithin * L : ahead, minima_, kSameMinimum * L);
     ++searches_made_;
     minima_.resize(std::min(minima_.size(), held ? 1 : kMostMinima));
     const std::size_t first = constraints.size();
@@ -171,13 +210,13 @@ void Descent::add_memory(int pair,
     const Eigen::Vector3d point = X * on_A.evaluate(place).c;
     const Place foot = on_B.closest(point, on_B.seed(point));
     if (on_B.edge_distance(foot) < 0) continue;
-    const bool isolated =
-        std::all_of(constraints.begin() + static_cast<std::ptrdiff_t>(first), constraints.end(),
-                    [&](const Constraint& c) {
-                      return (X * on_A.evaluate(c.on_A).c - point).norm() > 0.01 * model_.length;
-                    });
+    const bool isolated = std::all_of(constraints.begin() + static_cast<std::ptrdiff_t>(first),
+                                      constraints.end(), [&](const Constraint& c) {
+                                        return (X * on_A.evaluate(c.on_A).c - point).norm() >
+                                               kSamePoint * model_.length;
+                                      });
     const Constraint constraint = constrain(pair, foot, place, X);
-    if (isolated && constraint.gap < 2 * options_.longest_step * model_.length) {
+    if (isolated && constraint.gap < kLookAhead * options_.longest_step * model_.length) {
       constraints.push_back(constraint);
     }
   }
@@ -185,13 +224,13 @@ void Descent::add_memory(int pair,
 
 void Descent::remember(const std::vector<Constraint>& constraints) {
   for (const Constraint& constraint : constraints) {
-    if (constraint.bilateral || !constraint.refined || constraint.gap > 0.02 * model_.length)
+    if (constraint.bilateral || !constraint.refined || constraint.gap > kNearPoint * model_.length)
       continue;
     const Surface& on_A = *model_.pairs[constraint.pair].on_A;
     const Eigen::Vector3d c = on_A.evaluate(constraint.on_A).c;
     const bool known = std::any_of(memory_.begin(), memory_.end(), [&](const auto& entry) {
       return entry.first == constraint.pair &&
-             (on_A.evaluate(entry.second).c - c).norm() < 0.02 * model_.length;
+             (on_A.evaluate(entry.second).c - c).norm() < kPointsApart * model_.length;
     });
     if (known) continue;
     if (memory_.size() == kMemorySize) memory_.erase(memory_.begin());
@@ -260,23 +299,23 @@ void Descent::take_step(const Programme& programme, const Vector6& step, Descent
     constraints_.swap(trial_);
     report.step = length;
     // Where nothing is near, nothing limits the next step but patience.
-    const double longest = constraints_.empty() ? 10 * L : options_.longest_step * L;
-    reach_ = std::min(2 * reach_, longest);
+    const double longest = constraints_.empty() ? kLongestFree * L : options_.longest_step * L;
+    reach_ = std::min(kGrow * reach_, longest);
   };
   const RigidTransform to = moved(X_, step, L);
-  if (improves(to, 1e-10 * programme.force_scale * step.norm())) return accept(to, step.norm());
+  if (improves(to, kRoundOff * programme.force_scale * step.norm())) return accept(to, step.norm());
   // Restoring the constraints may cost more energy than the forces of this moment suggest.
-  if (violation_after < 0.9 * violation_before) {
+  if (violation_after < kRestores * violation_before) {
     penalty_ *= 2;
     if (energy + penalty_ * (violation_after - violation_before) < 0)
       return accept(to, step.norm());
   }
   const Vector6 second = corrected_step(programme, step, to, trial_);
-  if (second.allFinite() && second.norm() < 2 * step.norm()) {
+  if (second.allFinite() && second.norm() < kLongestSecond * step.norm()) {
     const RigidTransform corrected = moved(X_, second, L);
     if (improves(corrected, 0)) return accept(corrected, second.norm());
   }
-  reach_ = 0.35 * std::min(reach_, step.norm());
+  reach_ = kShrink * std::min(reach_, step.norm());
 }
 
 /// True where there is nothing more to gain.
@@ -288,7 +327,7 @@ bool Descent::try_newton(const Multipliers& multipliers,
   trial.X = X_;
   trial.sigma = multipliers.sigma;
   for (std::size_t k = 0; k < constraints.size(); ++k) {
-    if (!constraints[k].bilateral && multipliers.p[k] <= 1e-9 * multipliers.largest) continue;
+    if (!constraints[k].bilateral && multipliers.p[k] <= kCarries * multipliers.largest) continue;
     trial.contacts.push_back(
         {constraints[k].pair, constraints[k].on_B, constraints[k].on_A, multipliers.p[k]});
   }
@@ -308,9 +347,8 @@ bool Descent::try_newton(const Multipliers& multipliers,
 
 /// Does Newton come to an equilibrium once more that was not accepted, from as good as there?
 bool Descent::stays_refused(const RigidTransform& found) {
-  constexpr double kSame = 1e-6, kThere = 0.01;  // of L
   const double L = model_.length;
-  const bool again = refused_ && step_between(*refused_, found, L).norm() < kSame * L;
+  const bool again = refused_ && step_between(*refused_, found, L).norm() < kSameRefused * L;
   refused_ = found;
   return again && step_between(X_, found, L).norm() < kThere * L;
 }

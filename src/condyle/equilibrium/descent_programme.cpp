@@ -12,7 +12,10 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr double kCompliance = 1e-8;  // of the constraints, relative
+constexpr double kCompliance = 1e-8;      // of the constraints, relative
+constexpr double kLeastForce = 1e-12;     // [N]: no scale is zero where nothing pulls
+constexpr double kLooseness = 3;          // L over which the forces alone make a stiffness
+constexpr double kLeastStiffness = 1e-4;  // of the greatest: eigenvalues of the programme's matrix
 
 /// Symmetric part of -∂wrench in scaled components [N/mm].
 Matrix6 symmetric_stiffness(const Wrench& w, double L) {
@@ -25,7 +28,7 @@ Matrix6 symmetric_stiffness(const Wrench& w, double L) {
 void Descent::set_forces(Programme& programme) const {
   const double L = model_.length;
   Wrench wrench;
-  programme.force_scale = 1e-12;
+  programme.force_scale = kLeastForce;
   for (const LineElement& element : parameters().elements)
     programme.force_scale += std::abs(add_line_element(element, X_, wrench).force);
   for (std::size_t i = 0; i < parameters().loads.size(); ++i) {
@@ -36,8 +39,9 @@ void Descent::set_forces(Programme& programme) const {
   SmallQp& qp = programme.qp;
   qp.H = symmetric_stiffness(wrench, L);
   qp.g = -scaled_wrench(wrench, L);
-  programme.stiffness_scale = std::max(qp.H.cwiseAbs().maxCoeff(), programme.force_scale / (3 * L));
-  qp.floor = 1e-4 * programme.stiffness_scale;
+  programme.stiffness_scale =
+      std::max(qp.H.cwiseAbs().maxCoeff(), programme.force_scale / (kLooseness * L));
+  qp.floor = kLeastStiffness * programme.stiffness_scale;
   qp.compliance = kCompliance;
 }
 

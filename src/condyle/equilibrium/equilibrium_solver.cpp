@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include "condyle/contact/contact_scales.h"
-#include "condyle/equilibrium/contact_rules.h"
 #include "condyle/equilibrium/contact_shape.h"
 #include "condyle/equilibrium/diagnosis.h"
 #include "condyle/equilibrium/edge_in_words.h"
@@ -25,6 +24,7 @@ struct Failed {
   NewtonReport newton;
   DescentReport descent;
   std::string singular;  ///< why the matrix was, where it was
+  ResidualHistory residuals;
 };
 
 bool same_state(const EquilibriumState& a, const EquilibriumState& b) {
@@ -45,13 +45,13 @@ EquilibriumSolver::EquilibriumSolver(std::shared_ptr<const Model> model,
       covers_(covers),
       options_(options),
       searches_(make_searches(*model_, covers_)),
+      rules_(*model_, searches_, largest_overlap()),
       newton_(*model_, options_.newton),
       descent_(*model_, searches_, newton_, options_.descent),
       predictor_(*model_) {
   for (const ContactPair& pair : model_->pairs) passed_.emplace_back(pair, model_->length);
   state_.contacts.reserve(kMaxConstraints);
   minima_.reserve(kMinimaOfAPair);
-  rims_.reserve(kMinimaOfAPair);
   reset();
 }
 
@@ -101,64 +101,6 @@ void EquilibriumSolver::set_drive(const Drive& from, const Drive& to, double t) 
     drive_.scales[i] = between(from.scales[i], to.scales[i]);
 }
 
-bool EquilibriumSolver::release_pulling(EquilibriumState& state) const {
-  const int worst = most_pulling(*model_, newton_.system(), state);
-  if (worst >= 0) state.contacts.erase(state.contacts.begin() + worst);
-  return worst >= 0;
-}
-
-/// What Newton has solved of a pair is a help to the search.
-void EquilibriumSolver::set_known(int pair, const EquilibriumState& state) {
-  known_.clear();
-  const std::vector<ContactLinearization>& contacts = newton_.system().contacts();
-  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
-    if (state.contacts[k].pair != pair) continue;
-    const ContactLinearization& at = contacts[k];
-    known_.push_back({at.B.c, at.A.c, at.B.K, at.A.K, at.relative_curvature[0]});
-  }
-}
-
-/// Those at a rim only where there are no others: they are no contacts, but may lead Newton to one.
-EquilibriumSolver::Overlaps EquilibriumSolver::add_overlaps(EquilibriumState& state) {
-  constexpr double kRim = 2 * kSampleSpacing;  // of L, from an edge
-  const double L = model_->length;
-  const std::size_t contacts = state.contacts.size();
-  rims_.clear();
-  const auto add = [&state](const ClosedContact& contact) {
-    const bool room = state.contacts.size() + state.sigma.size() < kMaxConstraints;
-    if (room) state.contacts.push_back(contact);
-    return room;
-  };
-  for (std::size_t p = 0; p < searches_.size(); ++p) {
-    if (model_->pairs[p].mode != ContactMode::kAuto) continue;
-    set_known(static_cast<int>(p), state);
-    searches_[p].find(state.X, 0.0, minima_, kMerge * L, known_);
-    for (const GapMinimum& minimum : minima_) {
-      if (minimum.gap > -options_.description.overlap * L / 30) continue;
-      if (is_contact_of(*model_, state, static_cast<int>(p), minimum)) continue;
-      const ClosedContact contact{static_cast<int>(p), minimum.on_B, minimum.on_A, 0};
-      if (!minimum.refined && minimum.edge < kRim * L)
-        rims_.push_back(contact);
-      else if (!add(contact))
-        return Overlaps::kTooMany;
-    }
-  }
-  if (state.contacts.size() > contacts) return Overlaps::kAdded;
-  for (const ClosedContact& rim : rims_)
-    if (!add(rim)) return Overlaps::kTooMany;
-  return rims_.empty() ? Overlaps::kNone : Overlaps::kRimsAdded;
-}
-
-/// False where Newton has led a contact to a place where the solids interpenetrate beside it.
-bool EquilibriumSolver::on_minima(const EquilibriumState& state) const {
-  const std::vector<ContactLinearization>& contacts = newton_.system().contacts();
-  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
-    const bool automatic = model_->pairs[state.contacts[k].pair].mode == ContactMode::kAuto;
-    if (automatic && contacts[k].relative_curvature[0] < -1e-7) return false;
-  }
-  return true;
-}
-
 /// The contact that lies farthest beyond the known part of a surface, and how far [mm]; -1 where
 /// none does. A line lies at edges by its nature.
 std::pair<int, double> EquilibriumSolver::farthest_beyond(const EquilibriumState& state) const {
@@ -195,34 +137,27 @@ bool EquilibriumSolver::on_surfaces(const EquilibriumState& state, Attempt& atte
 /// Of several the one least beyond an edge; on the way the first.
 void EquilibriumSolver::keep_off_surfaces(const OffSurfaces& off, Attempt& attempt) const {
   std::optional<OffSurfaces>& kept = on_the_way_ ? attempt.off_on_the_way : attempt.off;
-  if (!kept || (!on_the_way_ && off.beyond < kept->beyond)) kept = off;
+  if (kept && (on_the_way_ || off.beyond >= kept->beyond)) return;
+  kept = off;
+  kept->trace = attempt.trace;
+  kept->trace.residuals = newton_.residuals();
 }
 
-/// An equilibrium whose only overlaps, the contacts beyond the first `contacts`, are at rims: a
-/// point at the edge of a known part has no normal in common with the other surface, and cannot
-/// carry.
-void EquilibriumSolver::note_rim(const EquilibriumState& with_rims,
-                                 std::size_t contacts,
+/// An equilibrium whose only overlaps are at rims: a point at the edge of a known part has no normal
+/// in common with the other surface, and cannot carry.
+void EquilibriumSolver::note_rim(const EquilibriumState& state,
+                                 const ContactChanges& rims,
                                  Attempt& attempt) const {
-  OffSurfaces off{with_rims, 0, -1, {}};
-  off.state.contacts.resize(contacts);
-  if (!on_minima(off.state) || farthest_beyond(off.state).first >= 0) return;
-  for (std::size_t k = contacts; k < with_rims.contacts.size(); ++k) {
-    const ClosedContact& rim = with_rims.contacts[k];
-    const ContactPair& pair = model_->pairs[static_cast<std::size_t>(rim.pair)];
-    const double depth =
-        -linearize_contact(*pair.on_B, rim.on_B, *pair.on_A, rim.on_A, with_rims.X).gap();
-    if (off.rim && depth <= off.beyond) continue;
-    off.beyond = depth;
-    off.rim = rim;
-  }
+  if (rims.off_minimum || farthest_beyond(state).first >= 0) return;
+  const ClosedContact& rim = rims.closes[rims.deepest];
+  const ContactPair& pair = model_->pairs[static_cast<std::size_t>(rim.pair)];
+  const double depth =
+      -linearize_contact(*pair.on_B, rim.on_B, *pair.on_A, rim.on_A, state.X).gap();
+  OffSurfaces off;
+  off.state = state;
+  off.beyond = depth;
+  off.rim = rim;
   keep_off_surfaces(off, attempt);
-}
-
-bool EquilibriumSolver::carries_and_clear(EquilibriumState& state, Attempt& attempt) {
-  EquilibriumState copy = state;
-  return on_minima(state) && !release_pulling(copy) && add_overlaps(copy) == Overlaps::kNone &&
-         on_surfaces(state, attempt);
 }
 
 /// Are the surfaces of open pairs on their right sides?
@@ -243,8 +178,8 @@ bool EquilibriumSolver::faces(const EquilibriumState& state, Attempt& attempt) {
       return false;
     }
     searches_[p].find_nearest(state.X, kAnywhere * L, minima_, kMerge * L);
-    if (minima_.empty() || minima_.front().gap < -options_.description.overlap * L / 30)
-      return false;
+    ++attempt.trace.searches;
+    if (minima_.empty() || minima_.front().gap < -largest_overlap()) return false;
   }
   return true;
 }
@@ -257,8 +192,19 @@ void EquilibriumSolver::note_overflow(const EquilibriumState& state, Attempt& at
     attempt.overflow = overflowed(*model_, parameters(), state, drive_);
 }
 
+/// The rule of contact on a state that Newton has just solved.
+const ContactChanges& EquilibriumSolver::changes(const EquilibriumState& state, Attempt& attempt) {
+  const ContactChanges& changes = rules_.changes(newton_.system(), state);
+  attempt.trace.searches += changes.searches;
+  return changes;
+}
+
+bool EquilibriumSolver::is_admissible(const EquilibriumState& state, Attempt& attempt) {
+  return changes(state, attempt).none_needed() && on_surfaces(state, attempt);
+}
+
 bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
-  constexpr int kRounds = 8;
+  constexpr int kRounds = 8;  // of changes of contact; real knees take one or two
   for (int round = 0; round < kRounds; ++round) {
     attempt.newton = newton_.solve(state, drive_);
     attempt.spent.iterations += attempt.newton.iterations;
@@ -266,13 +212,16 @@ bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
       attempt.zero_element = attempt.newton.zero_element;
     if (attempt.newton.outcome == NewtonOutcome::kDiverged) note_overflow(state, attempt);
     if (attempt.newton.outcome != NewtonOutcome::kConverged) return false;
-    if (release_pulling(state)) continue;
-    const std::size_t contacts = state.contacts.size();
-    const Overlaps overlaps = add_overlaps(state);
-    if (overlaps == Overlaps::kRimsAdded) note_rim(state, contacts, attempt);
-    if (overlaps == Overlaps::kRimsAdded || overlaps == Overlaps::kAdded) continue;
-    if (overlaps == Overlaps::kTooMany || !on_minima(state)) return false;
-    return on_surfaces(state, attempt);
+    const ContactChanges& found = changes(state, attempt);
+    if (found.too_many) return false;
+    if (!found.any()) {
+      attempt.trace.residuals = newton_.residuals();
+      return found.none_needed() && on_surfaces(state, attempt);
+    }
+    if (found.rims) note_rim(state, found, attempt);
+    found.apply(state);
+    attempt.trace.openings += found.opens >= 0 ? 1 : 0;
+    attempt.trace.closings += static_cast<int>(found.closes.size());
   }
   return false;
 }
@@ -296,7 +245,7 @@ void EquilibriumSolver::solve(const Drive& drive, PoseResult& result, Patience p
   std::optional<Failed> failed;
   if (!solved && patience == Patience::kAll) {
     drive_ = target_;
-    failed = {next_, attempt.newton, attempt.descent, {}};
+    failed = {next_, attempt.newton, attempt.descent, {}, newton_.residuals()};
     if (attempt.newton.outcome == NewtonOutcome::kSingular)
       failed->singular = why_singular(*model_, newton_.system(), next_.X);
     if (!at_once) solved = solve_from_elsewhere(next_, attempt) || solve_from_edge(next_, attempt);
@@ -307,6 +256,9 @@ void EquilibriumSolver::solve(const Drive& drive, PoseResult& result, Patience p
   result.iterations = attempt.spent.iterations;
   spent_ = attempt.spent;
   result.residual = attempt.newton.residual;
+  if (!solved && !off_surfaces) attempt.begin(PoseRoute::kNone, PoseOrigin::kNone);
+  if (!solved && !off_surfaces && failed) attempt.trace.residuals = failed->residuals;
+  result.trace = attempt.trace;
   if (solved || off_surfaces) {
     describe(attempt, off_surfaces, result);
   } else if (failed) {

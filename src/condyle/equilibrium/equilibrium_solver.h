@@ -20,6 +20,7 @@
 
 #include "condyle/contact/contact_search.h"
 #include "condyle/equilibrium/attempt.h"
+#include "condyle/equilibrium/contact_rules.h"
 #include "condyle/equilibrium/descent.h"
 #include "condyle/equilibrium/describe_pose.h"
 #include "condyle/equilibrium/model_covers.h"
@@ -60,6 +61,10 @@ class EquilibriumSolver {
 
   [[nodiscard]] const Model& model() const { return *model_; }
   [[nodiscard]] const ContactCovers& covers() const { return covers_; }
+  /// Of a converged pose [mm].
+  [[nodiscard]] double largest_overlap() const {
+    return options_.description.overlap * model_->length / 30;
+  }
 
   /// Solves from the last converged state, or from the model's start when there is none. The state
   /// is kept when the pose converges. Throws std::invalid_argument for a drive that is not one of
@@ -117,20 +122,15 @@ class EquilibriumSolver {
   bool solve_from_elsewhere(EquilibriumState& state, Attempt& attempt);
   bool descend_from(const RigidTransform& X, EquilibriumState& state, Attempt& attempt);
   bool solve_from_edge(EquilibriumState& state, Attempt& attempt);
-  bool take_off_surfaces(EquilibriumState& state, const Attempt& attempt);
+  bool take_off_surfaces(EquilibriumState& state, Attempt& attempt);
   bool starts_passed_through(Attempt& attempt);
   void describe(const Attempt& attempt, bool off_surfaces, PoseResult& result);
-  bool release_pulling(EquilibriumState& state) const;
-  void set_known(int pair, const EquilibriumState& state);
-  /// What add_overlaps has done.
-  enum class Overlaps { kNone, kAdded, kRimsAdded, kTooMany };
-  Overlaps add_overlaps(EquilibriumState& state);
-  [[nodiscard]] bool carries_and_clear(EquilibriumState& state, Attempt& attempt);
-  [[nodiscard]] bool on_minima(const EquilibriumState& state) const;
+  const ContactChanges& changes(const EquilibriumState& state, Attempt& attempt);
+  [[nodiscard]] bool is_admissible(const EquilibriumState& state, Attempt& attempt);
   [[nodiscard]] bool on_surfaces(const EquilibriumState& state, Attempt& attempt);
   [[nodiscard]] std::pair<int, double> farthest_beyond(const EquilibriumState& state) const;
   [[nodiscard]] bool faces(const EquilibriumState& state, Attempt& attempt);
-  void note_rim(const EquilibriumState& with_rims, std::size_t contacts, Attempt& attempt) const;
+  void note_rim(const EquilibriumState& state, const ContactChanges& rims, Attempt& attempt) const;
   void note_overflow(const EquilibriumState& state, Attempt& attempt) const;
   void keep_off_surfaces(const OffSurfaces& off, Attempt& attempt) const;
 
@@ -139,6 +139,7 @@ class EquilibriumSolver {
   EquilibriumOptions options_;
   std::vector<ContactSearch> searches_;
   std::vector<PassedThrough> passed_;
+  ContactRules rules_;
   Newton newton_;
   Descent descent_;
   Predictor predictor_;
@@ -153,8 +154,6 @@ class EquilibriumSolver {
   bool from_elsewhere_ = false;
   Work spent_;
   std::vector<GapMinimum> minima_;
-  std::vector<KnownContact> known_;
-  std::vector<ClosedContact> rims_;  ///< lowest samples at an edge, which overlap
 };
 
 }  // namespace condyle

@@ -24,11 +24,13 @@ bool EquilibriumSolver::descend(EquilibriumState& state, Attempt& attempt) {
   const RigidTransform from = state.X;
   const bool open_ended = conforming_pair(*model_, searches_, state.X).has_value();
   const int steps = open_ended ? kFewSteps : options_.descent.max_steps;
-  attempt.descent = descent_.solve(
-      state, drive_, [&](EquilibriumState& s) { return carries_and_clear(s, attempt); }, steps,
-      {std::min(2 * steps, left.iterations), left.searches});
+  attempt.descent =
+      descent_.solve(state, drive_, [&](EquilibriumState& s) { return is_admissible(s, attempt); },
+                     steps, {std::min(2 * steps, left.iterations), left.searches});
   attempt.newton = attempt.descent.newton;
   attempt.spent.add(attempt.descent.spent);
+  attempt.trace.searches += attempt.descent.spent.searches;
+  if (attempt.descent.converged) attempt.trace.residuals = newton_.residuals();
   if (!attempt.descent.converged && !on_the_way_) attempt.descended_from.push_back(from);
   return attempt.descent.converged;
 }
@@ -50,11 +52,13 @@ bool EquilibriumSolver::advance(EquilibriumState& state,
     if (!solved && part <= kDescend) {
       trial = state;
       solved = descend(trial, attempt);
+      if (solved) attempt.trace.route = PoseRoute::kPartsDescents;
     }
     on_the_way_ = false;
     if (solved) {
       state = trial;
       t = next;
+      ++attempt.trace.parts;
       part = std::min(2 * part, kLongest);
     } else if ((part /= 2) < kShortest || !attempt.most.after(attempt.spent).any()) {
       return false;
@@ -83,7 +87,10 @@ bool EquilibriumSolver::settle_at_estimates(EquilibriumState& state, Attempt& at
 }
 
 bool EquilibriumSolver::find_first(EquilibriumState& state, Attempt& attempt) {
-  return settle_at_estimates(state, attempt) || descend(state, attempt);
+  attempt.begin(PoseRoute::kNewton, PoseOrigin::kStart);
+  if (settle_at_estimates(state, attempt)) return true;
+  attempt.begin(PoseRoute::kDescent, PoseOrigin::kStart);
+  return descend(state, attempt);
 }
 
 /// The first pose: where the start is far from what the conditions prescribe, the equilibrium at
@@ -105,9 +112,13 @@ bool EquilibriumSolver::solve_first(EquilibriumState& state,
   on_the_way_ = true;
   const bool at_start = find_first(state, attempt);
   on_the_way_ = false;
+  const bool by_descent = attempt.trace.route == PoseRoute::kDescent;
+  attempt.begin(by_descent ? PoseRoute::kPartsDescents : PoseRoute::kParts, PoseOrigin::kStart);
   const bool arrived = at_start && advance(state, own, target, attempt);
   drive_ = target;
-  return arrived || descend(state = state_, attempt);
+  if (arrived) return true;
+  attempt.begin(PoseRoute::kDescent, PoseOrigin::kStart);
+  return descend(state = state_, attempt);
 }
 
 /// Newton from where the poses before point to, or from the last one; else the descent; else the
@@ -115,12 +126,16 @@ bool EquilibriumSolver::solve_first(EquilibriumState& state,
 bool EquilibriumSolver::solve_from_last(EquilibriumState& state,
                                         Attempt& attempt,
                                         Patience patience) {
+  attempt.begin(PoseRoute::kNewton, PoseOrigin::kPrediction);
   if (predictor_.predict(target_, state) && settle(state, attempt)) return true;
+  attempt.begin(PoseRoute::kNewton, PoseOrigin::kLastPose);
   if (settle(state = state_, attempt)) return true;
   // On a branch that leaves the known surfaces nothing else is found by going on.
   if (attempt.off && patience == Patience::kNone) return false;
+  attempt.begin(PoseRoute::kDescent, PoseOrigin::kLastPose);
   if (descend(state = state_, attempt)) return true;
   if (attempt.off || patience == Patience::kNone) return false;
+  attempt.begin(PoseRoute::kParts, PoseOrigin::kLastPose);
   const bool arrived = advance(state = state_, solved_, target_, attempt);
   drive_ = target_;
   return arrived;
@@ -140,9 +155,13 @@ bool EquilibriumSolver::descend_from(const RigidTransform& X,
 bool EquilibriumSolver::solve_from_elsewhere(EquilibriumState& state, Attempt& attempt) {
   from_elsewhere_ = true;
   EquilibriumState last = state;
+  attempt.begin(PoseRoute::kDescent, PoseOrigin::kCarriedStart);
   const bool from_start = descend_from(model_->start, state, attempt);
+  const PoseTrace way_from_start = attempt.trace;
+  attempt.begin(PoseRoute::kDescent, PoseOrigin::kCarriedLast);
   const bool from_last = has_state_ && descend_from(state_.X, last, attempt);
   if (from_last && !from_start) state = last;
+  if (from_start) attempt.found_by(way_from_start);
   if (from_last && from_start && !same_pose(*model_, state.X, last.X)) attempt.other = last.X;
   if (from_last || from_start) newton_.system().assemble(state, drive_);
   return from_last || from_start;
@@ -152,6 +171,7 @@ bool EquilibriumSolver::solve_from_elsewhere(EquilibriumState& state, Attempt& a
 /// tells where it is now.
 bool EquilibriumSolver::solve_from_edge(EquilibriumState& state, Attempt& attempt) {
   if (!has_edge_) return false;
+  attempt.begin(PoseRoute::kNewton, PoseOrigin::kBeyondEdge);
   if (settle(state = edge_.state, attempt)) return true;
   if (!attempt.off_on_the_way) attempt.off_on_the_way = edge_;
   return false;
@@ -159,9 +179,10 @@ bool EquilibriumSolver::solve_from_edge(EquilibriumState& state, Attempt& attemp
 
 /// The equilibrium off the known surfaces that was met, where there was no other: the pose says so
 /// itself.
-bool EquilibriumSolver::take_off_surfaces(EquilibriumState& state, const Attempt& attempt) {
+bool EquilibriumSolver::take_off_surfaces(EquilibriumState& state, Attempt& attempt) {
   if (!attempt.off) return false;
   state = attempt.off->state;
+  attempt.found_by(attempt.off->trace);
   return newton_.solve(state, drive_).outcome == NewtonOutcome::kConverged;
 }
 

@@ -73,25 +73,16 @@ void append_limit(const SolvedPose& before, const SolvedPose& after, std::vector
 
 class EventSearch {
  public:
-  EventSearch(EquilibriumSolver& solver,
-              const Swept& swept,
-              const Drive& drive,
-              const EventOptions& options)
-      : solver_(solver), swept_(swept), drive_(drive), options_(options) {}
+  EventSearch(Walker& walker, const EventOptions& options) : walker_(walker), options_(options) {}
 
   /// The pose at a value, from another one; nothing where it has no equilibrium.
   std::optional<SolvedPose> pose_at(double value, const SolvedPose& from) {
     if (!options_.most_wasted.after(wasted_).any()) return std::nullopt;
-    swept_.in(drive_) = from.value;
-    solver_.set_state(from.state, drive_);
-    swept_.in(drive_) = value;
-    SolvedPose pose{value, solver_.solve(drive_, Patience::kNone), {}};
-    if (!pose.result.solved()) {
-      wasted_.add(solver_.spent());
-      return std::nullopt;
-    }
-    pose.state = solver_.solution();
-    return pose;
+    walker_.stand_at(from);
+    SolvedPose pose;
+    if (walker_.step(value, Patience::kNone, pose)) return pose;
+    wasted_.add(walker_.solver().spent());
+    return std::nullopt;
   }
 
   /// A pose between two others: half way, or near it where that has no equilibrium from either
@@ -119,7 +110,7 @@ class EventSearch {
   /// Did the body go much farther than the tangents of its path say at either end?
   bool moved_unexpectedly(const SolvedPose& left, const SolvedPose& right) {
     constexpr double kMuch = 2;
-    const double L = solver_.model().length;
+    const double L = walker_.model().length;
     const double moved = body_motion(left, right, L);
     if (moved < options_.snap * L) return false;
     const double foretold = std::min(foretold_motion(left, right), foretold_motion(right, left));
@@ -128,7 +119,7 @@ class EventSearch {
 
   /// Follows the greater part of the motion of the body; true when it stays a jump.
   bool bisect_snap(SolvedPose& left, SolvedPose& right) {
-    const double L = solver_.model().length, jump = options_.jump * L;
+    const double L = walker_.model().length, jump = options_.jump * L;
     while (std::abs(right.value - left.value) > options_.tolerance) {
       if (body_motion(left, right, L) < jump) return false;
       std::optional<SolvedPose> middle = between(left, right);
@@ -159,7 +150,7 @@ class EventSearch {
     const std::optional<SolvedPose> earlier =
         pose_at(before.value - std::copysign(length, after.value - before.value), before);
     if (!earlier || !same_contacts(earlier->result, before.result)) return middle;
-    return closing_value(solver_.model(), *earlier, before, after).value_or(middle);
+    return closing_value(walker_.model(), *earlier, before, after).value_or(middle);
   }
 
  private:
@@ -167,8 +158,8 @@ class EventSearch {
   double foretold_motion(const SolvedPose& at, const SolvedPose& to) {
     PathSystem::Direction tangent;
     if (!path_) {
-      path_.emplace(solver_.model(), swept_, drive_, 1);
-      path_->set_parameters(solver_.parameters());
+      path_.emplace(walker_.model(), walker_.swept(), walker_.drive_at(at.value), 1);
+      path_->set_parameters(walker_.solver().parameters());
     }
     if (!path_->tangent({at.state, at.value}, tangent) || tangent.value() == 0) return INFINITY;
     double square = 0;
@@ -176,9 +167,7 @@ class EventSearch {
     return std::sqrt(square) * std::abs((to.value - at.value) / tangent.value());
   }
 
-  EquilibriumSolver& solver_;
-  Swept swept_;
-  Drive drive_;
+  Walker& walker_;
   std::optional<PathSystem> path_;  ///< once it is asked for
   const EventOptions& options_;
   Work wasted_;  ///< on trials without equilibrium
@@ -186,15 +175,13 @@ class EventSearch {
 
 }  // namespace
 
-void locate_events(EquilibriumSolver& solver,
-                   const Swept& swept,
-                   const Drive& drive,
+void locate_events(Walker& walker,
                    const SolvedPose& left,
                    const SolvedPose& right,
                    std::vector<Event>& events,
                    const EventOptions& options) {
-  EventSearch search(solver, swept, drive, options);
-  const double L = solver.model().length, straight = kStraight * std::abs(right.value - left.value);
+  EventSearch search(walker, options);
+  const double L = walker.model().length, straight = kStraight * std::abs(right.value - left.value);
   SolvedPose from = left;
   for (int k = 0; k < options.most_events && !same_contacts(from.result, right.result); ++k) {
     SolvedPose before = from, after = right;

@@ -12,16 +12,9 @@
 
 #include <vector>
 
-#include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/walker.h"
 
 namespace condyle {
-
-/// A pose with its state, as the search for events needs it.
-struct SolvedPose {
-  double value = 0;
-  PoseResult result;
-  EquilibriumState state;
-};
 
 struct EventOptions {
   double tolerance = 1e-9;  ///< of the swept value [rad], [mm] or [-]
@@ -36,11 +29,8 @@ struct EventOptions {
                                 ///< looked for between the two poses
 };
 
-/// Appends the events between two poses of one sweep. `drive`: of all that is not swept. The
-/// solver's state is changed.
-void locate_events(EquilibriumSolver& solver,
-                   const Swept& swept,
-                   const Drive& drive,
+/// Appends the events between two poses of one sweep. The walker does not stay where it stood.
+void locate_events(Walker& walker,
                    const SolvedPose& left,
                    const SolvedPose& right,
                    std::vector<Event>& events,

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "condyle/equilibrium/events.h"
-
 namespace condyle {
 namespace {
 

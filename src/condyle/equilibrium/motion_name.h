@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "condyle/equilibrium/stability.h"
+#include "condyle/equilibrium/admissible_motions.h"
 
 namespace condyle {
 

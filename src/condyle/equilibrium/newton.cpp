@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "condyle/math/rotation.h"
 
@@ -12,6 +13,13 @@ namespace {
 
 constexpr double kFreeStep =
     1e-3;  // longest step along a motion that nothing resists, in units of L
+
+/// Forces in units of their sum or distances in units of L, whichever is greater.
+double relative(const NewtonReport& report, double distance) {
+  const double force = report.force_scale > 0 ? report.residual / report.force_scale : 0;
+  const double greater = std::max(force, distance);
+  return std::isfinite(greater) ? greater : std::numeric_limits<double>::infinity();
+}
 
 }  // namespace
 
@@ -146,6 +154,7 @@ Newton::Newton(const Model& model, NewtonOptions options)
 
 NewtonReport Newton::solve(EquilibriumState& state, const Drive& drive) {
   NewtonReport report;
+  residuals_.clear();
   const double L = model_.length;
   double last_step = INFINITY;
   double step[SmallLu::kMaxSize];
@@ -164,6 +173,7 @@ NewtonReport Newton::solve(EquilibriumState& state, const Drive& drive) {
       return report;
     }
     const double distance = system_.largest_distance();
+    residuals_.add(relative(report, distance / L));
     if (!std::isfinite(report.residual) || !std::isfinite(distance)) {
       report.outcome = NewtonOutcome::kDiverged;
       return report;

@@ -22,6 +22,7 @@
 #include "condyle/elements/line_element_block.h"
 #include "condyle/equilibrium/drive.h"
 #include "condyle/equilibrium/parameters.h"
+#include "condyle/equilibrium/pose_trace.h"
 #include "condyle/math/small_lu.h"
 
 namespace condyle {
@@ -109,6 +110,9 @@ class Newton {
   /// Improves the state in place. Allocates nothing once the state has its size.
   NewtonReport solve(EquilibriumState& state, const Drive& drive);
 
+  /// Of the last solve.
+  [[nodiscard]] const ResidualHistory& residuals() const { return residuals_; }
+
   /// The system at the last state assembled.
   [[nodiscard]] const NewtonSystem& system() const { return system_; }
   [[nodiscard]] NewtonSystem& system() { return system_; }
@@ -120,6 +124,7 @@ class Newton {
   NewtonOptions options_;
   NewtonSystem system_;
   SmallLu matrix_;
+  ResidualHistory residuals_;
 };
 
 }  // namespace condyle

@@ -14,6 +14,7 @@
 
 #include "condyle/elements/body_origins.h"
 #include "condyle/elements/joint_coordinates.h"
+#include "condyle/equilibrium/pose_trace.h"
 #include "condyle/math/rigid_transform.h"
 
 namespace condyle {
@@ -120,6 +121,7 @@ struct PoseResult {
   std::optional<JointStiffness> joint_stiffness;  ///< on request; needs joint frames
   int iterations = 0;                             ///< Newton iterations
   double residual = 0;  ///< largest out-of-balance force [N], moments divided by the model's length
+  PoseTrace trace;      ///< by which way it was found
   double seconds = 0;   ///< spent on the pose
   double event_seconds = 0;  ///< spent on the events between the solved pose before it and this one
   [[nodiscard]] bool converged() const { return status == PoseStatus::kConverged; }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "condyle/equilibrium/events.h"
-
 namespace condyle {
 namespace {
 

@@ -8,12 +8,10 @@
 
 #include <string>
 
+#include "condyle/equilibrium/admissible_motions.h"
 #include "condyle/equilibrium/newton.h"
 
 namespace condyle {
-
-/// Motions as columns (da, L dπ); never allocates.
-using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>;
 
 struct Stability {
   double lowest_stiffness;             ///< [N/mm]; infinite where no motion is left
@@ -34,14 +32,5 @@ struct Stability {
                                            const NewtonSystem& system,
                                            const RigidTransform& X_BA,
                                            const Stability& stability);
-
-/// The direction (n, s x n/L) of a closed contact or (α, η/L) of a condition, as a unit vector:
-/// contacts come first. What they prevent is a motion along it.
-[[nodiscard]] Eigen::Matrix<double, 6, 1> constraint_direction(const Model& model,
-                                                               const NewtonSystem& system,
-                                                               std::size_t constraint);
-
-/// An orthonormal basis of the motions that no contact and no condition prevents.
-[[nodiscard]] Motions admissible_motions(const Model& model, const NewtonSystem& system);
 
 }  // namespace condyle

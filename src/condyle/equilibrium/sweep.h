@@ -8,32 +8,15 @@
 /// pose found from another start are followed into each other and do not meet, two positions of
 /// equilibrium exist, and the remark of the pose says so.
 
-#include <functional>
-#include <optional>
 #include <vector>
 
 #include "condyle/equilibrium/equilibrium_solver.h"
-#include "condyle/equilibrium/known_poses.h"
 #include "condyle/equilibrium/pose_result.h"
+#include "condyle/equilibrium/sweep_options.h"
 #include "condyle/scene/fit_surfaces.h"
 #include "condyle/scene/scene.h"
 
 namespace condyle {
-
-struct SweepOptions {
-  bool stability = true;       ///< reduced stiffness of each pose
-  bool events = true;          ///< locate what happens to contacts between poses
-  std::optional<Drive> drive;  ///< of all that is not swept; absent: the model's nominal one
-  /// Taken over where their values are met, failures too: a solved one is polished and described
-  /// anew, not searched for. The first value that is not known starts from the pose before it in
-  /// the sweep, or, where there is none, from the known one with the nearest value.
-  std::vector<KnownPose> known;
-  /// Called for each pose in order, when it is final: after a gap for all that lie in it.
-  std::function<void(const PoseResult&)> on_pose;
-  /// Called for each pose that was not taken over, when the events before it are located: all that
-  /// another sweep has to know.
-  std::function<void(const KnownPose&)> on_computed;
-};
 
 /// Solves the values in order. `swept` says which number of the drive varies. Never throws for mathematics that does not succeed: a pose carries its status. Whether poses are examined for
 /// stability is the solver's option here.

@@ -10,19 +10,10 @@
 namespace condyle {
 
 SweepWalk::SweepWalk(EquilibriumSolver& solver, const Swept& swept, const SweepOptions& options)
-    : solver_(solver),
-      swept_(swept),
-      drive_(options.drive ? *options.drive : drive_of(solver.model())),
+    : walker_(solver, swept, options.drive ? *options.drive : drive_of(solver.model())),
       options_(options),
       known_(options.known),
-      start_(solver.standing()) {
-  check_drive(drive_, solver.model());
-}
-
-const Drive& SweepWalk::drive_at(double value) {
-  swept_.in(drive_) = value;
-  return drive_;
-}
+      start_(solver.standing()) {}
 
 SweepResult SweepWalk::along(const std::vector<double>& values) {
   stops_.reserve(values.size());
@@ -49,7 +40,6 @@ void SweepWalk::step(double value) {
   } else {
     compute(stop);
   }
-  stop.at.result.value = value;
   if (!stop.converged()) return;
   last_converged_ = stops_.size() - 1;
   mend_gap();
@@ -61,40 +51,40 @@ bool SweepWalk::take_over(const KnownPose& known, Stop& stop) {
   PoseResult& pose = stop.at.result;
   if (!known.pose.converged() && known.pose.status != PoseStatus::kLeftPatch) {
     pose = known.pose;
+    pose.value = stop.at.value;
     return known.pose.status != PoseStatus::kNotComputed;
   }
-  if (!can_restore(solver_.model(), known.pose)) return false;
-  solver_.set_state(restore_state(solver_.model(), known.pose), drive_at(stop.at.value));
-  solver_.solve(drive_at(stop.at.value), pose, Patience::kNone);
+  if (!can_restore(model(), known.pose)) return false;
+  walker_.stand_at(stop.at.value, restore_state(model(), known.pose));
+  walker_.step(stop.at.value, Patience::kNone, stop.at);
   const bool same = agrees(pose, known.pose);
   if (same) {
-    stop.at.state = solver_.solution();
     pose.iterations = known.pose.iterations;
     pose.seconds = known.pose.seconds;
     if (!known.pose.remark.empty()) pose.remark = known.pose.remark;
+    pose.trace.origin = PoseOrigin::kEarlierRun;
+    if (known.pose.trace.told()) pose.trace = known.pose.trace;
   }
   if (!same || !pose.converged()) stand_at_last_converged();
   return same;
 }
 
 RigidTransform SweepWalk::in_model(const PoseResult& pose) const {
-  return solver_.model().origins.into_model(pose.X_BA);
+  return model().origins.into_model(pose.X_BA);
 }
 
 bool SweepWalk::agrees(const PoseResult& pose, const PoseResult& known) const {
-  return pose.status == known.status && same_pose(solver_.model(), in_model(pose), in_model(known));
+  return pose.status == known.status && same_pose(model(), in_model(pose), in_model(known));
 }
 
 void SweepWalk::compute(Stop& stop) {
   if (!last_converged_) {
     const KnownPose* nearest = known_.nearest_converged(stop.at.value);
-    if (nearest != nullptr && can_restore(solver_.model(), nearest->pose))
-      solver_.set_state(restore_state(solver_.model(), nearest->pose),
-                        drive_at(nearest->pose.value));
+    if (nearest != nullptr && can_restore(model(), nearest->pose))
+      walker_.stand_at(nearest->pose.value, restore_state(model(), nearest->pose));
   }
-  solver_.solve(drive_at(stop.at.value), stop.at.result);
-  stop.from_elsewhere = solver_.from_elsewhere();
-  if (stop.at.result.solved()) stop.at.state = solver_.solution();
+  walker_.step(stop.at.value, Patience::kAll, stop.at);
+  stop.from_elsewhere = solver().from_elsewhere();
 }
 
 /// From the pose that has just converged back over those before it that did not, and on again from
@@ -105,26 +95,25 @@ void SweepWalk::mend_gap() {
   if (begin == end) return;
   std::size_t from = end;
   for (std::size_t k = end; k-- > begin;)
-    if (mend(stops_[k], stops_[from])) from = k;
+    if (mend(stops_[k], stops_[from], PoseOrigin::kNextPose)) from = k;
   for (std::size_t k = begin + 1; k < end; ++k)
     if (stops_[k - 1].converged() && !stops_[k].converged()) mend(stops_[k], stops_[k - 1]);
-  stand_at(stops_[end].at);
+  walker_.stand_at(stops_[end].at);
 }
 
-bool SweepWalk::mend(Stop& stop, const Stop& from) {
+bool SweepWalk::mend(Stop& stop, const Stop& from, std::optional<PoseOrigin> origin) {
   if (stop.taken != nullptr) return false;
-  stand_at(from.at);
-  solver_.solve(drive_at(stop.at.value), trial_, Patience::kWay);
-  const double seconds = stop.at.result.seconds + trial_.seconds;
-  const int iterations = stop.at.result.iterations + trial_.iterations;
-  if (trial_.converged() || (trial_.solved() && !stop.at.result.solved())) {
-    stop.at.result = trial_;
-    stop.at.result.value = stop.at.value;
-    stop.at.state = solver_.solution();
+  walker_.stand_at(from.at);
+  walker_.step(stop.at.value, Patience::kWay, trial_);
+  if (origin) trial_.result.trace.origin = *origin;
+  PoseResult &pose = stop.at.result, &trial = trial_.result;
+  if (trial.converged() || (trial.solved() && !pose.solved())) {
+    std::swap(stop.at, trial_);
     stop.from_elsewhere = true;
   }
-  stop.at.result.seconds = seconds;
-  stop.at.result.iterations = iterations;
+  pose.seconds += trial.seconds;
+  pose.iterations += trial.iterations;
+  pose.trace.add_effort(trial.trace);
   return stop.converged();
 }
 
@@ -147,10 +136,9 @@ void SweepWalk::tell() {
 /// Says so where the body moved far since the pose before, by more than what is prescribed.
 void SweepWalk::note_jump(Stop& stop) {
   if (!stop.converged() || told_ == 0 || !stops_[told_ - 1].converged()) return;
-  const Model& model = solver_.model();
-  const std::string words =
-      jump(model, carried(model, drive_at(stop.at.value), in_model(stops_[told_ - 1].at.result)),
-           in_model(stop.at.result));
+  const RigidTransform before = in_model(stops_[told_ - 1].at.result);
+  const std::string words = jump(model(), carried(model(), walker_.drive_at(stop.at.value), before),
+                                 in_model(stop.at.result));
   if (!words.empty()) add_remark(stop.at.result, words);
 }
 
@@ -165,19 +153,15 @@ void SweepWalk::find_events(Stop& stop) {
     return;
   }
   const auto begin = std::chrono::steady_clock::now();
-  locate_events(solver_, swept_, drive_, last.at, stop.at, stop.events);
+  locate_events(walker_, last.at, stop.at, stop.events);
   stand_at_last_converged();
   stop.at.result.event_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-void SweepWalk::stand_at(const SolvedPose& pose) {
-  solver_.set_state(pose.state, drive_at(pose.value));
-}
-
 void SweepWalk::stand_at_last_converged() {
-  if (last_converged_) return stand_at(stops_[*last_converged_].at);
-  solver_.go_back(start_);
+  if (last_converged_) return walker_.stand_at(stops_[*last_converged_].at);
+  solver().go_back(start_);
 }
 
 /// Did the sweep go from one converged pose to the next on one branch, so far as is known?
@@ -204,23 +188,21 @@ void SweepWalk::note_second_equilibria() {
 }
 
 void SweepWalk::follow(std::size_t from, int way) {
-  SolvedPose at = stops_[from].at;
+  const SolvedPose* last = &stops_[from].at;
   for (auto k = static_cast<std::ptrdiff_t>(from) + way;
        k >= 0 && k < static_cast<std::ptrdiff_t>(stops_.size()); k += way) {
     Stop& stop = stops_[static_cast<std::size_t>(k)];
     if (!stop.converged()) continue;
-    stand_at(at);
-    solver_.solve(drive_at(stop.at.value), trial_, Patience::kNone);
-    stop.at.result.seconds += trial_.seconds;
-    const Model& model = solver_.model();
-    const RigidTransform here = in_model(stop.at.result), there = in_model(trial_);
-    if (!trial_.converged() || same_pose(model, here, there)) return;
+    walker_.stand_at(*last);
+    walker_.step(stop.at.value, Patience::kNone, trial_);
+    last = &trial_;
+    stop.at.result.seconds += trial_.result.seconds;
+    const RigidTransform here = in_model(stop.at.result), there = in_model(trial_.result);
+    if (!trial_.result.converged() || same_pose(model(), here, there)) return;
     add_remark(stop.at.result,
-               second_equilibrium(model, here, there,
+               second_equilibrium(model(), here, there,
                                   way > 0 ? "followed from the poses before it in the sweep"
                                           : "followed back from the poses after it in the sweep"));
-    at.value = stop.at.value;
-    at.state = solver_.solution();
   }
 }
 

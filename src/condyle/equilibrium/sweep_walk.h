@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "condyle/equilibrium/events.h"
-#include "condyle/equilibrium/sweep.h"
+#include "condyle/equilibrium/known_poses.h"
+#include "condyle/equilibrium/sweep_options.h"
+#include "condyle/equilibrium/walker.h"
 
 namespace condyle {
 
@@ -32,24 +34,22 @@ class SweepWalk {
 
   void step(double value);
   bool take_over(const KnownPose& known, Stop& stop);
+  EquilibriumSolver& solver() { return walker_.solver(); }
+  [[nodiscard]] const Model& model() const { return walker_.model(); }
   [[nodiscard]] RigidTransform in_model(const PoseResult& pose) const;
   [[nodiscard]] bool agrees(const PoseResult& pose, const PoseResult& known) const;
   void compute(Stop& stop);
   void mend_gap();
-  bool mend(Stop& stop, const Stop& from);
+  bool mend(Stop& stop, const Stop& from, std::optional<PoseOrigin> origin = {});
   void tell();
   void find_events(Stop& stop);
   void note_jump(Stop& stop);
-  const Drive& drive_at(double value);
-  void stand_at(const SolvedPose& pose);
   void stand_at_last_converged();
   void note_second_equilibria();
   void follow(std::size_t from, int way);
   [[nodiscard]] bool continuous(std::size_t a, std::size_t b) const;
 
-  EquilibriumSolver& solver_;
-  Swept swept_;
-  Drive drive_;  ///< of the value under way
+  Walker walker_;
   const SweepOptions& options_;
   KnownPoseIndex known_;
   EquilibriumSolver::Standing start_;
@@ -58,7 +58,7 @@ class SweepWalk {
   std::size_t told_ = 0;  ///< stops that are final
   std::optional<std::size_t> last_converged_;
   std::optional<std::size_t> last_solved_;  ///< of those told
-  PoseResult trial_;
+  SolvedPose trial_;
 };
 
 }  // namespace condyle

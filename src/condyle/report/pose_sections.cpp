@@ -167,7 +167,8 @@ std::string solver_section(const Run& run) {
       "<p>{:.3g} Newton iterations and {} a pose; largest out-of-balance force {:.1e} "
       "N.</p>\n",
       iterations / n, short_time(seconds / n, "µs"), residual);
-  return section("solver", "Solver", body + details("Each pose", html(table)));
+  return section("solver", "Solver",
+                 body + details("Each pose", html(table)) + trace_details(poses, swept));
 }
 
 }  // namespace condyle

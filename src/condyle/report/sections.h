@@ -3,6 +3,7 @@
 /// The sections of a report, each as HTML, or nothing where the run has nothing to say there.
 
 #include <string>
+#include <vector>
 
 #include "condyle/results/run_view.h"
 
@@ -17,6 +18,9 @@ namespace condyle {
 [[nodiscard]] std::string ligament_section(const Run& run);
 [[nodiscard]] std::string event_section(const Run& run);
 [[nodiscard]] std::string solver_section(const Run& run);
+/// By which way poses were found: a part of the solver's section.
+[[nodiscard]] std::string trace_details(const std::vector<PoseResult>& poses,
+                                        const SweptQuantity& swept);
 [[nodiscard]] std::string comparison_section(const Run& run);
 [[nodiscard]] std::string laxity_section(const Run& run);
 [[nodiscard]] std::string motion_section(const Run& run);  ///< of a simulation

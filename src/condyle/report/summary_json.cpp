@@ -35,6 +35,17 @@ Json joint_of(const PoseResult& pose) {
   return joint;
 }
 
+void add_trace(const PoseTrace& trace, Json& row) {
+  if (!trace.told()) return;
+  row["route"] = name(trace.route);
+  row["route_from"] = name(trace.origin);
+  row["parts"] = trace.parts;
+  row["searches"] = trace.searches;
+  row["closings"] = trace.closings;
+  row["openings"] = trace.openings;
+  row["residuals"] = std::vector<double>(trace.residuals.begin(), trace.residuals.end());
+}
+
 Json poses_of(const Run& run, const SweptQuantity& swept, const SweepResult& sweep) {
   Json poses = Json::array();
   for (const PoseResult& pose : sweep.poses) {
@@ -46,6 +57,7 @@ Json poses_of(const Run& run, const SweptQuantity& swept, const SweepResult& swe
                 {"residual", pose.residual},
                 {"seconds", pose.seconds},
                 {"event_seconds", pose.event_seconds}};
+    add_trace(pose.trace, row);
     if (run.scene.joint && pose.solved()) row["joint"] = joint_of(pose);
     poses.push_back(std::move(row));
   }

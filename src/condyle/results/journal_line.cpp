@@ -64,6 +64,30 @@ struct Taker {
   }
 };
 
+constexpr std::string_view kTrace = " trace";
+
+void put_trace(std::string& out, const PoseTrace& trace) {
+  out += kTrace;
+  put(out, static_cast<int>(trace.route));
+  put(out, static_cast<int>(trace.origin));
+  for (const int count : {trace.parts, trace.searches, trace.closings, trace.openings})
+    put(out, count);
+  put(out, trace.residuals.size());
+  put(out, trace.residuals.begin(), trace.residuals.size());
+}
+
+/// Lines of older runs have none.
+void take_trace(Taker& take, PoseTrace& trace) {
+  if (!take.rest.starts_with(kTrace)) return;
+  take.rest.remove_prefix(kTrace.size());
+  trace.route = static_cast<PoseRoute>(take.index(kPoseRouteCount));
+  trace.origin = static_cast<PoseOrigin>(take.index(kPoseOriginCount));
+  for (int* count : {&trace.parts, &trace.searches, &trace.closings, &trace.openings})
+    *count = take.number<int>();
+  const std::size_t residuals = take.index(ResidualHistory::kMost + 1);
+  for (std::size_t k = 0; take.ok && k < residuals; ++k) trace.residuals.add(take.number<double>());
+}
+
 void take_contacts(Taker& take, std::size_t contacts, PoseResult& pose) {
   pose.contacts.assign(contacts, {});
   const auto points = take.number<std::size_t>();
@@ -155,6 +179,7 @@ void write_journal_line(const KnownPose& known, std::string& out) {
     put(out, static_cast<int>(event.kind));
     put(out, event.contact);
   }
+  put_trace(out, pose.trace);
   out += " \"" + pose.reason + "\" \"" + pose.remark + "\"";
   put(out, pose.remark.size());
   put(out, static_cast<int>(known.from_elsewhere));
@@ -186,6 +211,7 @@ bool read_journal_line(std::string_view line,
   for (ConditionResult& condition : pose.conditions) condition.multiplier = take.number<double>();
   take_contacts(take, contacts, pose);
   take_events(take, contacts, known);
+  take_trace(take, pose.trace);
   return take.ok && take_words(take.rest, known);
 }
 

@@ -12,6 +12,7 @@
 #include "condyle/results/run_view.h"
 #include "condyle/results/simulation_group.h"
 #include "condyle/results/sweep_group.h"
+#include "condyle/results/trace_columns.h"
 #include "condyle/scene/read_scene.h"
 #include "condyle/surface/bspline_basis.h"
 
@@ -152,9 +153,10 @@ void read_solver(const Hdf5Group& sweep, Poses& poses) {
                 [](PoseResult& p, int iterations) { p.iterations = iterations; });
   take(newton, "residual", n, poses, [](PoseResult& p, const double* row) { p.residual = *row; });
   take(newton, "seconds", n, poses, [](PoseResult& p, const double* row) { p.seconds = *row; });
-  if (!newton.has("event_seconds")) return;
-  take(newton, "event_seconds", n, poses,
-       [](PoseResult& p, const double* row) { p.event_seconds = *row; });
+  if (newton.has("event_seconds"))
+    take(newton, "event_seconds", n, poses,
+         [](PoseResult& p, const double* row) { p.event_seconds = *row; });
+  read_traces(sweep, newton, poses);
 }
 
 RunStudy read_study(const Hdf5Group& root, const Scene& scene) {

@@ -13,6 +13,7 @@
 #include "condyle/results/run_view.h"
 #include "condyle/results/simulation_group.h"
 #include "condyle/results/sweep_group.h"
+#include "condyle/results/trace_columns.h"
 
 namespace condyle {
 namespace {
@@ -236,6 +237,7 @@ void write_solver(const Hdf5Group& sweep, const Poses& poses) {
   newton.write("seconds", numbers(poses, [](const PoseResult& p) { return p.seconds; }), n, "s");
   newton.write("event_seconds", numbers(poses, [](const PoseResult& p) { return p.event_seconds; }),
                n, "s");
+  write_traces(sweep, newton, poses);
 }
 
 void write_events(const Hdf5Group& group, const Run& run, const Unit& unit) {

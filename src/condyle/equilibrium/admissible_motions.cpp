@@ -1,0 +1,45 @@
+#include "condyle/equilibrium/admissible_motions.h"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+
+namespace condyle {
+namespace {
+
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+
+constexpr double kDependent = 1e-9;  // of constraint directions
+
+}  // namespace
+
+Eigen::Matrix<double, 6, 1> constraint_direction(const Model& model,
+                                                 const NewtonSystem& system,
+                                                 std::size_t constraint) {
+  Eigen::Matrix<double, 6, 1> direction;
+  const std::size_t n = system.contacts().size();
+  if (constraint < n) {
+    const ContactLinearization& contact = system.contacts()[constraint];
+    direction << contact.B.n, contact.arm / model.length;
+  } else {
+    const ConditionDerivatives& condition = system.conditions()[constraint - n];
+    direction << condition.alpha, condition.eta / model.length;
+  }
+  // Conditions on lengths and on angles differ in size: only their directions matter.
+  return direction.normalized();
+}
+
+Motions admissible_motions(const Model& model, const NewtonSystem& system) {
+  const std::size_t count =
+      std::min<std::size_t>(system.contacts().size() + system.conditions().size(), kMaxConstraints);
+  SmallMatrix columns(6, static_cast<Eigen::Index>(count));
+  for (std::size_t k = 0; k < count; ++k)
+    columns.col(static_cast<Eigen::Index>(k)) = constraint_direction(model, system, k);
+  if (count == 0 || !columns.allFinite()) return SmallMatrix::Identity(6, 6);
+  Eigen::ColPivHouseholderQR<SmallMatrix> qr(columns);
+  qr.setThreshold(kDependent);
+  const SmallMatrix Q = qr.householderQ() * SmallMatrix::Identity(6, 6);
+  return Q.rightCols(6 - qr.rank());
+}
+
+}  // namespace condyle
