@@ -6,6 +6,7 @@
 
 #include "condyle/contact/bending.h"
 #include "condyle/contact/contact.h"
+#include "condyle/contact/refine_minimum.h"
 #include "condyle/math/rotation.h"
 #include "condyle/surface/exact_surfaces.h"
 

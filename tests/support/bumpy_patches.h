@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "condyle/contact/contact_search.h"
+#include "condyle/contact/refine_minimum.h"
 #include "condyle/surface/bspline_basis.h"
 #include "condyle/surface/patch.h"
 #include "support/random.h"

@@ -13,6 +13,7 @@
 #include "condyle/contact/contact_scales.h"
 #include "condyle/contact/gap_paraboloid.h"
 #include "condyle/contact/line_contact.h"
+#include "condyle/contact/refine_minimum.h"
 
 namespace condyle {
 namespace {

@@ -18,18 +18,10 @@
 
 #include "condyle/contact/bending.h"
 #include "condyle/contact/contact_pair.h"
+#include "condyle/contact/gap_minimum.h"
 #include "condyle/math/rigid_transform.h"
 
 namespace condyle {
-
-/// A local minimum of the gap, or, where the refinement did not settle, the lowest sample.
-struct GapMinimum {
-  Place on_B, on_A;
-  double gap = 0;              ///< [mm], < 0 overlap
-  Eigen::Vector3d point_B, n;  ///< point and normal on B, ground frame
-  bool refined = false;  ///< normals parallel, an isolated minimum (relative curvature positive)
-  double edge = 0;       ///< smaller of the two edge distances [mm]
-};
 
 /// A contact that has been solved already: gap zero, normals opposite.
 struct KnownContact {
@@ -180,14 +172,5 @@ class ContactSearch {
   RigidTransform nearest_X_;
   double nearest_reach_ = -1, nearest_merge_ = -1;
 };
-
-/// Refines two places to a local minimum of the gap at a fixed pose: Newton on g tangential = 0, h
-/// = 0. False where it does not settle on an isolated minimum within `reach` [mm] of the start.
-bool refine_minimum(const Surface& on_B,
-                    Place& place_B,
-                    const Surface& on_A,
-                    Place& place_A,
-                    const RigidTransform& X_BA,
-                    double reach);
 
 }  // namespace condyle

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "condyle/contact/contact.h"
-#include "condyle/contact/contact_search.h"
+#include "condyle/contact/gap_minimum.h"
 
 namespace condyle {
 

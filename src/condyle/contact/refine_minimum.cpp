@@ -1,9 +1,10 @@
+#include "condyle/contact/refine_minimum.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 
 #include "condyle/contact/contact.h"
-#include "condyle/contact/contact_search.h"
 
 namespace condyle {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "condyle/contact/contact_scales.h"
-#include "condyle/contact/contact_search.h"
+#include "condyle/contact/refine_minimum.h"
 
 namespace condyle {
 namespace {

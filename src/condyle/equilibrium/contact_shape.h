@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "condyle/contact/contact_search.h"
 #include "condyle/contact/line_contact.h"
 #include "condyle/equilibrium/newton.h"
 #include "condyle/equilibrium/pose_result.h"

@@ -1,0 +1,19 @@
+#pragma once
+
+/// A place where the gap between two surfaces is smallest at a pose.
+
+#include "condyle/math/rigid_transform.h"
+#include "condyle/surface/surface.h"
+
+namespace condyle {
+
+/// A local minimum of the gap, or, where the refinement did not settle, the lowest sample.
+struct GapMinimum {
+  Place on_B, on_A;
+  double gap = 0;              ///< [mm], < 0 overlap
+  Eigen::Vector3d point_B, n;  ///< point and normal on B, ground frame
+  bool refined = false;  ///< normals parallel, an isolated minimum (relative curvature positive)
+  double edge = 0;       ///< smaller of the two edge distances [mm]
+};
+
+}  // namespace condyle

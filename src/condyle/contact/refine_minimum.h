@@ -1,0 +1,19 @@
+#pragma once
+
+/// From two places to the minimum of the gap near them.
+
+#include "condyle/math/rigid_transform.h"
+#include "condyle/surface/surface.h"
+
+namespace condyle {
+
+/// Refines two places to a local minimum of the gap at a fixed pose: Newton on g tangential = 0, h
+/// = 0. False where it does not settle on an isolated minimum within `reach` [mm] of the start.
+bool refine_minimum(const Surface& on_B,
+                    Place& place_B,
+                    const Surface& on_A,
+                    Place& place_A,
+                    const RigidTransform& X_BA,
+                    double reach);
+
+}  // namespace condyle
