@@ -20,6 +20,8 @@
 #include "condyle/equilibrium/arc_length.h"
 #include "condyle/equilibrium/carried_pose.h"
 #include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/linearization.h"
+#include "condyle/equilibrium/path_system.h"
 #include "condyle/equilibrium/sweep.h"
 #include "support/allocation_count.h"
 #include "support/counted_model.h"
@@ -126,8 +128,70 @@ TEST_F(SharedKnee, ADriveOfTheWrongSizeIsAnErrorInWords) {
     EXPECT_EQ(words_of([&] { (void)follow_path(solver, condition_value(0), 0, 1, 1, path); }),
               expected);
   }
-  EXPECT_THROW((void)sweep(solver, load_scale(model->loads.size()), {0}), std::out_of_range);
   EXPECT_TRUE(solver.solve().converged());  // none of this has left a trace
+}
+
+TEST_F(SharedKnee, ASweptNumberThatIsNoneIsAnErrorInWords) {
+  EquilibriumSolver solver(model, covers);
+  const Swept load = load_scale(model->loads.size()), condition = condition_value(7);
+  const auto words = [](const std::function<void()>& wrong) -> std::string {
+    try {
+      wrong();
+    } catch (const std::out_of_range& error) {
+      return error.what();
+    }
+    return "nothing was thrown";
+  };
+  const std::string of_loads = "number 1 is swept of the 1 scales of loads that the drive has";
+  const std::string of_conditions =
+      "number 7 is swept of the 1 values of conditions that the drive has";
+  EXPECT_EQ(words([&] { (void)sweep(solver, load, {0}); }), of_loads);
+  EXPECT_EQ(words([&] { (void)sweep(solver, condition, {0}); }), of_conditions);
+  EXPECT_EQ(words([&] { (void)follow_path(solver, condition, 0, 1, 1); }), of_conditions);
+  EXPECT_EQ(words([&] { PathSystem(*model, condition, drive_of(*model), 1); }), of_conditions);
+  EXPECT_EQ(words([&] { (void)condition.with(drive_of(*model), 1); }), of_conditions);
+  EXPECT_TRUE(solver.solve().converged());
+}
+
+// A state of another model has other multipliers, or contacts of pairs that are none.
+TEST_F(SharedKnee, AStateOfAnotherModelIsAnErrorInWords) {
+  EquilibriumSolver solver(model, covers);
+  ASSERT_TRUE(solver.solve().converged());
+  const Drive drive = drive_of(*model);
+  const EquilibriumState good = solver.state();
+  EquilibriumState more = good, other = good;
+  more.sigma.push_back(0);
+  other.contacts[0].pair = 2;
+  const std::string of_more = "the state has 2 multipliers, expected 1 as the model has conditions";
+  const std::string of_other =
+      "a contact of the state is of pair 2, expected one of the 2 that the model has";
+  Newton newton(*model);
+  NewtonSystem system(*model);
+  for (const auto& [wrong, words] : {std::pair{more, of_more}, std::pair{other, of_other}}) {
+    EquilibriumState state = wrong;
+    EXPECT_EQ(words_of([&] { solver.set_state(state, drive); }), words);
+    EXPECT_EQ(words_of([&] { solver.go_back({state, drive, true}); }), words);
+    EXPECT_EQ(words_of([&] { newton.solve(state, drive); }), words);
+    EXPECT_EQ(words_of([&] { system.assemble(state, drive); }), words);
+  }
+  EXPECT_EQ(solver.state().X.p, good.X.p);
+}
+
+// What was assembled at one state says nothing of another one.
+TEST_F(SharedKnee, ALinearizationOfAnotherStateIsAnErrorInWords) {
+  EquilibriumSolver solver(model, covers);
+  ASSERT_TRUE(solver.solve().converged());
+  const Drive drive = drive_of(*model);
+  const EquilibriumState state = solver.state();
+  NewtonSystem system(*model);
+  ASSERT_TRUE(system.assemble(state, drive));
+  EXPECT_EQ(linearization(system, state, drive).constraints(), 3U);
+  const char* words = "the system was last assembled at another state";
+  EquilibriumState moved = state, opened = state;
+  moved.X.p.x() += 1e-9;
+  opened.contacts.pop_back();
+  EXPECT_EQ(words_of([&] { (void)linearization(system, moved, drive); }), words);
+  EXPECT_EQ(words_of([&] { (void)linearization(system, opened, drive); }), words);
 }
 
 TEST_F(SharedKnee, CoversOfAnotherModelAreAnError) {
@@ -257,12 +321,24 @@ TEST_F(SharedKnee, ParametersCostNoRebuildingAndMustFit) {
   solver.set_parameters(parameters);
   EXPECT_EQ(count.since_start(), 0);
   EXPECT_TRUE(solver.solve().converged());
+  const auto expect_refused = [&](std::size_t elements, std::size_t loads) {
+    const std::string words = "the parameters are of " + std::to_string(elements) +
+                              " line elements and " + std::to_string(loads) + " loads, expected " +
+                              std::to_string(model->elements.size()) + " and " +
+                              std::to_string(model->loads.size()) + " as the model has";
+    NewtonSystem system(*model);
+    PathSystem path(*model, condition_value(0), drive_of(*model), 1);
+    EXPECT_EQ(words_of([&] { solver.set_parameters(parameters); }), words);
+    EXPECT_EQ(words_of([&] { system.set_parameters(parameters); }), words);
+    EXPECT_EQ(words_of([&] { path.set_parameters(parameters); }), words);
+  };
   parameters.loads.pop_back();
-  EXPECT_EQ(words_of([&] { solver.set_parameters(parameters); }),
-            "the parameters are of " + std::to_string(model->elements.size()) +
-                " line elements and " + std::to_string(model->loads.size() - 1) +
-                " loads, expected " + std::to_string(model->elements.size()) + " and " +
-                std::to_string(model->loads.size()) + " as the model has");
+  expect_refused(model->elements.size(), model->loads.size() - 1);
+  // A parameter that is no ligament's.
+  parameters = parameters_of(*model);
+  parameters.elements.push_back(parameters.elements[0]);
+  expect_refused(model->elements.size() + 1, model->loads.size());
+  EXPECT_TRUE(solver.solve().converged());
 }
 
 }  // namespace

@@ -177,15 +177,17 @@ TEST(JointStiffness, SaysNothingWhereThereIsNone) {
   loose.conditions.clear();
   loose.loads.clear();
   NewtonSystem nothing(loose);
-  (void)nothing.assemble({}, {});
-  EXPECT_FALSE(joint_stiffness(loose, nothing, {}));
+  const EquilibriumState free;
+  (void)nothing.assemble(free, {});
+  EXPECT_FALSE(joint_stiffness(linearization(nothing, free, {})));
   loose.joint.reset();
-  EXPECT_FALSE(joint_stiffness(loose, nothing, {}));
+  EXPECT_FALSE(joint_stiffness(linearization(nothing, free, {})));
   // Adduction of 90 degrees: flexion and internal rotation are the same turn.
   const RigidTransform across{rotation_from_joint_angles(*model.joint, 0, M_PI / 2, 0), {0, 0, 0}};
   NewtonSystem there(model);
-  (void)there.assemble({across, {}, std::vector<double>(6, 0.0)}, drive_of(model));
-  EXPECT_FALSE(joint_stiffness(model, there, across));
+  const EquilibriumState at_90{across, {}, std::vector<double>(6, 0.0)};
+  (void)there.assemble(at_90, drive_of(model));
+  EXPECT_FALSE(joint_stiffness(linearization(there, at_90, drive_of(model))));
 }
 
 }  // namespace

@@ -22,9 +22,11 @@ struct Judged {
 
 Judged judge(const Model& model, const EquilibriumState& state) {
   NewtonSystem system(model);
-  system.assemble(state, drive_of(model));
-  Judged judged{stability(model, system), {}};
-  judged.remark = stability_remark(model, system, state.X, judged.stability);
+  const Drive drive = drive_of(model);
+  system.assemble(state, drive);
+  const Linearization at = linearization(system, state, drive);
+  Judged judged{stability(at), {}};
+  judged.remark = stability_remark(at, judged.stability);
   return judged;
 }
 

@@ -2,14 +2,20 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <string>
+
 #include "condyle/equilibrium/equilibrium_solver.h"
 #include "condyle/equilibrium/model_covers.h"
+#include "condyle/input_error.h"
 #include "condyle/math/rotation.h"
 #include "condyle/network/knee_network.h"
 #include "condyle/network/network_equations.h"
 #include "condyle/network/settle_contacts.h"
+#include "support/led_paths.h"
 #include "support/quadric_knee.h"
 #include "support/random.h"
+#include "support/two_balls.h"
 
 namespace condyle {
 namespace {
@@ -93,6 +99,25 @@ TEST(Statics, TheEnginesPoseIsAPositionOfRestOfTheNetwork) {
     ++closed;
   }
   EXPECT_EQ(closed, 2);
+}
+
+// What the network does not carry it does not leave out in silence.
+TEST(Statics, PathsAndContactLawsOfTheirOwnAreRefused) {
+  const auto words_of = [](const Model& model) -> std::string {
+    try {
+      (void)make_knee_network(model, {});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "nothing was thrown";
+  };
+  Model soft = test::quadric_knee(), led = soft;
+  soft.pairs.push_back(test::pair_of_balls({{0, 0, 0}, {0, 0, 0}, 20, 10, 50}));
+  EXPECT_EQ(words_of(soft),
+            "contact \"balls\" has a law of its own, expected rigid contacts in a motion");
+  led.elements[1].path = std::make_shared<test::PegPath>(Eigen::Vector3d(0, 0, 0));
+  EXPECT_EQ(words_of(led),
+            "ligament \"pACL\" has a path of its own, expected a straight one in a motion");
 }
 
 }  // namespace

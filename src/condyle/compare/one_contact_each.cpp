@@ -1,43 +1,28 @@
 #include "condyle/compare/one_contact_each.h"
 
-#include "condyle/elements/strain.h"
 #include "condyle/equilibrium/build_model.h"
-#include "condyle/equilibrium/describe_pose.h"
+#include "condyle/equilibrium/linearization.h"
+#include "condyle/equilibrium/pose_result.h"
 #include "condyle/equilibrium/restore_state.h"
 #include "condyle/math/rotation.h"
 
 namespace condyle {
 namespace {
 
-ContactResult describe(const Model& model, const EquilibriumState& state, std::size_t index) {
-  const ClosedContact& contact = state.contacts[index];
-  const ContactPair& pair = model.pairs[static_cast<std::size_t>(contact.pair)];
-  const ContactLinearization at =
-      linearize_contact(*pair.on_B, contact.on_B, *pair.on_A, contact.on_A, state.X);
-  ContactResult result;
-  result.closed = true;
-  result.points = {describe_point(at, contact.p, edge_distance(pair, contact.on_B, contact.on_A))};
-  set_resultant(result);
-  return result;
-}
-
-void describe(const Model& model,
-              const EquilibriumState& state,
-              const Drive& drive,
-              PoseResult& pose) {
+void describe(const Linearization& at, PoseResult& pose) {
   pose.status = PoseStatus::kConverged;
-  pose.X_BA = state.X;
-  pose.joint = joint_coordinates(*model.joint, state.X);
-  pose.contacts.resize(model.pairs.size());
-  for (std::size_t c = 0; c < state.contacts.size(); ++c)
-    pose.contacts[static_cast<std::size_t>(state.contacts[c].pair)] = describe(model, state, c);
-  for (const LineElement& element : model.elements) {
-    const LineElementState spring = line_element_state(element, state.X);
-    pose.ligaments.push_back({spring.length, strain(element.law, spring.length), spring.force});
+  begin_pose(
+      {at.state.X, &*at.model.joint, at.model.elements, at.state.paths, at.model.pairs.size()},
+      pose);
+  for (std::size_t c = 0; c < at.contacts().size(); ++c) {
+    const ClosedContact& contact = at.state.contacts[c];
+    add_closed_point(describe_point(at.contacts()[c], contact.p,
+                                    edge_distance(at.pair(c), contact.on_B, contact.on_A)),
+                     pose.contacts[static_cast<std::size_t>(contact.pair)]);
   }
-  for (std::size_t k = 0; k < model.conditions.size(); ++k)
-    pose.conditions.push_back({drive.values[k], state.sigma[k]});
-  to_file_frames(model.origins, pose);
+  for (std::size_t k = 0; k < at.conditions().size(); ++k)
+    pose.conditions.push_back({at.conditions()[k].coordinate, at.state.sigma[k]});
+  to_file_frames(at.model.origins, pose);
 }
 
 /// So that Newton has something to solve.
@@ -67,7 +52,8 @@ SweepResult sweep_one_contact_each(const Scene& scene,
       const NewtonReport report = newton.solve(state, drive);
       pose.iterations = report.iterations;
       pose.residual = report.residual;
-      if (report.outcome == NewtonOutcome::kConverged) describe(model, state, drive, pose);
+      if (report.outcome == NewtonOutcome::kConverged)
+        describe(linearization(newton.system(), state, drive), pose);
     }
     result.poses.push_back(std::move(pose));
   }

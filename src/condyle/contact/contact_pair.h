@@ -8,12 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "condyle/contact/contact_law.h"
 #include "condyle/contact/hertz.h"
 #include "condyle/surface/surface.h"
 
 namespace condyle {
 
-/// Whether a contact opens and closes by itself, is held closed (it may pull), or is left out.
+/// Whether rigid points of contact open and close by themselves, are held closed (they may pull),
+/// or are left out.
 enum class ContactMode { kAuto, kClosed, kOpen };
 
 struct ContactPair {
@@ -23,6 +25,7 @@ struct ContactPair {
   ContactMode mode = ContactMode::kAuto;
   std::vector<Eigen::Vector3d> start;  ///< first estimates of contact points, ground frame [mm]
   std::optional<ElasticSurface> elastic_B, elastic_A;  ///< absent: rigid
+  ContactLaw law = {};  ///< in place of rigid points, `mode` being kOpen; empty: none
 };
 
 /// The smaller of a contact's distances from the edges of its two surfaces [mm].

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include <limits>
 #include <variant>
 
 namespace condyle {
@@ -42,11 +43,62 @@ Tension tension_of_element(const LineElement& element, double length) {
   return tension(element.law, length);
 }
 
+/// What a pull of `t` along a path adds whose pull of 1 N is `unit`.
+void add_pull(const Tension& t, const Wrench& unit, Wrench& wrench) {
+  const Eigen::Vector3d slope_f = t.slope * unit.f, slope_m = t.slope * unit.m;
+  wrench.f += t.force * unit.f;
+  wrench.m += t.force * unit.m;
+  wrench.F1 += t.force * unit.F1 - slope_f * unit.f.transpose();
+  wrench.F2 += t.force * unit.F2 - slope_f * unit.m.transpose();
+  wrench.M1 += t.force * unit.M1 - slope_m * unit.f.transpose();
+  wrench.M2 += t.force * unit.M2 - slope_m * unit.m.transpose();
+}
+
+LineElementState add_along_path(const LineElement& element,
+                                const RigidTransform& X_BA,
+                                double* kept,
+                                Wrench& wrench) {
+  auto unknown = kept != nullptr ? std::array<double, kMostPathNumbers>() : unknown_path();
+  Wrench unit;
+  const double L = element.path->pull(ends_of(element, X_BA), X_BA,
+                                      kept != nullptr ? kept : unknown.data(), unit);
+  if (!(L > kLeastLength)) return {L, 0, 0};
+  const Tension t = tension_of_element(element, L);
+  if (t.force != 0 || t.slope != 0) add_pull(t, unit, wrench);
+  return {L, t.force, t.energy};
+}
+
+double path_length(const LineElement& element, const RigidTransform& X_BA, double* kept) {
+  auto unknown = kept != nullptr ? std::array<double, kMostPathNumbers>() : unknown_path();
+  return element.path->length(ends_of(element, X_BA), X_BA,
+                              kept != nullptr ? kept : unknown.data());
+}
+
 }  // namespace
+
+LineEnds ends_of(const LineElement& element, const RigidTransform& X_BA) {
+  const Eigen::Vector3d q = X_BA.R * element.s_D;
+  return {element.x_C, X_BA.p + q, q};
+}
+
+std::size_t path_numbers(const std::vector<LineElement>& elements) {
+  std::size_t numbers = 0;
+  for (const LineElement& element : elements)
+    if (element.path) numbers += static_cast<std::size_t>(element.path->numbers());
+  return numbers;
+}
+
+KeptPaths::KeptPaths(const std::vector<LineElement>& elements, std::vector<double>& kept) {
+  const std::size_t numbers = path_numbers(elements);
+  if (kept.size() != numbers) kept.assign(numbers, std::numeric_limits<double>::quiet_NaN());
+  next_ = kept.data();
+}
 
 LineElementState add_line_element(const LineElement& element,
                                   const RigidTransform& X_BA,
-                                  Wrench& wrench) {
+                                  Wrench& wrench,
+                                  double* kept) {
+  if (element.path) return add_along_path(element, X_BA, kept, wrench);
   const Eigen::Vector3d q = X_BA.R * element.s_D;
   const Eigen::Vector3d d = X_BA.p + q - element.x_C;
   const double L = d.norm();
@@ -63,8 +115,11 @@ LineElementState add_line_element(const LineElement& element,
   return {L, t.force, t.energy};
 }
 
-LineElementState line_element_state(const LineElement& element, const RigidTransform& X_BA) {
-  const double L = (X_BA * element.s_D - element.x_C).norm();
+LineElementState line_element_state(const LineElement& element,
+                                    const RigidTransform& X_BA,
+                                    double* kept) {
+  const double L =
+      element.path ? path_length(element, X_BA, kept) : (X_BA * element.s_D - element.x_C).norm();
   if (!(L > kLeastLength)) return {L, 0, 0};
   const Tension t = tension_of_element(element, L);
   return {L, t.force, t.energy};

@@ -1,6 +1,9 @@
 #include "condyle/elements/line_element_block.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <variant>
 
 #include "condyle/math/simd.h"
@@ -42,7 +45,22 @@ Eigen::Matrix3d matrix_of(const double (*rows)[4]) {
 void LineElementBlock::set(const std::vector<LineElement>& elements) {
   entries_.clear();
   entries_.reserve(elements.size());
+  straight_.clear();
+  curved_.clear();
+  paths_.resize(path_numbers(elements));
+  std::size_t numbers = 0;
   for (const LineElement& element : elements) {
+    const auto index = static_cast<int>(&element - elements.data());
+    if (element.path) {
+      if (curved_.empty()) {
+        straight_.resize(static_cast<std::size_t>(index));
+        std::iota(straight_.begin(), straight_.end(), 0);
+      }
+      curved_.push_back({&element, index, numbers});
+      numbers += static_cast<std::size_t>(element.path->numbers());
+      continue;
+    }
+    if (!curved_.empty()) straight_.push_back(index);
     Entry entry{};
     for (int i = 0; i < 3; ++i) {
       entry.x_C[i] = element.x_C[i];
@@ -127,8 +145,35 @@ void LineElementBlock::add_entries(const std::vector<Entry>& entries,
   sums.zero_element = zero_element;
 }
 
+void LineElementBlock::add_curved(const RigidTransform& X_BA,
+                                  const std::vector<double>& kept,
+                                  Wrench& wrench,
+                                  Summary& summary) {
+  if (summary.zero_element >= 0)
+    summary.zero_element = straight_[static_cast<std::size_t>(summary.zero_element)];
+  if (kept.size() == paths_.size())
+    paths_ = kept;
+  else
+    std::fill(paths_.begin(), paths_.end(), std::numeric_limits<double>::quiet_NaN());
+  for (const Curved& curved : curved_) {
+    const LineElementState state =
+        add_line_element(*curved.element, X_BA, wrench, paths_.data() + curved.numbers);
+    summary.force_magnitudes += std::abs(state.force);
+    if (!(state.length > kLeastLength)) summary.zero_element = curved.index;
+  }
+}
+
+bool LineElementBlock::revise_paths(const RigidTransform& X_BA) {
+  bool changed = false;
+  for (const Curved& curved : curved_)
+    changed |= curved.element->path->revise(ends_of(*curved.element, X_BA), X_BA,
+                                            paths_.data() + curved.numbers);
+  return changed;
+}
+
 LineElementBlock::Summary LineElementBlock::add_to(const RigidTransform& X_BA,
-                                                   Wrench& wrench) const {
+                                                   const std::vector<double>& kept,
+                                                   Wrench& wrench) {
   Sums sums;
   add_entries(entries_, X_BA, sums);
   const Eigen::Matrix3d qx = matrix_of(sums.qx);
@@ -147,7 +192,9 @@ LineElementBlock::Summary LineElementBlock::add_to(const RigidTransform& X_BA,
   wrench.M1 += F2.transpose();
   wrench.M2 += qx - matrix_of(sums.uu);
   wrench.M2.diagonal().array() -= qx.trace();
-  return {sums.magnitudes, sums.zero_element};
+  Summary summary{sums.magnitudes, sums.zero_element};
+  if (has_paths()) add_curved(X_BA, kept, wrench, summary);
+  return summary;
 }
 
 }  // namespace condyle

@@ -98,7 +98,7 @@ class PathFollower {
 
   ContactChanges changes_at(const PathPoint& point) {
     if (!system_.assemble(point)) return {};
-    return rules_.changes(system_.newton(), point.state);
+    return rules_.changes(system_.linearization(point));
   }
 
   /// One pose further; false at the end of the path.
@@ -178,7 +178,7 @@ class PathFollower {
   bool release(int contact, PathPoint& point, Direction& tangent) {
     system_.assemble(point);
     const ContactLinearization open =
-        system_.newton().contacts()[static_cast<std::size_t>(contact)];
+        system_.linearization(point).contacts()[static_cast<std::size_t>(contact)];
     point.state.contacts.erase(point.state.contacts.begin() + contact);
     if (!settle(point, tangent)) return false;
     if (system_.gap_rate(open, tangent) < 0) reverse(tangent);

@@ -18,25 +18,23 @@ const ContactPair& pair_of(const Model& model, const ClosedContact& contact) {
 }
 
 /// The contact that pulls most, beyond round-off; -1 where none does.
-int most_pulling(const Model& model, const NewtonSystem& system, const EquilibriumState& state) {
+int most_pulling(const Linearization& at) {
   int worst = -1;
-  double lowest = -kPull * system.force_scale();
-  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
-    const ClosedContact& contact = state.contacts[k];
-    if (pair_of(model, contact).mode == ContactMode::kClosed || contact.p >= lowest) continue;
+  double lowest = -kPull * at.force_scale();
+  for (std::size_t k = 0; k < at.state.contacts.size(); ++k) {
+    const double p = at.state.contacts[k].p;
+    if (at.pair(k).mode == ContactMode::kClosed || p >= lowest) continue;
     worst = static_cast<int>(k);
-    lowest = contact.p;
+    lowest = p;
   }
   return worst;
 }
 
 /// Has Newton led a contact to a place where the solids interpenetrate beside it?
-bool lies_off_minimum(const Model& model,
-                      const NewtonSystem& system,
-                      const EquilibriumState& state) {
-  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
-    const bool automatic = pair_of(model, state.contacts[k]).mode == ContactMode::kAuto;
-    if (automatic && system.contacts()[k].relative_curvature[0] < -kFlat) return true;
+bool lies_off_minimum(const Linearization& at) {
+  for (std::size_t k = 0; k < at.contacts().size(); ++k) {
+    const bool automatic = at.pair(k).mode == ContactMode::kAuto;
+    if (automatic && at.contacts()[k].relative_curvature[0] < -kFlat) return true;
   }
   return false;
 }
@@ -83,36 +81,37 @@ ContactRules::ContactRules(const Model& model, std::vector<ContactSearch>& searc
   minima_.reserve(kMinimaOfAPair);
 }
 
-const ContactChanges& ContactRules::changes(const NewtonSystem& system,
-                                            const EquilibriumState& state) {
+const ContactChanges& ContactRules::changes(const Linearization& at) {
   changes_.closes.clear();
   rims_.clear();
   changes_.deepest = 0;
   changes_.rims = changes_.too_many = false;
   changes_.searches = 0;
-  changes_.off_minimum = lies_off_minimum(model_, system, state);
-  changes_.opens = most_pulling(model_, system, state);
-  if (changes_.opens < 0) find_overlaps(system, state);
+  changes_.off_minimum = lies_off_minimum(at);
+  changes_.opens = most_pulling(at);
+  if (changes_.opens < 0) find_overlaps(at);
   return changes_;
 }
 
 /// What Newton has solved of a pair is a help to the search.
-void ContactRules::set_known(int pair, const NewtonSystem& system, const EquilibriumState& state) {
+void ContactRules::set_known(int pair, const Linearization& at) {
   known_.clear();
-  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
-    if (state.contacts[k].pair != pair) continue;
-    const ContactLinearization& at = system.contacts()[k];
-    known_.push_back({at.B.c, at.A.c, at.B.K, at.A.K, at.relative_curvature[0]});
+  for (std::size_t k = 0; k < at.state.contacts.size(); ++k) {
+    if (at.state.contacts[k].pair != pair) continue;
+    const ContactLinearization& contact = at.contacts()[k];
+    known_.push_back(
+        {contact.B.c, contact.A.c, contact.B.K, contact.A.K, contact.relative_curvature[0]});
   }
 }
 
 /// Those at a rim only where there are no others: they are no contacts, but may lead Newton to one.
-void ContactRules::find_overlaps(const NewtonSystem& system, const EquilibriumState& state) {
+void ContactRules::find_overlaps(const Linearization& at) {
+  const EquilibriumState& state = at.state;
   Overlaps inner{changes_.closes}, rims{rims_};
   for (std::size_t p = 0; p < searches_.size(); ++p) {
     if (model_.pairs[p].mode != ContactMode::kAuto) continue;
     const int pair = static_cast<int>(p);
-    set_known(pair, system, state);
+    set_known(pair, at);
     searches_[p].find(state.X, 0.0, minima_, kMerge * model_.length, known_);
     ++changes_.searches;
     for (const GapMinimum& minimum : minima_) {

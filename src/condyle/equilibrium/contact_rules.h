@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "condyle/contact/contact_search.h"
-#include "condyle/equilibrium/newton.h"
+#include "condyle/equilibrium/linearization.h"
 
 namespace condyle {
 
@@ -32,14 +32,13 @@ class ContactRules {
   /// Refers to both; `searches`: one for each pair. `overlap`: the largest that is none [mm].
   ContactRules(const Model& model, std::vector<ContactSearch>& searches, double overlap);
 
-  /// `system` assembled at the state, which is one of equilibrium with its contacts. Where one
-  /// pulls, overlaps are not looked for. Stays until the next call; allocates nothing once it has
-  /// held as many.
-  const ContactChanges& changes(const NewtonSystem& system, const EquilibriumState& state);
+  /// At a state that is one of equilibrium with its contacts. Where one pulls, overlaps are not
+  /// looked for. Stays until the next call; allocates nothing once it has held as many.
+  const ContactChanges& changes(const Linearization& at);
 
  private:
-  void find_overlaps(const NewtonSystem& system, const EquilibriumState& state);
-  void set_known(int pair, const NewtonSystem& system, const EquilibriumState& state);
+  void find_overlaps(const Linearization& at);
+  void set_known(int pair, const Linearization& at);
 
   const Model& model_;
   std::vector<ContactSearch>& searches_;

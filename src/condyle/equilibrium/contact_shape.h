@@ -7,8 +7,8 @@
 
 #include "condyle/contact/contact_search.h"
 #include "condyle/contact/line_contact.h"
+#include "condyle/contact/pose_status.h"
 #include "condyle/equilibrium/newton.h"
-#include "condyle/equilibrium/pose_result.h"
 
 namespace condyle {
 
@@ -33,11 +33,7 @@ struct TouchReport {
                                         const RigidTransform& X_BA,
                                         double L);
 
-/// A sentence and a status where no pose with such a contact may be called converged.
-struct Objection {
-  PoseStatus status;
-  std::string reason;
-};
+/// Where no pose with such a contact may be called converged.
 [[nodiscard]] std::optional<Objection> objection(Touch kind, const std::string& contact);
 
 /// The resultant of a line contact lies beyond an end.

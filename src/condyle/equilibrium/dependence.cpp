@@ -11,31 +11,16 @@
 namespace condyle {
 namespace {
 
-/// The pair whose two surfaces meet in a contact.
-const ContactPair& pair_of(const Model& model, const ContactLinearization& contact) {
-  const auto off = [&contact](const ContactPair& pair) {
-    const auto distance = [](const Surface& surface, const Eigen::Vector3d& p) {
-      return (surface.evaluate(surface.closest(p, surface.seed(p))).c - p).norm();
-    };
-    return distance(*pair.on_B, contact.B.c) + distance(*pair.on_A, contact.A.c);
-  };
-  return *std::min_element(
-      model.pairs.begin(), model.pairs.end(),
-      [&off](const ContactPair& a, const ContactPair& b) { return off(a) < off(b); });
-}
-
 /// 'conditions "a" and "b" and contact "c"': each name once.
-std::string name_constraints(const Model& model,
-                             const NewtonSystem& system,
-                             const std::vector<std::size_t>& constraints) {
+std::string name_constraints(const Linearization& at, const std::vector<std::size_t>& constraints) {
   std::vector<std::string> conditions, contacts;
-  const std::size_t n = system.contacts().size();
+  const std::size_t n = at.contacts().size();
   for (const std::size_t k : constraints) {
     if (k >= n) {
-      conditions.push_back(quoted(model.condition_names[k - n]));
+      conditions.push_back(quoted(at.model.condition_names[k - n]));
       continue;
     }
-    const std::string contact = quoted(pair_of(model, system.contacts()[k]).name);
+    const std::string contact = quoted(at.pair(k).name);
     if (std::find(contacts.begin(), contacts.end(), contact) == contacts.end())
       contacts.push_back(contact);
   }
@@ -51,29 +36,30 @@ std::string name_constraints(const Model& model,
 
 /// Signed distances by which the constraints are not met, contacts first [mm or rad, scaled as the
 /// unit directions are].
-double violation(const NewtonSystem& system, const Model& model, std::size_t k) {
-  const std::size_t n = system.contacts().size();
+double violation(const Linearization& at, std::size_t k) {
+  const double L = at.model.length;
+  const std::size_t n = at.contacts().size();
   if (k < n) {
-    const ContactLinearization& contact = system.contacts()[k];
-    return contact.gap() / std::hypot(1.0, contact.arm.norm() / model.length);
+    const ContactLinearization& contact = at.contacts()[k];
+    return contact.gap() / std::hypot(1.0, contact.arm.norm() / L);
   }
-  const ConditionDerivatives& condition = system.conditions()[k - n];
-  return condition.k / std::hypot(condition.alpha.norm(), condition.eta.norm() / model.length);
+  const ConditionDerivatives& condition = at.conditions()[k - n];
+  return condition.k / std::hypot(condition.alpha.norm(), condition.eta.norm() / L);
 }
 
 }  // namespace
 
-Dependence find_dependence(const Model& model, const NewtonSystem& system) {
+Dependence find_dependence(const Linearization& at) {
   constexpr double kExact = 1e-9, kNear = 1e-4, kShare = 1e-3, kUnmet = 1e-6;
-  const std::size_t count = system.contacts().size() + system.conditions().size();
+  const std::size_t count = at.constraints();
   Eigen::MatrixXd columns(6, static_cast<Eigen::Index>(count));
   for (std::size_t k = 0; k < count; ++k)
-    columns.col(static_cast<Eigen::Index>(k)) = constraint_direction(model, system, k);
+    columns.col(static_cast<Eigen::Index>(k)) = constraint_direction(at, k);
   if (count == 0 || !columns.allFinite()) return {};
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeFullV);
   // Constraints that cannot all be met end where they oppose each other, as closely as the descent
   // gets there.
-  const bool unmet = system.largest_distance() > kUnmet * model.length;
+  const bool unmet = at.system.largest_distance() > kUnmet * at.model.length;
   const double tolerance = (unmet ? kNear : kExact) * svd.singularValues()[0];
   Dependence dependence;
   for (Eigen::Index j = 0; j < svd.matrixV().cols(); ++j) {
@@ -81,10 +67,10 @@ Dependence find_dependence(const Model& model, const NewtonSystem& system) {
     double sum = 0;
     for (std::size_t k = 0; k < count; ++k) {
       const double share = svd.matrixV()(static_cast<Eigen::Index>(k), j);
-      sum += share * violation(system, model, k);
+      sum += share * violation(at, k);
       if (std::abs(share) > kShare) dependence.culprits.push_back(k);
     }
-    dependence.contradiction |= std::abs(sum) > kUnmet * model.length;
+    dependence.contradiction |= std::abs(sum) > kUnmet * at.model.length;
   }
   std::vector<std::size_t>& culprits = dependence.culprits;
   std::sort(culprits.begin(), culprits.end());
@@ -92,15 +78,15 @@ Dependence find_dependence(const Model& model, const NewtonSystem& system) {
   return dependence;
 }
 
-std::string in_words(const Model& model, const NewtonSystem& system, const Dependence& dependence) {
+std::string in_words(const Linearization& at, const Dependence& dependence) {
   if (dependence.culprits.empty()) return {};
-  const std::string names = name_constraints(model, system, dependence.culprits);
+  const std::string names = name_constraints(at, dependence.culprits);
   if (dependence.culprits.size() == 1) return names + " prevents no motion here";
   return names + " depend on each other" + (dependence.contradiction ? " and cannot all hold" : "");
 }
 
-std::string dependent_constraints(const Model& model, const NewtonSystem& system) {
-  return in_words(model, system, find_dependence(model, system));
+std::string dependent_constraints(const Linearization& at) {
+  return in_words(at, find_dependence(at));
 }
 
 }  // namespace condyle

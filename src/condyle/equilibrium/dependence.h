@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "condyle/equilibrium/newton.h"
+#include "condyle/equilibrium/linearization.h"
 
 namespace condyle {
 
@@ -15,15 +15,12 @@ struct Dependence {
   bool contradiction = false;         ///< they cannot all hold
 };
 
-/// At the state where `system` was assembled.
-[[nodiscard]] Dependence find_dependence(const Model& model, const NewtonSystem& system);
+[[nodiscard]] Dependence find_dependence(const Linearization& at);
 
 /// 'condition "x" and contact "medial" depend on each other', and that they cannot all hold; empty
 /// where all are independent.
-[[nodiscard]] std::string in_words(const Model& model,
-                                   const NewtonSystem& system,
-                                   const Dependence& dependence);
+[[nodiscard]] std::string in_words(const Linearization& at, const Dependence& dependence);
 
-[[nodiscard]] std::string dependent_constraints(const Model& model, const NewtonSystem& system);
+[[nodiscard]] std::string dependent_constraints(const Linearization& at);
 
 }  // namespace condyle

@@ -83,6 +83,7 @@ DescentReport Descent::solve(EquilibriumState& state,
   drive_ = &drive;
   DescentReport report;
   const Eigen::Vector3d origin = state.X.p;
+  paths_ = paths_from_ = paths_to_ = state.paths;
   start(state.X);
   // Attempts of Newton's method within count as well.
   while (report.steps < most_steps && report.spent.iterations < most.iterations &&
@@ -98,6 +99,7 @@ DescentReport Descent::solve(EquilibriumState& state,
 
 void Descent::start(const RigidTransform& X) {
   X_ = X;
+  newton_.system().prepare(X);
   memory_.clear();
   reach_ = options_.longest_step * model_.length;
   penalty_ = 0;
@@ -248,10 +250,15 @@ double Descent::violation(const std::vector<Constraint>& constraints,
   return sum;
 }
 
-double Descent::energy_change(const RigidTransform& from, const RigidTransform& to) const {
+double Descent::energy_change(const RigidTransform& from, const RigidTransform& to) {
   double change = 0;
-  for (const LineElement& element : parameters().elements)
-    change += line_element_state(element, to).energy - line_element_state(element, from).energy;
+  const std::vector<LineElement>& elements = parameters().elements;
+  KeptPaths at_from(elements, paths_from_), at_to(elements, paths_to_);
+  for (const LineElement& element : elements)
+    change += line_element_state(element, to, at_to.of(element)).energy -
+              line_element_state(element, from, at_from.of(element)).energy;
+  ContactPotentials& potentials = newton_.system().potentials();
+  if (!potentials.empty()) change += potentials.energy(to) - potentials.energy(from);
   Wrench before, after;
   for (std::size_t i = 0; i < parameters().loads.size(); ++i) {
     add_load(parameters().loads[i], drive_->scales[i], from, before);
@@ -298,9 +305,10 @@ void Descent::take_step(const Programme& programme, const Vector6& step, Descent
     X_ = to;
     constraints_.swap(trial_);
     report.step = length;
-    // Where nothing is near, nothing limits the next step but patience.
-    const double longest = constraints_.empty() ? kLongestFree * L : options_.longest_step * L;
-    reach_ = std::min(kGrow * reach_, longest);
+    // Where nothing is near, nothing limits the next step but patience; a soft contact may be, and
+    // is no constraint.
+    const bool free = constraints_.empty() && newton_.system().potentials().empty();
+    reach_ = std::min(kGrow * reach_, (free ? kLongestFree : options_.longest_step) * L);
   };
   const RigidTransform to = moved(X_, step, L);
   if (improves(to, kRoundOff * programme.force_scale * step.norm())) return accept(to, step.norm());
@@ -326,6 +334,7 @@ bool Descent::try_newton(const Multipliers& multipliers,
   EquilibriumState trial;
   trial.X = X_;
   trial.sigma = multipliers.sigma;
+  trial.paths = paths_;
   for (std::size_t k = 0; k < constraints.size(); ++k) {
     if (!constraints[k].bilateral && multipliers.p[k] <= kCarries * multipliers.largest) continue;
     trial.contacts.push_back(

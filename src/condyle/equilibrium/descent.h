@@ -94,7 +94,7 @@ class Descent {
                                      const Place& on_B,
                                      const Place& on_A,
                                      const RigidTransform& X) const;
-  void set_forces(Programme& programme) const;
+  void set_forces(Programme& programme);
   void set_rows(Programme& programme) const;
   bool add_contact_curvature(Programme& programme, const SmallQpSolution& solution) const;
   [[nodiscard]] Multipliers multipliers(const Programme& programme,
@@ -116,7 +116,7 @@ class Descent {
   }
   [[nodiscard]] double violation(const std::vector<Constraint>& constraints,
                                  const RigidTransform& X) const;
-  [[nodiscard]] double energy_change(const RigidTransform& from, const RigidTransform& to) const;
+  [[nodiscard]] double energy_change(const RigidTransform& from, const RigidTransform& to);
 
   const Model& model_;
   std::vector<ContactSearch>& searches_;
@@ -128,9 +128,10 @@ class Descent {
   std::vector<Constraint> constraints_, trial_;
   std::vector<std::pair<int, Place>> memory_;  ///< pair and place on A
   std::vector<GapMinimum> minima_;
-  double reach_ = 0;    ///< longest step allowed now [mm]
-  double penalty_ = 0;  ///< weight of a violation in the merit [N]
-  int patience_ = 0;    ///< iterations before Newton is tried again
+  std::vector<double> paths_, paths_from_, paths_to_;  ///< kept by the paths of line elements
+  double reach_ = 0;                                   ///< longest step allowed now [mm]
+  double penalty_ = 0;                                 ///< weight of a violation in the merit [N]
+  int patience_ = 0;                                   ///< iterations before Newton is tried again
   int searches_made_ = 0;
   bool has_forgotten_ = false;             ///< the material points, once
   std::optional<RigidTransform> refused_;  ///< the last equilibrium that was not accepted

@@ -25,17 +25,20 @@ Matrix6 symmetric_stiffness(const Wrench& w, double L) {
 
 }  // namespace
 
-void Descent::set_forces(Programme& programme) const {
+void Descent::set_forces(Programme& programme) {
   const double L = model_.length;
   Wrench wrench;
   programme.force_scale = kLeastForce;
+  KeptPaths kept(parameters().elements, paths_);
   for (const LineElement& element : parameters().elements)
-    programme.force_scale += std::abs(add_line_element(element, X_, wrench).force);
+    programme.force_scale +=
+        std::abs(add_line_element(element, X_, wrench, kept.of(element)).force);
   for (std::size_t i = 0; i < parameters().loads.size(); ++i) {
     const Vector6 before = scaled_wrench(wrench, L);
     add_load(parameters().loads[i], drive_->scales[i], X_, wrench);
     programme.force_scale += (scaled_wrench(wrench, L) - before).norm();
   }
+  programme.force_scale += newton_.system().potentials().add_to(X_, wrench);
   SmallQp& qp = programme.qp;
   qp.H = symmetric_stiffness(wrench, L);
   qp.g = -scaled_wrench(wrench, L);

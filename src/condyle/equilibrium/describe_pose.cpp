@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "condyle/contact/contact_scales.h"
 #include "condyle/contact/hertz.h"
-#include "condyle/elements/strain.h"
 #include "condyle/equilibrium/contact_shape.h"
 #include "condyle/equilibrium/edge_in_words.h"
 #include "condyle/equilibrium/joint_stiffness.h"
@@ -18,18 +16,6 @@
 
 namespace condyle {
 namespace {
-
-void describe_elements(const Model& model,
-                       const NewtonSystem& system,
-                       const EquilibriumState& state,
-                       PoseResult& result) {
-  for (const LineElement& element : system.parameters().elements) {
-    const LineElementState now = line_element_state(element, state.X);
-    result.ligaments.push_back({now.length, strain(element.law, now.length), now.force});
-  }
-  for (std::size_t i = 0; i < model.conditions.size(); ++i)
-    result.conditions.push_back({system.conditions()[i].coordinate, state.sigma[i]});
-}
 
 std::optional<HertzEstimate> estimate_pressure(const ContactPair& pair,
                                                const ContactLinearization& at,
@@ -57,7 +43,6 @@ void carry_by_ends(const ContactPair& pair,
                    PoseResult& result,
                    ContactResult& contact) {
   constexpr double kPull = -1e-9;  // of the force: round-off
-  set_resultant(contact);
   const double force = contact.force;
   const std::array<GapMinimum, 2>& ends = touch.ends;
   const Eigen::Vector3d way = ends[1].point_B - ends[0].point_B;
@@ -66,65 +51,52 @@ void carry_by_ends(const ContactPair& pair,
   for (const std::size_t k : {0, 1}) {
     const ContactLinearization at =
         linearize_contact(*pair.on_B, ends[k].on_B, *pair.on_A, ends[k].on_A, X_BA);
-    contact.points.push_back(
-        describe_point(at, force * (k == 0 ? 1 - share : share), ends[k].edge));
+    add_closed_point(describe_point(at, force * (k == 0 ? 1 - share : share), ends[k].edge),
+                     contact);
     contact.points.back().on_edge = ends[k].edge < 0;
   }
   if (pair.mode == ContactMode::kAuto && std::min(share, 1 - share) < kPull)
     set_status(result, tips_over(pair.name));
 }
 
-TouchReport touch_of(const Model& model,
-                     const NewtonSystem& system,
-                     const EquilibriumState& state,
-                     std::size_t k) {
-  const ClosedContact& closed = state.contacts[k];
-  return examine_touch(model.pairs[static_cast<std::size_t>(closed.pair)], system.contacts()[k],
-                       closed.on_B, closed.on_A, state.X, model.length);
+TouchReport touch_of(const Linearization& at, std::size_t k) {
+  const ClosedContact& closed = at.state.contacts[k];
+  return examine_touch(at.pair(k), at.contacts()[k], closed.on_B, closed.on_A, at.state.X,
+                       at.model.length);
 }
 
-void describe_closed_point(const Model& model,
-                           const NewtonSystem& system,
-                           const EquilibriumState& state,
+void describe_closed_point(const Linearization& pose,
                            std::size_t k,
                            double edge_margin,
                            PoseResult& result) {
-  const ClosedContact& closed = state.contacts[k];
-  const ContactPair& pair = model.pairs[static_cast<std::size_t>(closed.pair)];
-  const ContactLinearization& at = system.contacts()[k];
+  const ClosedContact& closed = pose.state.contacts[k];
+  const ContactPair& pair = pose.pair(k);
+  const ContactLinearization& at = pose.contacts()[k];
   const double edge = edge_distance(pair, closed.on_B, closed.on_A);
-  const Touch touch = touch_of(model, system, state, k).kind;
+  const Touch touch = touch_of(pose, k).kind;
   ContactResult& contact = result.contacts[static_cast<std::size_t>(closed.pair)];
-  contact.closed = true;
   // A line lies at edges by its nature.
-  contact.points.push_back(describe_point(at, closed.p, edge));
+  add_closed_point(describe_point(at, closed.p, edge), contact);
   contact.points.back().on_edge = edge < (touch == Touch::kLine ? 0 : edge_margin);
-  contact.points.back().hertz = estimate_pressure(pair, at, closed.p, state.X.R);
+  contact.points.back().hertz = estimate_pressure(pair, at, closed.p, pose.state.X.R);
   if (touch == Touch::kLine) contact.shape = ContactShape::kLine;
   if (touch == Touch::kConforming) contact.shape = ContactShape::kConforming;
   if (const std::optional<Objection> reason = objection(touch, pair.name)) {
     set_status(result, *reason);
   } else if (edge < 0 && touch != Touch::kLine) {
-    set_status(result, {PoseStatus::kLeftPatch, edge_in_words(model, closed)});
+    set_status(result, {PoseStatus::kLeftPatch, edge_in_words(pose.model, closed)});
   }
 }
 
-void describe_closed(const Model& model,
-                     const NewtonSystem& system,
-                     const EquilibriumState& state,
-                     double edge_margin,
-                     PoseResult& result) {
-  for (std::size_t k = 0; k < state.contacts.size(); ++k)
-    describe_closed_point(model, system, state, k, edge_margin, result);
-  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
-    const auto p = static_cast<std::size_t>(state.contacts[k].pair);
-    ContactResult& contact = result.contacts[p];
+void describe_closed(const Linearization& at, double edge_margin, PoseResult& result) {
+  for (std::size_t k = 0; k < at.state.contacts.size(); ++k)
+    describe_closed_point(at, k, edge_margin, result);
+  for (std::size_t k = 0; k < at.state.contacts.size(); ++k) {
+    ContactResult& contact = result.contacts[static_cast<std::size_t>(at.state.contacts[k].pair)];
     if (contact.shape != ContactShape::kLine || contact.points.size() != 2) continue;
-    const TouchReport touch = touch_of(model, system, state, k);
-    if (touch.kind == Touch::kLine) carry_by_ends(model.pairs[p], state.X, touch, result, contact);
+    const TouchReport touch = touch_of(at, k);
+    if (touch.kind == Touch::kLine) carry_by_ends(at.pair(k), at.state.X, touch, result, contact);
   }
-  for (ContactResult& contact : result.contacts)
-    if (contact.closed) set_resultant(contact);
 }
 
 /// Of a contact whose surfaces bend nearly alike in some direction: it lies where errors of a
@@ -169,86 +141,45 @@ void describe_open(const ContactPair& pair,
   }
   const ContactLinearization at =
       linearize_contact(*pair.on_B, lowest.on_B, *pair.on_A, lowest.on_A, state.X);
-  contact.points.push_back(describe_point(at, 0, lowest.edge));
+  set_nearest_point(describe_point(at, 0, lowest.edge), contact);
   contact.points.back().on_edge = lowest.edge < options.edge_margin;
-  contact.resultant_ground = at.B.c;
 }
 
 }  // namespace
 
-void set_resultant(ContactResult& contact) {
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  contact.force = 0;
-  for (const ContactPointResult& point : contact.points) {
-    contact.force += point.force;
-    moment += point.force * point.point_ground;
-  }
-  contact.resultant_ground =
-      contact.force != 0 ? Eigen::Vector3d(moment / contact.force) : contact.points[0].point_ground;
-}
-
-void clear(PoseResult& result) {
-  result.ligaments.clear();
-  result.conditions.clear();
-  for (ContactResult& contact : result.contacts) {
-    contact.points.clear();
-    contact.closed = false;
-    contact.shape = ContactShape::kPoint;
-    contact.force = 0;
-    contact.resultant_ground = ContactResult().resultant_ground;
-  }
-  result.status = PoseStatus::kNotComputed;
-  result.reason.clear();
-  result.remark.clear();
-  result.X_BA.p.setConstant(std::numeric_limits<double>::quiet_NaN());
-  result.event_seconds = 0;
-  result.joint = JointCoordinates();
-  result.stability = -1;
-  result.lowest_stiffness = PoseResult().lowest_stiffness;
-  result.softest_motion.setZero();
-  result.joint_stiffness.reset();
-}
-
-ContactPointResult describe_point(const ContactLinearization& at, double force, double edge) {
-  ContactPointResult point;
-  point.force = force;
-  point.point_ground = at.B.c;
-  point.point_moving = at.A.c;
-  point.normal_ground = at.B.n;
-  point.gap = at.gap();
-  point.relative_curvature = at.relative_curvature;
-  point.edge_distance = edge;
-  return point;
-}
-
-void describe_pose(const Model& model,
-                   const NewtonSystem& system,
-                   const EquilibriumState& state,
+void describe_pose(const Linearization& at,
                    std::vector<ContactSearch>& searches,
                    const PoseDescriptionOptions& options,
                    std::vector<GapMinimum>& minima,
                    PoseResult& result) {
-  result.X_BA = state.X;
-  result.residual = system.out_of_balance();
-  if (model.joint) result.joint = joint_coordinates(*model.joint, state.X);
-  describe_elements(model, system, state, result);
-  result.contacts.resize(model.pairs.size());
-  describe_closed(model, system, state, options.edge_margin, result);
-  for (std::size_t p = 0; p < model.pairs.size(); ++p)
-    if (!result.contacts[p].closed)
-      describe_open(model.pairs[p], state, searches[p], model.length, options, minima,
+  const Model& model = at.model;
+  result.residual = at.system.out_of_balance();
+  begin_pose({at.state.X, model.joint ? &*model.joint : nullptr, at.system.parameters().elements,
+              at.state.paths, model.pairs.size()},
+             result);
+  for (std::size_t i = 0; i < model.conditions.size(); ++i)
+    result.conditions.push_back({at.conditions()[i].coordinate, at.state.sigma[i]});
+  describe_closed(at, options.edge_margin, result);
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    if (result.contacts[p].closed) continue;
+    if (ContactPotential* potential = at.system.potentials().of(p)) {
+      if (const std::optional<Objection> reason =
+              potential->describe(at.state.X, result.contacts[p]))
+        set_status(result, *reason);
+    } else {
+      describe_open(model.pairs[p], at.state, searches[p], model.length, options, minima,
                     result.contacts[p], result);
-  if (options.joint_stiffness) result.joint_stiffness = joint_stiffness(model, system, state.X);
+    }
+  }
+  if (options.joint_stiffness) result.joint_stiffness = joint_stiffness(at);
   if (options.stability) {
-    const Stability s = stability(model, system);
+    const Stability s = stability(at);
     result.lowest_stiffness = s.lowest_stiffness;
     result.softest_motion = s.motion;
     result.stability = s.stable() ? 1 : 0;
-    result.remark = stability_remark(model, system, state.X, s);
-    for (std::size_t k = 0; k < state.contacts.size(); ++k)
-      add_remark(result,
-                 nearly_conforming(model.pairs[static_cast<std::size_t>(state.contacts[k].pair)],
-                                   system.contacts()[k], state.X.R));
+    result.remark = stability_remark(at, s);
+    for (std::size_t k = 0; k < at.contacts().size(); ++k)
+      add_remark(result, nearly_conforming(at.pair(k), at.contacts()[k], at.state.X.R));
   }
   to_file_frames(model.origins, result);
 }

@@ -123,7 +123,7 @@ std::string too_many_conditions(const Failure& f) {
 }
 
 std::string overflowed_force(const Failure& f) {
-  const std::string what = overflowed(f.model, f.system.parameters(), f.state, f.drive);
+  const std::string what = overflowed(f.model, f.system, f.state, f.drive);
   if (!what.empty()) return what + " has no finite force at the last pose";
   return f.attempt.overflow.empty() ? "" : f.attempt.overflow + " has no finite force on the way";
 }
@@ -194,14 +194,15 @@ template <bool with_contact>
 std::string contradiction(const Failure& f) {
   const EquilibriumState all = with_all_contacts(f.model, f.searches, f.state);
   f.system.assemble(all, f.drive);
-  const Dependence dependence = find_dependence(f.model, f.system);
+  const Linearization at = linearization(f.system, all, f.drive);
+  const Dependence dependence = find_dependence(at);
   if (!dependence.contradiction) return {};
   bool contact = false;
   for (const std::size_t k : dependence.culprits)
     contact |=
         k < all.contacts.size() &&
         f.model.pairs[static_cast<std::size_t>(all.contacts[k].pair)].mode == ContactMode::kAuto;
-  return contact == with_contact ? in_words(f.model, f.system, dependence) : "";
+  return contact == with_contact ? in_words(at, dependence) : "";
 }
 
 std::string singular_matrix(const Failure& f) { return f.singular; }
@@ -218,7 +219,7 @@ std::string still_driven(const Failure& f) {
   constexpr double kDriven = 1e-3;  // of all forces
   const EquilibriumState all = with_all_contacts(f.model, f.searches, f.state);
   if (!f.system.assemble(all, f.drive)) return {};
-  const Motions free = admissible_motions(f.model, f.system);
+  const Motions free = admissible_motions(linearization(f.system, all, f.drive));
   const Motions driven =
       free * (free.transpose() * scaled_wrench(f.system.wrench(), f.model.length));
   if (!(driven.norm() > kDriven * f.system.force_scale())) return {};
@@ -268,9 +269,10 @@ constexpr Cause kCauses[] = {
 }  // namespace
 
 std::string overflowed(const Model& model,
-                       const Parameters& parameters,
+                       NewtonSystem& system,
                        const EquilibriumState& state,
                        const Drive& drive) {
+  const Parameters& parameters = system.parameters();
   for (std::size_t i = 0; i < parameters.elements.size(); ++i) {
     Wrench wrench;
     add_line_element(parameters.elements[i], state.X, wrench);
@@ -283,15 +285,25 @@ std::string overflowed(const Model& model,
     if (!wrench.f.allFinite() || !wrench.m.allFinite())
       return "load " + quoted(model.load_names[i]);
   }
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    Wrench wrench;
+    if (ContactPotential* potential = system.potentials().of(p)) potential->add_to(state.X, wrench);
+    if (!wrench.f.allFinite() || !wrench.m.allFinite())
+      return "contact " + quoted(model.pairs[p].name);
+  }
   return {};
 }
 
-std::string why_singular(const Model& model, const NewtonSystem& system, const RigidTransform& X) {
-  const std::string dependent = dependent_constraints(model, system);
+std::string why_singular(Newton& newton) {
+  const auto& [state, drive] = newton.stopped();
+  newton.system().assemble(state, drive);
+  const Linearization at = linearization(newton.system(), state, drive);
+  const std::string dependent = dependent_constraints(at);
   if (!dependent.empty()) return dependent;
-  const Stability now = stability(model, system);
-  if (now.neutral) return "nothing resists " + name_motions(model, X, now.free);
-  return "the matrix is singular on the way; softest is " + name_motions(model, X, now.motion);
+  const Stability now = stability(at);
+  if (now.neutral) return "nothing resists " + name_motions(at.model, state.X, now.free);
+  return "the matrix is singular on the way; softest is " +
+         name_motions(at.model, state.X, now.motion);
 }
 
 void explain_failure(const Model& model,

@@ -9,17 +9,15 @@
 
 namespace condyle {
 
-/// What has a force that is no number at a state; empty where all are finite.
+/// What has a force that is no number at a state; empty where all are finite. `system` belongs to
+/// the model, and is not assembled anew.
 [[nodiscard]] std::string overflowed(const Model& model,
-                                     const Parameters& parameters,
+                                     NewtonSystem& system,
                                      const EquilibriumState& state,
                                      const Drive& drive);
 
-/// Where Newton has just stopped for a singular matrix: what depends on what, or which motion is
-/// free.
-[[nodiscard]] std::string why_singular(const Model& model,
-                                       const NewtonSystem& system,
-                                       const RigidTransform& X);
+/// Where Newton last stopped, for a singular matrix: what depends on what, or which motion is free.
+[[nodiscard]] std::string why_singular(Newton& newton);
 
 /// Sets result.status and result.reason. `state` is the last that was tried from the pose before on
 /// the way to `drive`, `singular` why Newton's matrix was there, or empty; `system` belongs to the

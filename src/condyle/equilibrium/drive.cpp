@@ -14,6 +14,12 @@ Drive drive_of(const Model& model) {
   return drive;
 }
 
+void Swept::throw_none_such(std::size_t count) const {
+  throw std::out_of_range(fmt::format("number {} is swept of the {} {} that the drive has", index,
+                                      count,
+                                      is_load() ? "scales of loads" : "values of conditions"));
+}
+
 void check_drive(const Drive& drive, const Model& model) {
   if (drive.values.size() == model.conditions.size() && drive.scales.size() == model.loads.size())
     return;

@@ -31,13 +31,18 @@ struct Swept {
   std::size_t index = 0;  ///< of Model::conditions or Model::loads
 
   [[nodiscard]] bool is_load() const { return kind == Kind::kLoad; }
-  /// Throw std::out_of_range for a number that the drive has not.
+  /// Throw std::out_of_range with one sentence for a number that the drive has not.
   [[nodiscard]] double& in(Drive& drive) const {
-    return (is_load() ? drive.scales : drive.values).at(index);
+    std::vector<double>& numbers = is_load() ? drive.scales : drive.values;
+    if (index >= numbers.size()) throw_none_such(numbers.size());
+    return numbers[index];
   }
   [[nodiscard]] double in(const Drive& drive) const {
-    return (is_load() ? drive.scales : drive.values).at(index);
+    const std::vector<double>& numbers = is_load() ? drive.scales : drive.values;
+    if (index >= numbers.size()) throw_none_such(numbers.size());
+    return numbers[index];
   }
+  [[noreturn]] void throw_none_such(std::size_t count) const;
   [[nodiscard]] Drive with(Drive drive, double value) const {
     in(drive) = value;
     return drive;

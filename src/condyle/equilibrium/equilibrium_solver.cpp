@@ -31,7 +31,7 @@ bool same_state(const EquilibriumState& a, const EquilibriumState& b) {
   const auto same_contact = [](const ClosedContact& x, const ClosedContact& y) {
     return x.pair == y.pair && x.on_B == y.on_B && x.on_A == y.on_A && x.p == y.p;
   };
-  return a.X.p == b.X.p && a.X.R == b.X.R && a.sigma == b.sigma &&
+  return a.X.p == b.X.p && a.X.R == b.X.R && a.sigma == b.sigma && a.paths == b.paths &&
          std::equal(a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(),
                     same_contact);
 }
@@ -65,9 +65,11 @@ void EquilibriumSolver::reset() {
   state_.X = model_->start;
   state_.contacts.clear();
   state_.sigma.assign(model_->conditions.size(), 0);
+  state_.paths.clear();
   has_state_ = has_edge_ = on_the_way_ = from_elsewhere_ = false;
   spent_ = {};
   predictor_.clear();
+  newton_.system().reset();
   for (ContactSearch& search : searches_) search.reset();
   for (PassedThrough& passed : passed_) passed.reset();
 }
@@ -78,6 +80,7 @@ void EquilibriumSolver::set_parameters(const Parameters& parameters) {
 }
 
 void EquilibriumSolver::set_state(const EquilibriumState& state, const Drive& drive) {
+  check_state(state, *model_);
   check_drive(drive, *model_);
   if (has_state_ && drive == solved_ && same_state(state, state_)) return;
   predictor_.clear();
@@ -87,6 +90,10 @@ void EquilibriumSolver::set_state(const EquilibriumState& state, const Drive& dr
 }
 
 void EquilibriumSolver::go_back(const Standing& standing) {
+  if (standing.has_state) {
+    check_state(standing.state, *model_);
+    check_drive(standing.solved, *model_);
+  }
   predictor_.clear();
   state_ = standing.state;
   solved_ = standing.solved;
@@ -185,16 +192,16 @@ bool EquilibriumSolver::faces(const EquilibriumState& state, Attempt& attempt) {
 }
 
 /// A force that is no number at a pose that still is one.
-void EquilibriumSolver::note_overflow(const EquilibriumState& state, Attempt& attempt) const {
+void EquilibriumSolver::note_overflow(const EquilibriumState& state, Attempt& attempt) {
   constexpr double kReasonable = 10;  // of L, from the pose before
   const bool at_a_pose = distance(*model_, state.X, state_.X) < kReasonable * model_->length;
   if (at_a_pose && attempt.overflow.empty())
-    attempt.overflow = overflowed(*model_, parameters(), state, drive_);
+    attempt.overflow = overflowed(*model_, newton_.system(), state, drive_);
 }
 
 /// The rule of contact on a state that Newton has just solved.
 const ContactChanges& EquilibriumSolver::changes(const EquilibriumState& state, Attempt& attempt) {
-  const ContactChanges& changes = rules_.changes(newton_.system(), state);
+  const ContactChanges& changes = rules_.changes(linearization(newton_.system(), state, drive_));
   attempt.trace.searches += changes.searches;
   return changes;
 }
@@ -247,7 +254,7 @@ void EquilibriumSolver::solve(const Drive& drive, PoseResult& result, Patience p
     drive_ = target_;
     failed = {next_, attempt.newton, attempt.descent, {}, newton_.residuals()};
     if (attempt.newton.outcome == NewtonOutcome::kSingular)
-      failed->singular = why_singular(*model_, newton_.system(), next_.X);
+      failed->singular = why_singular(newton_);
     if (!at_once) solved = solve_from_elsewhere(next_, attempt) || solve_from_edge(next_, attempt);
   }
   drive_ = target_;
@@ -274,7 +281,8 @@ void EquilibriumSolver::solve(const Drive& drive, PoseResult& result, Patience p
 
 void EquilibriumSolver::describe(const Attempt& attempt, bool off_surfaces, PoseResult& result) {
   result.status = PoseStatus::kConverged;
-  describe_pose(*model_, newton_.system(), next_, searches_, options_.description, minima_, result);
+  describe_pose(linearization(newton_.system(), next_, drive_), searches_, options_.description,
+                minima_, result);
   if (off_surfaces && attempt.off->rim && result.converged()) {
     result.status = PoseStatus::kLeftPatch;
     result.reason = rim_in_words(*model_, *attempt.off->rim, attempt.off->beyond);

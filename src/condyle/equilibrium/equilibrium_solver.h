@@ -131,7 +131,7 @@ class EquilibriumSolver {
   [[nodiscard]] std::pair<int, double> farthest_beyond(const EquilibriumState& state) const;
   [[nodiscard]] bool faces(const EquilibriumState& state, Attempt& attempt);
   void note_rim(const EquilibriumState& state, const ContactChanges& rims, Attempt& attempt) const;
-  void note_overflow(const EquilibriumState& state, Attempt& attempt) const;
+  void note_overflow(const EquilibriumState& state, Attempt& attempt);
   void keep_off_surfaces(const OffSurfaces& off, Attempt& attempt) const;
 
   std::shared_ptr<const Model> model_;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "condyle/equilibrium/stability.h"
+#include "condyle/equilibrium/admissible_motions.h"
 
 namespace condyle {
 namespace {
@@ -43,23 +43,21 @@ Matrix6 joint_jacobian(const JointFrames& frames, const RigidTransform& X_BA) {
   return J;
 }
 
-std::optional<JointStiffness> joint_stiffness(const Model& model,
-                                              const NewtonSystem& system,
-                                              const RigidTransform& X_BA) {
-  if (!model.joint) return std::nullopt;
-  const double L = model.length;
+std::optional<JointStiffness> joint_stiffness(const Linearization& at) {
+  if (!at.model.joint) return std::nullopt;
+  const double L = at.model.length;
   // Scaled: motions (da, L dπ), coordinates with angles as L dq.
   const Vector6 motions = rotation_scale(L), coordinates = angle_scale(L);
-  const Matrix6 J = coordinates.asDiagonal() * joint_jacobian(*model.joint, X_BA) *
+  const Matrix6 J = coordinates.asDiagonal() * joint_jacobian(*at.model.joint, at.state.X) *
                     motions.cwiseInverse().asDiagonal();
-  const Matrix6 K = scaled_stiffness(system.wrench(), L);
-  const double largest = std::max(K.cwiseAbs().maxCoeff(), system.force_scale() / L);
+  const Matrix6 K = scaled_stiffness(at.wrench(), L);
+  const double largest = std::max(K.cwiseAbs().maxCoeff(), at.force_scale() / L);
 
   const Eigen::FullPivLU<Matrix6> J_lu(J);
   if (!K.allFinite() || !invertible(J_lu, 1e-6)) return std::nullopt;
   const Matrix6 J_inverse = J_lu.inverse();
 
-  const Motions Z = admissible_motions(model, system);
+  const Motions Z = admissible_motions(at);
   Matrix6 yielding = Matrix6::Zero();
   if (Z.cols() > 0) {
     const SmallMatrix reduced = Z.transpose() * K * Z;

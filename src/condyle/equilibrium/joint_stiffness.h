@@ -11,20 +11,19 @@
 /// Rows and columns of angles are per rad: N mm/rad, N/rad = N mm/(rad mm), N/mm; C has the inverse
 /// units.
 ///
-/// Only the model's contact points and conditions constrain: C vanishes where they leave no motion.
+/// Only the model's rigid contact points and conditions constrain: C vanishes where they leave no
+/// motion. Contact laws without unknowns are in K.
 
 #include <optional>
 
-#include "condyle/equilibrium/newton.h"
+#include "condyle/equilibrium/linearization.h"
 #include "condyle/equilibrium/pose_result.h"
 
 namespace condyle {
 
-/// `system` assembled at the position of equilibrium X_BA. Nothing where the model has no joint,
-/// where the coordinates are none (adduction of 90°), or where nothing resists some motion.
-[[nodiscard]] std::optional<JointStiffness> joint_stiffness(const Model& model,
-                                                            const NewtonSystem& system,
-                                                            const RigidTransform& X_BA);
+/// At a position of equilibrium. Nothing where the model has no joint, where the coordinates are
+/// none (adduction of 90°), or where nothing resists some motion.
+[[nodiscard]] std::optional<JointStiffness> joint_stiffness(const Linearization& at);
 
 /// J: how the six joint coordinates change with (da, dπ) [-, 1/mm, mm].
 [[nodiscard]] Eigen::Matrix<double, 6, 6> joint_jacobian(const JointFrames& frames,

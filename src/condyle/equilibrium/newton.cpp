@@ -1,10 +1,14 @@
 #include "condyle/equilibrium/newton.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <stdexcept>
 
 #include "condyle/math/rotation.h"
 
@@ -23,8 +27,24 @@ double relative(const NewtonReport& report, double distance) {
 
 }  // namespace
 
+void check_state(const EquilibriumState& state, const Model& model) {
+  if (state.sigma.size() != model.conditions.size())
+    throw std::invalid_argument(
+        fmt::format("the state has {} multipliers, expected {} as the model has conditions",
+                    state.sigma.size(), model.conditions.size()));
+  for (const ClosedContact& contact : state.contacts)
+    if (static_cast<std::size_t>(contact.pair) >= model.pairs.size())
+      throw std::invalid_argument(
+          fmt::format("a contact of the state is of pair {}, expected one of the {} that the model "
+                      "has",
+                      contact.pair, model.pairs.size()));
+}
+
 NewtonSystem::NewtonSystem(const Model& model)
-    : model_(model), parameters_(parameters_of(model)), elements_(parameters_.elements) {
+    : model_(model),
+      parameters_(parameters_of(model)),
+      elements_(parameters_.elements),
+      potentials_(model.pairs) {
   contacts_.reserve(kMaxConstraints);
   conditions_.reserve(model.conditions.size());
 }
@@ -36,15 +56,18 @@ void NewtonSystem::set_parameters(const Parameters& parameters) {
 }
 
 bool NewtonSystem::assemble(const EquilibriumState& state, const Drive& drive) {
+  check_state(state, model_);
   check_drive(drive, model_);
+  X_ = state.X;
   wrench_ = Wrench();
-  const LineElementBlock::Summary summary = elements_.add_to(state.X, wrench_);
+  const LineElementBlock::Summary summary = elements_.add_to(state.X, state.paths, wrench_);
   force_scale_ = summary.force_magnitudes;
   zero_element_ = summary.zero_element;
   const Eigen::Vector3d f_elements = wrench_.f, m_elements = wrench_.m;
   for (std::size_t i = 0; i < parameters_.loads.size(); ++i)
     add_load(parameters_.loads[i], drive.scales[i], state.X, wrench_);
   force_scale_ += (wrench_.f - f_elements).norm() + (wrench_.m - m_elements).norm() / model_.length;
+  if (!potentials_.empty()) force_scale_ += potentials_.add_to(state.X, wrench_);
 
   contacts_.clear();
   for (const ClosedContact& contact : state.contacts) {
@@ -126,6 +149,22 @@ void NewtonSystem::move(EquilibriumState& state, const double* step) const {
     state.sigma[k] += condition_weight(model_, k) * step[6 + n + k];
   state.X.p += da;
   state.X.R = exp_rotation(dpi) * state.X.R;
+  if (elements_.has_paths()) state.paths = elements_.paths();
+}
+
+bool NewtonSystem::revise(EquilibriumState& state) {
+  bool changed = !potentials_.empty() && !potentials_.accept(state.X);
+  if (elements_.has_paths()) {
+    changed |= elements_.revise_paths(state.X);
+    state.paths = elements_.paths();
+  }
+  return changed;
+}
+
+bool NewtonSystem::is_assembled_at(const EquilibriumState& state) const {
+  return std::memcmp(X_.R.data(), state.X.R.data(), sizeof(double) * 9) == 0 &&
+         std::memcmp(X_.p.data(), state.X.p.data(), sizeof(double) * 3) == 0 &&
+         contacts_.size() == state.contacts.size();
 }
 
 double NewtonSystem::out_of_balance() const {
@@ -153,6 +192,13 @@ Newton::Newton(const Model& model, NewtonOptions options)
     : model_(model), options_(options), system_(model) {}
 
 NewtonReport Newton::solve(EquilibriumState& state, const Drive& drive) {
+  system_.prepare(state.X);
+  const NewtonReport report = iterate(state, drive);
+  if (report.outcome != NewtonOutcome::kConverged) stopped_ = {state, drive};
+  return report;
+}
+
+NewtonReport Newton::iterate(EquilibriumState& state, const Drive& drive) {
   NewtonReport report;
   residuals_.clear();
   const double L = model_.length;
@@ -183,8 +229,13 @@ NewtonReport Newton::solve(EquilibriumState& state, const Drive& drive) {
     const double slack = last_step < 1e-12 * L ? 1e3 : 1;
     if (report.residual <= slack * options_.tolerance * report.force_scale &&
         distance <= slack * options_.tolerance * L) {
-      report.outcome = NewtonOutcome::kConverged;
-      return report;
+      if (!system_.revise(state)) {
+        report.outcome = NewtonOutcome::kConverged;
+        return report;
+      }
+      if (report.iterations == options_.max_iterations) return report;
+      last_step = INFINITY;
+      continue;
     }
     if (report.iterations == options_.max_iterations) return report;
 

@@ -14,11 +14,13 @@
 ///
 /// Converged means: force and moment/L below tolerance times the sum of all force magnitudes,
 /// distances below tolerance times L. Which contacts are closed is somebody else's decision
-/// (equilibrium_solver.h).
+/// (equilibrium_solver.h). Contact laws without unknowns (contact/contact_law.h) add to f, m and
+/// their blocks as ligaments do.
 
 #include <vector>
 
 #include "condyle/contact/contact.h"
+#include "condyle/contact/contact_potentials.h"
 #include "condyle/elements/line_element_block.h"
 #include "condyle/equilibrium/drive.h"
 #include "condyle/equilibrium/parameters.h"
@@ -39,7 +41,13 @@ struct EquilibriumState {
   RigidTransform X;
   std::vector<ClosedContact> contacts;
   std::vector<double> sigma;  ///< one per Model::conditions
+  /// What the paths of line elements keep (line_path.h), one after the other; any other number of
+  /// them than path_numbers(elements): nothing is known.
+  std::vector<double> paths = {};
 };
+
+/// Throws std::invalid_argument with one sentence where the state is not one of the model.
+void check_state(const EquilibriumState& state, const Model& model);
 
 enum class NewtonOutcome { kConverged, kIterationLimit, kDiverged, kSingular, kZeroLength };
 
@@ -59,7 +67,8 @@ struct NewtonReport {
   int zero_element = -1;   ///< index of the element of zero length
 };
 
-/// Everything at one state: residual, Jacobian blocks, contact linearisations. Sized once.
+/// Everything at one state: residual, Jacobian blocks, contact linearisations. Sized once. The
+/// workspace of one thread.
 class NewtonSystem {
  public:
   explicit NewtonSystem(const Model& model);
@@ -72,8 +81,17 @@ class NewtonSystem {
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }
 
   /// False where an element has no length (zero_element()). Throws std::invalid_argument for a
-  /// drive that is not one of the model.
+  /// state or a drive that is not one of the model.
   bool assemble(const EquilibriumState& state, const Drive& drive);
+  [[nodiscard]] bool is_assembled_at(const EquilibriumState& state) const;
+
+  /// What contact laws hold while poses near X_BA are solved is chosen there.
+  void prepare(const RigidTransform& X_BA) { potentials_.prepare(X_BA); }
+  /// At a state that was assembled and is solved: does a contact law or a path change what it holds
+  /// while a pose is solved? Then it has to be solved on.
+  [[nodiscard]] bool revise(EquilibriumState& state);
+  /// Contact laws know nothing of what was asked before.
+  void reset() { potentials_.reset(); }
 
   /// Fills the matrix and the right side (minus the residual); returns the number of rows.
   int fill(const EquilibriumState& state, SmallLu& matrix, double* right_side) const;
@@ -82,6 +100,9 @@ class NewtonSystem {
   /// dp, dσ/w).
   void move(EquilibriumState& state, const double* step) const;
 
+  [[nodiscard]] const Model& model() const { return model_; }
+  [[nodiscard]] ContactPotentials& potentials() { return potentials_; }
+  [[nodiscard]] const ContactPotentials& potentials() const { return potentials_; }
   [[nodiscard]] const Wrench& wrench() const { return wrench_; }
   [[nodiscard]] const std::vector<ContactLinearization>& contacts() const { return contacts_; }
   [[nodiscard]] const std::vector<ConditionDerivatives>& conditions() const { return conditions_; }
@@ -96,6 +117,8 @@ class NewtonSystem {
   const Model& model_;
   Parameters parameters_;
   LineElementBlock elements_;
+  ContactPotentials potentials_;
+  RigidTransform X_;
   Wrench wrench_;
   std::vector<ContactLinearization> contacts_;
   std::vector<ConditionDerivatives> conditions_;
@@ -117,7 +140,15 @@ class Newton {
   [[nodiscard]] const NewtonSystem& system() const { return system_; }
   [[nodiscard]] NewtonSystem& system() { return system_; }
 
+  /// Where the last solve that did not converge ended, and for which drive.
+  struct Stopped {
+    EquilibriumState state;
+    Drive drive;
+  };
+  [[nodiscard]] const Stopped& stopped() const { return stopped_; }
+
  private:
+  NewtonReport iterate(EquilibriumState& state, const Drive& drive);
   bool factor_softened(const EquilibriumState& state, double* step);
 
   const Model& model_;
@@ -125,6 +156,7 @@ class Newton {
   NewtonSystem system_;
   SmallLu matrix_;
   ResidualHistory residuals_;
+  Stopped stopped_;
 };
 
 }  // namespace condyle

@@ -14,7 +14,10 @@ constexpr double kFarthest = 0.3;     // a correction that leads farther [L] has
 }  // namespace
 
 PathSystem::PathSystem(const Model& model, const Swept& swept, const Drive& drive, double range)
-    : model_(model), swept_(swept), drive_(drive), weight_(model.length / range), system_(model) {}
+    : model_(model), swept_(swept), drive_(drive), weight_(model.length / range), system_(model) {
+  check_drive(drive_, model);
+  (void)swept_.in(drive_);
+}
 
 bool PathSystem::assemble(const PathPoint& point) {
   swept_.in(drive_) = point.value;
@@ -25,19 +28,10 @@ bool PathSystem::assemble(const PathPoint& point) {
 /// the number of rows with it.
 int PathSystem::fill(const PathPoint& point, double* right_side) {
   const int rows = system_.fill(point.state, matrix_, right_side);
-  for (int i = 0; i < rows; ++i) matrix_(i, rows) = 0;
+  std::array<double, SmallLu::kMaxSize> column;
+  fill_drive_column(linearization(point), swept_, column.data());
+  for (int i = 0; i < rows; ++i) matrix_(i, rows) = column[static_cast<std::size_t>(i)];
   for (int j = 0; j <= rows; ++j) matrix_(rows, j) = 0;
-  if (swept_.is_load()) {
-    Wrench wrench;
-    add_load(system_.parameters().loads[swept_.index], 1, point.state.X, wrench);
-    for (int i = 0; i < 3; ++i) {
-      matrix_(i, rows) = wrench.f[i];
-      matrix_(3 + i, rows) = wrench.m[i] / model_.length;
-    }
-  } else {
-    const int row = 6 + static_cast<int>(point.state.contacts.size() + swept_.index);
-    matrix_(row, rows) = -condition_weight(model_, swept_.index);
-  }
   return rows + 1;
 }
 
@@ -92,6 +86,7 @@ bool PathSystem::correct(PathPoint& point, const Direction& tangent, bool hold_v
   const double L = model_.length;
   double last_step = INFINITY, way = 0;
   std::array<double, SmallLu::kMaxSize> step{};
+  system_.prepare(point.state.X);
   for (int iteration = 0;; ++iteration) {
     if (!assemble(point)) return false;
     const double residual = system_.out_of_balance(), distance = system_.largest_distance();

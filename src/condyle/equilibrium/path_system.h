@@ -8,7 +8,7 @@
 
 #include <array>
 
-#include "condyle/equilibrium/newton.h"
+#include "condyle/equilibrium/linearization.h"
 
 namespace condyle {
 
@@ -28,7 +28,9 @@ class PathSystem {
     [[nodiscard]] double force(std::size_t contact) const { return d[6 + contact]; }
   };
 
-  /// `drive`: of all that is not swept; `range`: of the swept value, counts as L.
+  /// `drive`: of all that is not swept; `range`: of the swept value, counts as L. Throws
+  /// std::invalid_argument for a drive that is not one of the model, std::out_of_range for a number
+  /// that it has not.
   PathSystem(const Model& model, const Swept& swept, const Drive& drive, double range);
 
   void set_parameters(const Parameters& parameters) { system_.set_parameters(parameters); }
@@ -51,9 +53,12 @@ class PathSystem {
   /// Of two directions, in the measure of the path's length; their constraints may differ.
   [[nodiscard]] double product(const Direction& a, const Direction& b) const;
 
-  /// As last assembled.
-  [[nodiscard]] const NewtonSystem& newton() const { return system_; }
+  /// False where an element has no length.
   bool assemble(const PathPoint& point);
+  /// At the point that was assembled last, and must stay.
+  [[nodiscard]] Linearization linearization(const PathPoint& point) const {
+    return condyle::linearization(system_, point.state, drive_);
+  }
 
  private:
   int fill(const PathPoint& point, double* right_side);

@@ -1,30 +1,40 @@
 #include "condyle/equilibrium/pose_result.h"
 
-namespace condyle {
+#include <algorithm>
+#include <limits>
 
-const char* name(PoseStatus status) {
-  switch (status) {
-    case PoseStatus::kConverged:
-      return "converged";
-    case PoseStatus::kIterationLimit:
-      return "iteration limit";
-    case PoseStatus::kDiverged:
-      return "diverged";
-    case PoseStatus::kSingular:
-      return "singular";
-    case PoseStatus::kLeftPatch:
-      return "left patch";
-    case PoseStatus::kNoEquilibrium:
-      return "no equilibrium";
-    case PoseStatus::kZeroLength:
-      return "zero length";
-    case PoseStatus::kOverlap:
-      return "overlap";
-    case PoseStatus::kNotComputed:
-      return "not computed";
-  }
-  return "unknown";
+#include "condyle/elements/line_element.h"
+#include "condyle/elements/strain.h"
+
+namespace condyle {
+namespace {
+
+LigamentResult told(const LineElement& element, const RigidTransform& X_BA, double* kept) {
+  const LineElementState now = line_element_state(element, X_BA, kept);
+  return {now.length, strain(element.law, now.length), now.force};
 }
+
+/// Of elements of which some have paths; their corners, too.
+void tell_with_paths(const PoseFacts& facts, PoseResult& result) {
+  const bool known = facts.paths.size() == path_numbers(facts.elements);
+  const double* paths = facts.paths.data();
+  result.paths.resize(facts.elements.size());
+  for (std::size_t i = 0; i < facts.elements.size(); ++i) {
+    const LineElement& element = facts.elements[i];
+    result.paths[i].clear();
+    auto kept = unknown_path();
+    if (element.path && known) {
+      std::copy_n(paths, element.path->numbers(), kept.begin());
+      paths += element.path->numbers();
+    }
+    result.ligaments.push_back(told(element, facts.X_BA, kept.data()));
+    if (element.path)
+      element.path->add_points(ends_of(element, facts.X_BA), facts.X_BA, kept.data(),
+                               result.paths[i]);
+  }
+}
+
+}  // namespace
 
 const char* name(EventKind kind) {
   switch (kind) {
@@ -44,6 +54,47 @@ const char* name(EventKind kind) {
   return "unknown";
 }
 
+void clear(PoseResult& result) {
+  result.ligaments.clear();
+  result.conditions.clear();
+  for (ContactResult& contact : result.contacts) clear(contact);
+  result.status = PoseStatus::kNotComputed;
+  result.reason.clear();
+  result.remark.clear();
+  result.X_BA.p.setConstant(std::numeric_limits<double>::quiet_NaN());
+  result.event_seconds = 0;
+  result.joint = JointCoordinates();
+  result.stability = -1;
+  result.lowest_stiffness = std::numeric_limits<double>::quiet_NaN();
+  result.softest_motion.setZero();
+  result.joint_stiffness.reset();
+}
+
+void begin_pose(const PoseFacts& facts, PoseResult& result) {
+  result.X_BA = facts.X_BA;
+  if (facts.joint != nullptr) result.joint = joint_coordinates(*facts.joint, facts.X_BA);
+  const bool straight = std::none_of(facts.elements.begin(), facts.elements.end(),
+                                     [](const LineElement& e) { return e.path != nullptr; });
+  if (!straight) {
+    tell_with_paths(facts, result);
+  } else {
+    for (const LineElement& element : facts.elements)
+      result.ligaments.push_back(told(element, facts.X_BA, nullptr));
+  }
+  result.contacts.resize(facts.contacts);
+}
+
+void add_closed_point(const ContactPointResult& point, ContactResult& contact) {
+  contact.closed = true;
+  contact.points.push_back(point);
+  set_resultant(contact);
+}
+
+void set_nearest_point(const ContactPointResult& point, ContactResult& contact) {
+  contact.points.push_back(point);
+  contact.resultant_ground = point.point_ground;
+}
+
 void to_file_frames(const BodyOrigins& origins, PoseResult& pose) {
   pose.X_BA = origins.out_of_model(pose.X_BA);
   for (ContactResult& contact : pose.contacts) {
@@ -53,6 +104,8 @@ void to_file_frames(const BodyOrigins& origins, PoseResult& pose) {
       point.point_moving += origins.A;
     }
   }
+  for (std::vector<Eigen::Vector3d>& path : pose.paths)
+    for (Eigen::Vector3d& corner : path) corner += origins.B;
 }
 
 }  // namespace condyle

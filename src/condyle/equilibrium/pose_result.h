@@ -6,12 +6,13 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "condyle/contact/contact_result.h"
+#include "condyle/contact/pose_status.h"
 #include "condyle/elements/body_origins.h"
 #include "condyle/elements/joint_coordinates.h"
 #include "condyle/equilibrium/pose_trace.h"
@@ -19,68 +20,7 @@
 
 namespace condyle {
 
-/// The values are those of /sweep/status.
-enum class PoseStatus {
-  kConverged = 0,
-  kIterationLimit = 1,  ///< the iteration did not settle
-  kDiverged = 2,        ///< the pose ran away or a number overflowed
-  kSingular = 3,   ///< dependent conditions or contacts, or a motion that nothing resists (named in
-                   ///< `reason`)
-  kLeftPatch = 4,  ///< a closed contact lies beyond the known part of its surface: an equilibrium
-                   ///< on the surface as it is extrapolated there
-  kNoEquilibrium = 5,  ///< a load that nothing carries
-  kZeroLength = 6,     ///< a line element of zero length
-  kOverlap = 7,  ///< the surfaces overlap elsewhere and no admissible set of contacts was found
-  kNotComputed = 8
-};
-inline constexpr int kPoseStatusCount = 9;
-
-/// A short name: "converged", "iteration limit", ...
-[[nodiscard]] const char* name(PoseStatus status);
-
-/// How a rigid contact would spread over an elastic surface, estimated afterwards
-/// (contact/hertz.h).
-struct HertzEstimate {
-  std::array<double, 2> semi_axes;  ///< of the ellipse of contact, major first [mm]
-  Eigen::Vector3d major_axis;       ///< unit vector, ground frame
-  double peak_pressure;             ///< [N/mm²]
-  double approach;                  ///< of the two bodies [mm]
-};
-
-/// One point of contact.
-struct ContactPointResult {
-  double force = 0;               ///< p [N], > 0 pushes apart
-  Eigen::Vector3d point_ground;   ///< [mm]
-  Eigen::Vector3d point_moving;   ///< the same point in A's frame [mm]
-  Eigen::Vector3d normal_ground;  ///< unit, out of the fixed body's solid
-  double gap = 0;                 ///< [mm]
-  std::array<double, 2>
-      relative_curvature;  ///< principal values of -(K + Kr) [1/mm], ascending; > 0 isolated
-  double edge_distance =
-      std::numeric_limits<double>::infinity();  ///< to the edge of the known surfaces [mm]
-  bool on_edge = false;                         ///< within the margin of a patch's known region
-  std::optional<HertzEstimate> hertz;           ///< where the surfaces have a modulus
-};
-
-/// What kind of place two surfaces touch in; the values are those of /sweep/contacts/NAME/shape.
-enum class ContactShape {
-  kPoint = 0,      ///< isolated points
-  kLine = 1,       ///< along a straight line, carried by its two ends
-  kConforming = 2  ///< over an area: rigid surfaces do not say where
-};
-
-/// A pair of surfaces. Closed with one or more points; open, it tells where the gap is smallest.
-struct ContactResult {
-  bool closed = false;
-  ContactShape shape = ContactShape::kPoint;
-  double force = 0;  ///< sum over the points [N]
-  /// Where the resultant of the points acts, ground frame [mm]; of an open contact the nearest
-  /// point.
-  Eigen::Vector3d resultant_ground =
-      Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  std::vector<ContactPointResult>
-      points;  ///< closed: those that carry; open: the nearest one, force 0
-};
+struct LineElement;
 
 struct LigamentResult {
   double length = 0, strain = 0,
@@ -112,7 +52,10 @@ struct PoseResult {
   std::vector<ContactResult> contacts;      ///< as in Scene::contacts
   std::vector<LigamentResult> ligaments;    ///< as in Scene::ligaments
   std::vector<ConditionResult> conditions;  ///< as in Scene::conditions
-  int stability = -1;                       ///< 1 stable, 0 neutral or unstable, -1 not computed
+  /// Corners of the ligaments' paths between their ends, from the fixed body's, ground frame [mm]:
+  /// one for each ligament, empty for a straight one; none where all are straight.
+  std::vector<std::vector<Eigen::Vector3d>> paths;
+  int stability = -1;  ///< 1 stable, 0 neutral or unstable, -1 not computed
   double lowest_stiffness =
       std::numeric_limits<double>::quiet_NaN();  ///< of the reduced stiffness [N/mm]
   Eigen::Matrix<double, 6, 1> softest_motion =
@@ -131,7 +74,30 @@ struct PoseResult {
   }
 };
 
-/// A pose as a model tells it, from its frames to those of the files: X_BA and all points.
+/// An empty result that keeps the memory of the one before.
+void clear(PoseResult& result);
+
+/// What whoever solved a pose knows of it, in the frames that it computes in.
+struct PoseFacts {
+  const RigidTransform& X_BA;
+  const JointFrames* joint;  ///< null: no joint coordinates
+  const std::vector<LineElement>& elements;
+  const std::vector<double>& paths;  ///< numbers that the elements' paths keep, or none
+  std::size_t contacts;              ///< how many pairs there are
+};
+
+/// The one way in which a solved pose is told, be it of statics, of a motion, of Wismans' model or
+/// of a comparison. To an empty result: X_BA, joint coordinates, line elements with the forces of
+/// their laws, contacts of which nothing is known yet. Conditions and points of contact follow.
+void begin_pose(const PoseFacts& facts, PoseResult& result);
+
+/// One more point that carries; the contact's force and resultant are those of all its points.
+void add_closed_point(const ContactPointResult& point, ContactResult& contact);
+
+/// The nearest point of a contact that is open.
+void set_nearest_point(const ContactPointResult& point, ContactResult& contact);
+
+/// At last, from the frames of a model to those of the files: X_BA and all points.
 void to_file_frames(const BodyOrigins& origins, PoseResult& pose);
 
 /// What happens to a contact at one value of a sweep; the values are those of /events/kind.

@@ -18,16 +18,15 @@ constexpr double kNeutral = 1e-9;  // of the largest stiffness
 
 }  // namespace
 
-Stability stability(const Model& model, const NewtonSystem& system) {
-  Eigen::Matrix<double, 6, 6> K = scaled_stiffness(system.wrench(), model.length);
+Stability stability(const Linearization& at) {
+  Eigen::Matrix<double, 6, 6> K = scaled_stiffness(at.wrench(), at.model.length);
   K = (0.5 * (K + K.transpose())).eval();
-  const double largest = std::max(K.cwiseAbs().maxCoeff(), system.force_scale() / model.length);
+  const double largest = std::max(K.cwiseAbs().maxCoeff(), at.force_scale() / at.model.length);
 
   Stability result{std::numeric_limits<double>::infinity(), Eigen::Matrix<double, 6, 1>::Zero(),
                    false, false, Motions(6, 0)};
-  const SmallMatrix Z = admissible_motions(model, system);
-  result.dependent = static_cast<std::size_t>(6 - Z.cols()) <
-                     system.contacts().size() + system.conditions().size();
+  const SmallMatrix Z = admissible_motions(at);
+  result.dependent = static_cast<std::size_t>(6 - Z.cols()) < at.constraints();
   const SmallMatrix reduced = Z.transpose() * K * Z;
   if (Z.cols() == 0 || !reduced.allFinite()) return result;
   const Eigen::SelfAdjointEigenSolver<SmallMatrix> eigen(reduced);
@@ -41,19 +40,16 @@ Stability stability(const Model& model, const NewtonSystem& system) {
   return result;
 }
 
-std::string stability_remark(const Model& model,
-                             const NewtonSystem& system,
-                             const RigidTransform& X_BA,
-                             const Stability& stability) {
+std::string stability_remark(const Linearization& at, const Stability& stability) {
   std::string remark;
   if (stability.neutral) {
-    remark = "neutral: nothing resists " + name_motions(model, X_BA, stability.free);
+    remark = "neutral: nothing resists " + name_motions(at.model, at.state.X, stability.free);
   } else if (!stability.stable()) {
-    remark = "unstable along " + name_motions(model, X_BA, stability.motion);
+    remark = "unstable along " + name_motions(at.model, at.state.X, stability.motion);
   }
   if (!stability.dependent) return remark;
   if (!remark.empty()) remark += "; ";
-  return remark + dependent_constraints(model, system) + ": what each carries is not determined";
+  return remark + dependent_constraints(at) + ": what each carries is not determined";
 }
 
 }  // namespace condyle

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "condyle/equilibrium/admissible_motions.h"
-#include "condyle/equilibrium/newton.h"
 
 namespace condyle {
 
@@ -22,15 +21,12 @@ struct Stability {
   [[nodiscard]] bool stable() const { return lowest_stiffness > 0 && !neutral; }
 };
 
-/// `system` assembled at the position of equilibrium. The stiffness is -(∂wrench/∂pose), its
-/// symmetric part: follower loads have no potential.
-[[nodiscard]] Stability stability(const Model& model, const NewtonSystem& system);
+/// At a position of equilibrium. The stiffness is -(∂wrench/∂pose), its symmetric part: follower
+/// loads have no potential.
+[[nodiscard]] Stability stability(const Linearization& at);
 
 /// "" where the pose is stable, else which motion is free or grows by itself; and which contacts
 /// and conditions share what they carry in a way that statics cannot tell.
-[[nodiscard]] std::string stability_remark(const Model& model,
-                                           const NewtonSystem& system,
-                                           const RigidTransform& X_BA,
-                                           const Stability& stability);
+[[nodiscard]] std::string stability_remark(const Linearization& at, const Stability& stability);
 
 }  // namespace condyle

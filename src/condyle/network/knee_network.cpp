@@ -22,6 +22,20 @@ void add_ligaments(const Model& model, Network& network) {
   }
 }
 
+/// A motion carries straight lines and rigid points alone.
+void check_carried(const Model& model) {
+  for (std::size_t i = 0; i < model.elements.size(); ++i)
+    if (model.elements[i].path)
+      throw InputError(
+          fmt::format("ligament \"{}\" has a path of its own, expected a straight one "
+                      "in a motion",
+                      model.element_names[i]));
+  for (const ContactPair& pair : model.pairs)
+    if (pair.law)
+      throw InputError(fmt::format(
+          "contact \"{}\" has a law of its own, expected rigid contacts in a motion", pair.name));
+}
+
 constexpr double kReach = 5.0 / 3;  // of L: how far an open pair is looked for
 
 /// The first contact of the pair that is not taken yet.
@@ -44,6 +58,7 @@ void close_next(const Model& model,
 }  // namespace
 
 KneeNetwork make_knee_network(const Model& model, const std::optional<MassProperties>& mass) {
+  check_carried(model);
   KneeNetwork knee;
   Network& network = knee.network;
   network.length = model.length;

@@ -15,6 +15,7 @@ namespace condyle {
 /// origin O_A where there is no mass. Contacts that the model leaves out are left out; `places`
 /// says which of Model::pairs each contact of the network is: a pair that can open has several
 /// contacts, for the points at which its surfaces may touch at once.
+/// Throws InputError for a pair with a contact law and an element with a path of its own.
 struct KneeNetwork {
   Network network;
   std::vector<int> places;

@@ -4,23 +4,20 @@
 #include <utility>
 
 #include "condyle/contact/contact.h"
-#include "condyle/elements/strain.h"
-#include "condyle/equilibrium/describe_pose.h"
+#include "condyle/equilibrium/pose_result.h"
 #include "condyle/network/contact_scout.h"
 
 namespace condyle {
 namespace {
 
-/// Points of one pair, as the frame has them.
-void add_point(const ContactPair& pair,
-               const ContactPlaces& places,
-               double force,
-               const RigidTransform& X,
-               ContactResult& result) {
+/// A point of a pair, as the frame has it.
+ContactPointResult point_of(const ContactPair& pair,
+                            const ContactPlaces& places,
+                            double force,
+                            const RigidTransform& X) {
   const ContactLinearization at =
       linearize_contact(*pair.on_B, places.on_ground, *pair.on_A, places.on_body, X);
-  const double edge = edge_distance(pair, places.on_ground, places.on_body);
-  result.points.push_back(describe_point(at, force, edge));
+  return describe_point(at, force, edge_distance(pair, places.on_ground, places.on_body));
 }
 
 class FrameTeller {
@@ -32,14 +29,16 @@ class FrameTeller {
     PoseResult pose;
     pose.value = frame.state.t;
     pose.status = PoseStatus::kConverged;
-    pose.X_BA = frame.state.bodies[0].X;
-    if (model_.joint) pose.joint = joint_coordinates(*model_.joint, pose.X_BA);
+    begin_pose({frame.state.bodies[0].X,
+                model_.joint ? &*model_.joint : nullptr,
+                model_.elements,
+                {},
+                model_.pairs.size()},
+               pose);
+    // What is viscous adds to the law.
+    for (std::size_t i = 0; i < model_.elements.size(); ++i)
+      pose.ligaments[i].force = frame.lines[i].force;
     add_contacts(frame, pose);
-    for (std::size_t i = 0; i < model_.elements.size(); ++i) {
-      const double length = frame.lines[i].length;
-      pose.ligaments.push_back(
-          {length, strain(model_.elements[i].law, length), frame.lines[i].force});
-    }
     for (std::size_t i = 0; i < model_.conditions.size(); ++i) {
       const std::vector<int>& hold = scene_.simulation->hold;
       const auto held = std::find(hold.begin(), hold.end(), static_cast<int>(i));
@@ -57,18 +56,15 @@ class FrameTeller {
  private:
   /// Closed points of each pair, or the nearest one.
   void add_contacts(const MotionFrame& frame, PoseResult& pose) const {
-    pose.contacts.resize(model_.pairs.size());
     for (std::size_t i = 0; i < knee_.places.size(); ++i) {
       if (!frame.state.contacts[i].closed) continue;
       const int pair = knee_.places[i];
       ContactResult& contact = pose.contacts[pair];
-      contact.closed = true;
-      add_point(model_.pairs[pair], frame.state.contacts[i], frame.contact_force[i], pose.X_BA,
-                contact);
+      add_closed_point(
+          point_of(model_.pairs[pair], frame.state.contacts[i], frame.contact_force[i], pose.X_BA),
+          contact);
       check_edge(pair, contact.points.back(), pose);
     }
-    for (ContactResult& contact : pose.contacts)
-      if (contact.closed) set_resultant(contact);
     for (std::size_t p = 0; p < pose.contacts.size(); ++p)
       if (!pose.contacts[p].closed) add_nearest(frame, static_cast<int>(p), pose);
   }
@@ -80,9 +76,8 @@ class FrameTeller {
           (nearest < 0 || frame.contact_gap[i] < frame.contact_gap[nearest]))
         nearest = static_cast<int>(i);
     if (nearest < 0) return;
-    ContactResult& contact = pose.contacts[pair];
-    add_point(model_.pairs[pair], frame.state.contacts[nearest], 0, pose.X_BA, contact);
-    contact.resultant_ground = contact.points[0].point_ground;
+    set_nearest_point(point_of(model_.pairs[pair], frame.state.contacts[nearest], 0, pose.X_BA),
+                      pose.contacts[pair]);
   }
 
   void check_edge(int pair, const ContactPointResult& point, PoseResult& pose) const {

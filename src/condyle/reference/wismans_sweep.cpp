@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "condyle/contact/contact.h"
-#include "condyle/elements/strain.h"
 #include "condyle/reference/joint_rotation.h"
 #include "condyle/reference/wismans_solver.h"
 #include "condyle/reference/wismans_system.h"
@@ -15,11 +14,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-ContactResult describe_contact(const WismansModel& model,
-                               const WismansVector& unknowns,
-                               int index,
-                               const RigidTransform& X_BA,
-                               std::string& remark) {
+ContactPointResult describe_point(const WismansModel& model,
+                                  const WismansVector& unknowns,
+                                  int index,
+                                  const RigidTransform& X_BA,
+                                  std::string& remark) {
   const WismansContact& contact = model.contacts[static_cast<std::size_t>(index)];
   const Eigen::Vector2d at_B = unknowns.segment<2>(wismans::on_B(index)),
                         at_A = unknowns.segment<2>(wismans::on_A(index));
@@ -47,12 +46,7 @@ ContactResult describe_contact(const WismansModel& model,
                     contact.name, -point.edge_distance));
   if (point.relative_curvature[0] < 0)
     say(fmt::format("the surfaces cut into each other beside the {} contact", contact.name));
-  ContactResult result;
-  result.closed = true;
-  result.force = point.force;
-  result.resultant_ground = B.c;
-  result.points = {point};
-  return result;
+  return point;
 }
 
 std::string reason_of(const WismansSolution& solution) {
@@ -150,17 +144,12 @@ PoseResult describe(const WismansModel& model, const WismansSolution& solution) 
     pose.reason = reason_of(solution);
     return pose;
   }
-  pose.X_BA = pose_of(model, solution.unknowns);
-  pose.joint = joint_coordinates(model.joint, pose.X_BA);
-  pose.contacts.resize(model.scene_contacts);
-  for (int c = 0; c < 2; ++c) {
-    pose.contacts[model.contacts[static_cast<std::size_t>(c)].index] =
-        describe_contact(model, solution.unknowns, c, pose.X_BA, pose.remark);
-  }
-  for (const LineElement& spring : model.springs) {
-    const LineElementState state = line_element_state(spring, pose.X_BA);
-    pose.ligaments.push_back({state.length, strain(spring.law, state.length), state.force});
-  }
+  begin_pose(
+      {pose_of(model, solution.unknowns), &model.joint, model.springs, {}, model.scene_contacts},
+      pose);
+  for (int c = 0; c < 2; ++c)
+    add_closed_point(describe_point(model, solution.unknowns, c, pose.X_BA, pose.remark),
+                     pose.contacts[model.contacts[static_cast<std::size_t>(c)].index]);
   pose.conditions = {{model.flexion, solution.unknowns[wismans::kMoment]}};
   to_file_frames(model.origins, pose);
   return pose;

@@ -1,0 +1,55 @@
+#pragma once
+
+/// How the two surfaces of a pair carry. Rigid points of contact (contact.h) are the law of a pair
+/// that names no other: they are unknowns of Newton's system, each with a row. A law without
+/// unknowns is an energy U of the pose, a ContactPotential: its wrench -∂U and the derivatives of
+/// that are added to those of ligaments and loads, and so are seen by Newton, descent, stability and
+/// joint stiffness. A model may have pairs of either kind.
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "condyle/contact/contact_result.h"
+#include "condyle/contact/pose_status.h"
+#include "condyle/elements/wrench.h"
+#include "condyle/math/rigid_transform.h"
+
+namespace condyle {
+
+struct ContactPair;
+
+/// Of one pair and one thread: it may keep places from pose to pose. Nothing but prepare and accepts
+/// changes what is computed at a pose, and after reset no bit depends on what was asked before.
+class ContactPotential {
+ public:
+  virtual ~ContactPotential() = default;
+
+  /// As newly made. Allocates nothing.
+  virtual void reset() {}
+
+  /// Chooses at a pose what is held while poses near it are solved: a quadrature, say.
+  virtual void prepare(const RigidTransform& /*X_BA*/) {}
+
+  /// At a pose that has been solved: false where what is held had to be changed; then the pose is
+  /// solved on.
+  virtual bool accepts(const RigidTransform& /*X_BA*/) { return true; }
+
+  /// Adds the wrench on A with its exact derivatives to `wrench`; returns the sum of the forces'
+  /// magnitudes [N]. Finite at every pose. Allocates nothing once it was asked.
+  virtual double add_to(const RigidTransform& X_BA, Wrench& wrench) = 0;
+
+  /// U [N mm], 0 where nothing touches.
+  virtual double energy(const RigidTransform& X_BA) = 0;
+
+  /// Fills a cleared result, in the model's frames: closed where it carries, with force, resultant
+  /// and a point where it presses most; else the nearest point. Says why a pose with such a contact
+  /// is none, if it is.
+  virtual std::optional<Objection> describe(const RigidTransform& X_BA, ContactResult& result) = 0;
+};
+
+/// Makes the potential of a pair in the model's frames; what it shares between threads is constant.
+/// Empty: rigid points.
+using ContactLaw = std::function<std::unique_ptr<ContactPotential>(const ContactPair& pair)>;
+
+}  // namespace condyle

@@ -1,0 +1,38 @@
+#include "condyle/contact/contact_result.h"
+
+#include "condyle/contact/contact.h"
+
+namespace condyle {
+
+ContactPointResult describe_point(const ContactLinearization& at, double force, double edge) {
+  ContactPointResult point;
+  point.force = force;
+  point.point_ground = at.B.c;
+  point.point_moving = at.A.c;
+  point.normal_ground = at.B.n;
+  point.gap = at.gap();
+  point.relative_curvature = at.relative_curvature;
+  point.edge_distance = edge;
+  return point;
+}
+
+void set_resultant(ContactResult& contact) {
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  contact.force = 0;
+  for (const ContactPointResult& point : contact.points) {
+    contact.force += point.force;
+    moment += point.force * point.point_ground;
+  }
+  contact.resultant_ground =
+      contact.force != 0 ? Eigen::Vector3d(moment / contact.force) : contact.points[0].point_ground;
+}
+
+void clear(ContactResult& contact) {
+  contact.points.clear();
+  contact.closed = false;
+  contact.shape = ContactShape::kPoint;
+  contact.force = 0;
+  contact.resultant_ground.setConstant(std::numeric_limits<double>::quiet_NaN());
+}
+
+}  // namespace condyle

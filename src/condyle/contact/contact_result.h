@@ -1,0 +1,74 @@
+#pragma once
+
+/// What is told of a contact at one pose: plain data for results and pictures. Units inside: mm, N,
+/// rad. B is the fixed body (ground frame), A the moving one.
+
+#include <Eigen/Core>
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace condyle {
+
+struct ContactLinearization;
+
+/// How a rigid contact would spread over an elastic surface, estimated afterwards
+/// (contact/hertz.h).
+struct HertzEstimate {
+  std::array<double, 2> semi_axes;  ///< of the ellipse of contact, major first [mm]
+  Eigen::Vector3d major_axis;       ///< unit vector, ground frame
+  double peak_pressure;             ///< [N/mm²]
+  double approach;                  ///< of the two bodies [mm]
+};
+
+/// One point of contact.
+struct ContactPointResult {
+  double force = 0;               ///< p [N], > 0 pushes apart
+  Eigen::Vector3d point_ground;   ///< [mm]
+  Eigen::Vector3d point_moving;   ///< the same point in A's frame [mm]
+  Eigen::Vector3d normal_ground;  ///< unit, out of the fixed body's solid
+  double gap = 0;                 ///< [mm]
+  std::array<double, 2>
+      relative_curvature;  ///< principal values of -(K + Kr) [1/mm], ascending; > 0 isolated
+  double edge_distance =
+      std::numeric_limits<double>::infinity();  ///< to the edge of the known surfaces [mm]
+  bool on_edge = false;                         ///< within the margin of a patch's known region
+  std::optional<HertzEstimate> hertz;           ///< where the surfaces have a modulus
+};
+
+/// What kind of place two surfaces touch in; the values are those of /sweep/contacts/NAME/shape.
+enum class ContactShape {
+  kPoint = 0,      ///< isolated points
+  kLine = 1,       ///< along a straight line, carried by its two ends
+  kConforming = 2  ///< over an area: rigid surfaces do not say where
+};
+
+/// A pair of surfaces. Closed with one or more points; open, it tells where the gap is smallest.
+/// What a law of its own says beside that (contact_law.h) gets a field here.
+struct ContactResult {
+  bool closed = false;
+  ContactShape shape = ContactShape::kPoint;
+  double force = 0;  ///< sum over the points [N]
+  /// Where the resultant of the points acts, ground frame [mm]; of an open contact the nearest
+  /// point.
+  Eigen::Vector3d resultant_ground =
+      Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  std::vector<ContactPointResult>
+      points;  ///< closed: those that carry; open: the nearest one, force 0
+};
+
+/// A point of contact with its force [N] and its distance from the nearest edge [mm]; whether that
+/// counts as on the edge is left to the caller.
+[[nodiscard]] ContactPointResult describe_point(const ContactLinearization& at,
+                                                double force,
+                                                double edge);
+
+/// Force and resultant of a closed contact from its points.
+void set_resultant(ContactResult& contact);
+
+/// Empty as a new one, in the memory of before.
+void clear(ContactResult& contact);
+
+}  // namespace condyle

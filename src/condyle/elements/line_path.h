@@ -1,0 +1,80 @@
+#pragma once
+
+/// The way that a line element takes between its ends where it is not straight: over a surface,
+/// through a pulley. A path is a length L of the pose; all that mechanics asks of it is L and the
+/// wrench of a unit tension on A, -∂L/∂(a, π), with the exact derivatives of that wrench. From them
+/// follow force, moment and blocks for every law f(L) (line_element.h).
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "condyle/elements/wrench.h"
+#include "condyle/math/rigid_transform.h"
+
+namespace condyle {
+
+/// The ends of a line element at a pose, ground frame [mm]: x_C on B, x_D on A at the arm q from
+/// O_A.
+struct LineEnds {
+  Eigen::Vector3d x_C, x_D, q;
+};
+
+/// Constant, and shared by threads. What a path keeps from pose to pose (places, tangents, arcs,
+/// which surfaces it touches) are `numbers()` doubles of the state (EquilibriumState::paths): NaN
+/// where nothing is known yet, those of the pose asked for afterwards.
+class LinePath {
+ public:
+  virtual ~LinePath() = default;
+
+  [[nodiscard]] virtual int numbers() const { return 0; }
+
+  /// L [mm]; writes into `unit` the wrench of a tension of 1 N and its derivatives. Allocates
+  /// nothing. A path without length or that cannot be found has the length 0.
+  virtual double pull(const LineEnds& ends,
+                      const RigidTransform& X_BA,
+                      double* kept,
+                      Wrench& unit) const = 0;
+
+  /// L [mm] alone.
+  [[nodiscard]] virtual double length(const LineEnds& ends,
+                                      const RigidTransform& X_BA,
+                                      double* kept) const {
+    Wrench unit;
+    return pull(ends, X_BA, kept, unit);
+  }
+
+  /// At a pose that has been solved: changes in `kept` what is held while one is solved (a surface
+  /// that it has come to or left), and says whether it did: then the pose is solved on.
+  virtual bool revise(const LineEnds&, const RigidTransform&, double*) const { return false; }
+
+  /// Corners of the path between the ends, from C to D, ground frame [mm]: for those who draw it.
+  virtual void add_points(const LineEnds&,
+                          const RigidTransform&,
+                          const double*,
+                          std::vector<Eigen::Vector3d>&) const {}
+};
+
+/// Most numbers that one path keeps.
+inline constexpr int kMostPathNumbers = 64;
+
+/// Numbers of a path of which nothing is known.
+[[nodiscard]] inline std::array<double, kMostPathNumbers> unknown_path() {
+  std::array<double, kMostPathNumbers> kept;
+  kept.fill(std::numeric_limits<double>::quiet_NaN());
+  return kept;
+}
+
+/// Of a path that all that leads it is fixed to B: e = ∂L/∂x_D the unit tangent at D, away from the
+/// path, H = ∂²L/∂x_D² [1/mm], both in the ground frame.
+[[nodiscard]] Wrench pull_at_moving_end(const Eigen::Vector3d& e,
+                                        const Eigen::Matrix3d& H,
+                                        const Eigen::Vector3d& q);
+
+/// Of a path that all that leads it is fixed to A: e = -∂L/∂x_C the unit tangent at C, towards the
+/// path, H = ∂²L/∂x_C² [1/mm], c = x_C - a the arm of C from O_A [mm], all in the ground frame.
+[[nodiscard]] Wrench pull_at_fixed_end(const Eigen::Vector3d& e,
+                                       const Eigen::Matrix3d& H,
+                                       const Eigen::Vector3d& c);
+
+}  // namespace condyle
