@@ -20,8 +20,8 @@ const std::vector<Include>& includes() {
   return all;
 }
 
-const std::vector<std::string>& rooms() {
-  static const std::vector<std::string> all = rooms_of_page(kRoot / "docs/architecture.md");
+const std::vector<Room>& rooms() {
+  static const std::vector<Room> all = rooms_of_page(kRoot / "docs/architecture.md");
   return all;
 }
 
@@ -29,8 +29,16 @@ const std::vector<std::string>& rooms() {
 int row_of(const std::string& file) {
   const std::string room = folder(file, 3);
   if (room == kSources) return -1;
-  const auto at = std::find(rooms().begin(), rooms().end(), room.substr(kSources.size() + 1));
+  const auto at = std::find_if(rooms().begin(), rooms().end(), [&](const Room& row) {
+    return row.name == room.substr(kSources.size() + 1);
+  });
   return static_cast<int>(at - rooms().begin());
+}
+
+/// The library of a file of src; none for what stands beside the rooms and serves every one.
+std::string library_of(const std::string& file) {
+  const int row = row_of(file);
+  return row < 0 ? "" : rooms().at(static_cast<std::size_t>(row)).library;
 }
 
 bool starts_with(const std::string& text, const std::string& begin) {
@@ -41,7 +49,9 @@ TEST(Architecture, EveryRoomHasARowOfTheTableAndEveryRowARoom) {
   std::set<std::string> folders;
   for (const auto& entry : std::filesystem::directory_iterator(kRoot / kSources))
     if (entry.is_directory()) folders.insert(entry.path().filename().string());
-  EXPECT_EQ(folders, std::set<std::string>(rooms().begin(), rooms().end()));
+  std::set<std::string> rows;
+  for (const Room& room : rooms()) rows.insert(room.name);
+  EXPECT_EQ(folders, rows);
   EXPECT_GT(includes().size(), 2000U);
 }
 
@@ -52,6 +62,38 @@ TEST(Architecture, IncludesGoOnlyUpwardsInTheTable) {
     EXPECT_LE(row_of(include.to), row_of(include.from))
         << include.from << " includes " << include.to;
   }
+}
+
+/// Who links the mechanics alone needs Eigen, and the headers of nothing else: nanoflann and fmt are
+/// inside.
+TEST(Architecture, TheMechanicsIncludesNoOtherLibraryAndItsHeadersNothingButEigen) {
+  int files = 0;
+  for (const Include& include : includes()) {
+    if (!starts_with(include.from, "src/") || library_of(include.from) != "mechanics") continue;
+    ++files;
+    if (include.of_project()) {
+      const std::string library = library_of(include.to);
+      EXPECT_TRUE(library.empty() || library == "mechanics")
+          << include.from << " includes " << include.to;
+      continue;
+    }
+    const bool standard = include.to.find_first_of("/.") == std::string::npos;
+    if (standard || starts_with(include.to, "<Eigen/")) continue;
+    const bool inside = include.from == "src/condyle/surface/point_tree.h" ||
+                        include.from.substr(include.from.rfind('.')) == ".cpp";
+    EXPECT_TRUE(inside &&
+                (starts_with(include.to, "<nanoflann") || starts_with(include.to, "<fmt/")))
+        << include.from << " includes " << include.to;
+  }
+  EXPECT_GT(files, 300);
+}
+
+/// Each library on top of the one before it: a room stands among those of its own.
+TEST(Architecture, RoomsOfALibraryStandTogetherInTheTable) {
+  std::vector<std::string> libraries;
+  for (const Room& room : rooms())
+    if (libraries.empty() || libraries.back() != room.library) libraries.push_back(room.library);
+  EXPECT_EQ(libraries, (std::vector<std::string>{"mechanics", "io", "pictures", "program"}));
 }
 
 /// What tests and tools share stands in tests/support; tests may use tools, tools no tests.
@@ -83,8 +125,8 @@ TEST(Architecture, ACircleOverThreeFilesIsSeenAndAHeaderWithItsSourceIsNone) {
 
 TEST(Architecture, EachLibraryIsIncludedInOneRoom) {
   const std::map<std::string, std::string> room_of = {
-      {"<assimp/", "mesh"},         {"<nanoflann", "surface"},
-      {"<toml++/", "scene"},        {"<cvode/", "network"},
+      {"<assimp/", "mesh_files"},   {"<nanoflann", "surface"},
+      {"<toml++/", "scene_file"},   {"<cvode/", "network"},
       {"<hdf5", "results"},         {"<openssl/", "results"},
       {"<tiny_gltf", "exchange"},   {"<meshoptimizer", "exchange"},
       {"<pugixml", "exchange"},     {"<GL/", "pictures"},
@@ -117,7 +159,7 @@ TEST(Architecture, TheReferenceModelAndTheVerifierShareNoLineOfASolver) {
     if (room != "src/condyle/verify" || !include.of_project()) continue;
     const bool free = other == kSources || other == "src/condyle/verify" ||
                       other == "src/condyle/scene" || other == "src/condyle/results" ||
-                      other == "src/condyle/mesh";
+                      other == "src/condyle/mesh" || other == "src/condyle/mesh_files";
     EXPECT_TRUE(free || of_the_verifier.count(include.to) == 1)
         << include.from << " includes " << include.to;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "condyle/results/run_file.h"
+#include "condyle/version.h"
 
 namespace condyle {
 namespace {

@@ -22,10 +22,12 @@ std::string included(const std::string& line) {
   return quoted ? line.substr(begin + 1, end - begin - 1) : line.substr(begin, end + 1 - begin);
 }
 
-/// As the include folders of the targets are: the sources, the tests, the tools.
+/// As the include folders of the targets are: the sources, the tests, the tools. NAME.in becomes NAME
+/// while the build is configured.
 std::string file_named(const fs::path& root, const std::string& from, const std::string& name) {
   for (const char* top : {"src/", "tests/", "tools/"})
-    if (fs::is_regular_file(root / (top + name))) return top + name;
+    for (const char* made : {"", ".in"})
+      if (fs::is_regular_file(root / (top + name + made))) return top + name;
   throw std::runtime_error(from + ": includes " + name + ", which is no file");
 }
 
@@ -76,15 +78,18 @@ std::string folder(const std::string& path, int count) {
   return path.substr(0, end);
 }
 
-std::vector<std::string> rooms_of_page(const fs::path& page) {
-  std::vector<std::string> rooms;
+std::vector<Room> rooms_of_page(const fs::path& page) {
+  std::vector<Room> rooms;
   std::ifstream stream(page);
   bool within = false;
   for (std::string line; std::getline(stream, line);) {
     if (line.rfind("| room |", 0) == 0) within = true;
     if (within && line.empty()) break;
     if (!within || line.rfind("| `", 0) != 0) continue;
-    rooms.push_back(line.substr(3, line.find('`', 3) - 3));
+    const std::size_t name = line.find('`') + 1, end = line.find('`', name);
+    const std::size_t library = line.find('`', end + 1) + 1;
+    rooms.push_back(
+        {line.substr(name, end - name), line.substr(library, line.find('`', library) - library)});
   }
   return rooms;
 }

@@ -21,9 +21,12 @@ struct Include {
 /// The first `count` folders of a path, or fewer where it has fewer: "src/math".
 [[nodiscard]] std::string folder(const std::string& path, int count);
 
-/// The names of rooms in the table of docs/architecture.md, the one headed "room", from top to
-/// bottom.
-[[nodiscard]] std::vector<std::string> rooms_of_page(const std::filesystem::path& page);
+struct Room {
+  std::string name, library;  ///< "math", "mechanics"
+};
+
+/// The rows of the table of docs/architecture.md, the one headed "room", from top to bottom.
+[[nodiscard]] std::vector<Room> rooms_of_page(const std::filesystem::path& page);
 
 /// Circles among ideas; NAME.h and NAME.cpp are one. Each is the set of all that reach each other,
 /// "src/a/x, src/a/y", sorted.

@@ -4,6 +4,7 @@
 
 #include "app/run_program.h"
 #include "condyle/results/run_file.h"
+#include "condyle/version.h"
 
 namespace condyle {
 namespace {

@@ -14,7 +14,8 @@
 #include "condyle/reference/fit_heights.h"
 #include "condyle/reference/polynomial_surface.h"
 #include "condyle/results/run_file.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "support/scratch_folder.h"
 
 namespace condyle {

@@ -8,7 +8,8 @@
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/input_error.h"
 #include "condyle/results/run_file.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "scene/small_scene.h"
 #include "support/scratch_folder.h"
 

@@ -8,7 +8,8 @@
 #include "condyle/compare/laxity.h"
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/network/simulate.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "support/moved_scene.h"
 
 namespace condyle {

@@ -6,7 +6,8 @@
 #include <filesystem>
 
 #include "condyle/equilibrium/sweep.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 
 namespace condyle {
 namespace {

@@ -12,7 +12,8 @@
 
 #include "condyle/equilibrium/edge_in_words.h"
 #include "condyle/equilibrium/sweep.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "condyle/surface/exact_surfaces.h"
 #include "support/known_part.h"
 #include "support/scratch_folder.h"

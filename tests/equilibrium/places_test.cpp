@@ -8,7 +8,8 @@
 
 #include "condyle/equilibrium/events.h"
 #include "condyle/equilibrium/sweep.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "support/knee_scenes.h"
 #include "support/moved_scene.h"
 #include "support/scratch_folder.h"

@@ -8,7 +8,8 @@
 
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/math/rotation.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "support/report_problems.h"
 
 namespace condyle {

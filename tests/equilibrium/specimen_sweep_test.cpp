@@ -13,7 +13,8 @@
 #include "condyle/equilibrium/build_model.h"
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/math/rotation.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "support/random.h"
 
 namespace condyle {

@@ -6,7 +6,8 @@
 #include <filesystem>
 
 #include "condyle/contact/contact_search.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "condyle/surface/patch.h"
 
 namespace condyle {

@@ -13,8 +13,8 @@
 #include "condyle/exchange/osim_scene.h"
 #include "condyle/exchange/ply_file.h"
 #include "condyle/input_error.h"
-#include "condyle/mesh/load_mesh.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/mesh_files/load_mesh.h"
+#include "condyle/scene_file/read_scene.h"
 #include "scene/small_scene.h"
 #include "support/scratch_folder.h"
 

@@ -6,7 +6,8 @@
 
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/results/run_file.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 
 namespace condyle::test {
 

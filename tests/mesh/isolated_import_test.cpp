@@ -1,4 +1,4 @@
-#include "condyle/mesh/isolated_import.h"
+#include "condyle/mesh_files/isolated_import.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "condyle/input_error.h"
-#include "condyle/mesh/load_mesh.h"
-#include "condyle/mesh/mesh_readers.h"
+#include "condyle/mesh_files/load_mesh.h"
+#include "condyle/mesh_files/mesh_readers.h"
 #include "mesh/made_mesh.h"
 #include "support/mesh_shapes.h"
 #include "support/scratch_folder.h"

@@ -1,4 +1,4 @@
-#include "condyle/mesh/load_mesh.h"
+#include "condyle/mesh_files/load_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "condyle/input_error.h"
-#include "condyle/mesh/mesh_readers.h"
+#include "condyle/mesh_files/mesh_readers.h"
 #include "mesh/made_mesh.h"
 
 namespace condyle {

@@ -1,4 +1,4 @@
-#include "condyle/mesh/mesh_readers.h"
+#include "condyle/mesh_files/mesh_readers.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "condyle/input_error.h"
-#include "condyle/mesh/polygon_faces.h"
+#include "condyle/mesh_files/polygon_faces.h"
 
 namespace condyle {
 namespace {

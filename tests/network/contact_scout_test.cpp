@@ -9,7 +9,8 @@
 #include "condyle/equilibrium/build_model.h"
 #include "condyle/equilibrium/model_covers.h"
 #include "condyle/network/simulate.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 
 namespace condyle {
 namespace {

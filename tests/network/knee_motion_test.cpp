@@ -11,7 +11,8 @@
 #include "condyle/network/knee_network.h"
 #include "condyle/network/network_equations.h"
 #include "condyle/network/simulate.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "support/leg.h"
 #include "support/quadric_knee.h"
 

@@ -7,7 +7,7 @@
 
 #include "condyle/results/hdf5_file.h"
 #include "condyle/results/run_view.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
 
 namespace condyle::test {
 namespace {

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "condyle/equilibrium/sweep.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
 #include "phantom/exact_motion.h"
 
 namespace condyle::phantom {

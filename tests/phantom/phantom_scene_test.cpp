@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <set>
 
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
 #include "phantom/phantom_shape.h"
 
 namespace condyle::phantom {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/specimen/fit_surfaces.h"
 
 namespace condyle {
 namespace {

@@ -10,7 +10,8 @@
 #include "condyle/reference/build_wismans.h"
 #include "condyle/reference/polynomial_surface.h"
 #include "condyle/reference/wismans_solver.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 
 namespace condyle {
 namespace {

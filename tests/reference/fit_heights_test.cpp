@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "condyle/input_error.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "support/random.h"
 
 namespace condyle {

@@ -10,6 +10,7 @@
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/input_error.h"
 #include "condyle/results/journal_line.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "results/made_up_run.h"
 #include "support/same_sweep.h"
 #include "support/scratch_folder.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "condyle/results/run_file.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
 #include "scene/small_scene.h"
 
 namespace condyle {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "condyle/input_error.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
 #include "scene/small_scene.h"
 
 namespace condyle::test {

@@ -1,11 +1,11 @@
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "condyle/scene/describe.h"
 #include "condyle/scene/start_pose.h"
+#include "condyle/scene_file/describe.h"
 #include "scene/small_scene.h"
 
 namespace condyle {

@@ -1,11 +1,12 @@
-#include "condyle/scene/start_warnings.h"
+#include "condyle/specimen/start_warnings.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 
 namespace condyle {
 namespace {

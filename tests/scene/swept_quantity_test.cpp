@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
 #include "scene/small_scene.h"
 
 namespace condyle {

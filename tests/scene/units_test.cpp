@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
 
 namespace condyle {
 namespace {

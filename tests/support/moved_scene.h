@@ -14,10 +14,10 @@
 
 #include "condyle/equilibrium/pose_result.h"
 #include "condyle/math/rotation.h"
-#include "condyle/mesh/load_mesh.h"
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/mesh_files/load_mesh.h"
 #include "condyle/scene/scene.h"
 #include "condyle/scene/start_pose.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "condyle/surface/patch.h"
 
 namespace condyle::test {

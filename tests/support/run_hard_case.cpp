@@ -12,7 +12,8 @@
 #include "condyle/equilibrium/path_system.h"
 #include "condyle/equilibrium/restore_state.h"
 #include "condyle/equilibrium/sweep.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "support/hard_cases.h"
 
 namespace condyle::hard {

@@ -7,8 +7,8 @@
 
 #include "condyle/input_error.h"
 #include "condyle/mesh/clean_mesh.h"
-#include "condyle/mesh/load_mesh.h"
 #include "condyle/mesh/mesh_measures.h"
+#include "condyle/mesh_files/load_mesh.h"
 #include "condyle/surface/mesh_distance.h"
 #include "support/mesh_shapes.h"
 

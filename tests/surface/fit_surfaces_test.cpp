@@ -1,4 +1,4 @@
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/specimen/fit_surfaces.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 
 #include "condyle/input_error.h"
 #include "condyle/mesh/clean_mesh.h"
-#include "condyle/mesh/load_mesh.h"
 #include "condyle/mesh/mesh_measures.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/mesh_files/load_mesh.h"
+#include "condyle/scene_file/read_scene.h"
 #include "condyle/surface/articular_region.h"
 #include "condyle/surface/fit_patch.h"
 #include "condyle/surface/patch.h"

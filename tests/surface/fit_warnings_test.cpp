@@ -8,8 +8,8 @@
 #include <fstream>
 
 #include "condyle/mesh/clean_mesh.h"
-#include "condyle/mesh/load_mesh.h"
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/mesh_files/load_mesh.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "support/mesh_shapes.h"
 #include "support/scratch_folder.h"
 

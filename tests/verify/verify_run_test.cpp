@@ -7,7 +7,7 @@
 
 #include "condyle/input_error.h"
 #include "condyle/math/rotation.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
 #include "condyle/verify/verify.h"
 #include "verify/computed_run.h"
 

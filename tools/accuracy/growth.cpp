@@ -12,6 +12,7 @@
 #include "accuracy/phantom_truth.h"
 #include "accuracy/study.h"
 #include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "support/kinematic_mount.h"
 #include "support/patch_knee.h"
 #include "support/quadric_knee.h"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "condyle/math/rotation.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
 #include "phantom/exact_bone.h"
 #include "phantom/mesh_shape.h"
 #include "phantom/roughness.h"

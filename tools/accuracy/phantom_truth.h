@@ -11,7 +11,7 @@
 
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/mesh/triangle_mesh.h"
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "phantom/phantom_shape.h"
 
 namespace condyle::accuracy {

@@ -12,6 +12,7 @@
 #include "accuracy/study.h"
 #include "accuracy/whole_way.h"
 #include "condyle/input_error.h"
+#include "condyle/specimen/fit_surfaces.h"
 
 namespace condyle::accuracy {
 namespace {

@@ -8,7 +8,8 @@
 #include "condyle/input_error.h"
 #include "condyle/network/network_equations.h"
 #include "condyle/network/simulate.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 
 namespace condyle::benchmarks {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "condyle/equilibrium/pose_result.h"
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/specimen/fit_surfaces.h"
 
 namespace condyle::phantom {
 

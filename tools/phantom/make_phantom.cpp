@@ -17,7 +17,7 @@
 #include <utility>
 
 #include "condyle/equilibrium/sweep.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
 #include "phantom/exact_motion.h"
 #include "phantom/mesh_shape.h"
 #include "phantom/roughness.h"

@@ -10,10 +10,10 @@
 #include "condyle/input_error.h"
 #include "condyle/math/rotation.h"
 #include "condyle/mesh/clean_mesh.h"
-#include "condyle/mesh/load_mesh.h"
 #include "condyle/mesh/mesh_measures.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/mesh_files/load_mesh.h"
 #include "condyle/scene/start_pose.h"
+#include "condyle/scene_file/read_scene.h"
 
 namespace condyle::strangers {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "condyle/app/commands.h"
 #include "condyle/network/simulate.h"
-#include "condyle/scene/describe.h"
-#include "condyle/scene/fit_surfaces.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/describe.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 
 namespace condyle {
 namespace {

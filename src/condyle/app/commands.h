@@ -10,6 +10,8 @@ class App;
 
 namespace condyle {
 
+inline constexpr int kSomePoseFailed = 2;
+
 void setup_check(CLI::App& program, int& status);
 void setup_fit(CLI::App& program, int& status);
 void setup_sweep(CLI::App& program, int& status);

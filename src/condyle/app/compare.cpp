@@ -17,12 +17,10 @@
 #include "condyle/results/output_file.h"
 #include "condyle/results/run_view.h"
 #include "condyle/results/sweep_table.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
 
 namespace condyle {
 namespace {
-
-constexpr int kSomePoseFailed = 2;
 
 struct CompareCommand {
   Talk talk;

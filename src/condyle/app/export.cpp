@@ -23,8 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kSomePoseFailed = 2;
-
 struct ExportCommand {
   std::string run, output;
   std::vector<std::string> formats;

@@ -14,7 +14,7 @@
 #include "condyle/app/talk.h"
 #include "condyle/input_error.h"
 #include "condyle/results/output_file.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
 #ifdef CONDYLE_PICTURES
 #include "condyle/pictures/fit_picture.h"
 #include "condyle/pictures/picture_folder.h"

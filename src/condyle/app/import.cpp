@@ -11,7 +11,7 @@
 #include "condyle/exchange/ply_file.h"
 #include "condyle/input_error.h"
 #include "condyle/results/output_file.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
 
 namespace condyle {
 namespace {

@@ -19,7 +19,6 @@
 namespace condyle {
 namespace {
 
-constexpr int kSomePoseFailed = 2;
 constexpr double kDegree = M_PI / 180;
 
 struct LaxityCommand {

@@ -12,6 +12,7 @@
 #include "condyle/app/command_tree.h"
 #include "condyle/app/commands.h"
 #include "condyle/input_error.h"
+#include "condyle/version.h"
 
 namespace condyle {
 namespace {

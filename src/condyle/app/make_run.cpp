@@ -7,8 +7,9 @@
 #include "condyle/input_error.h"
 #include "condyle/results/digest.h"
 #include "condyle/results/output_file.h"
-#include "condyle/scene/read_scene.h"
-#include "condyle/scene/start_warnings.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
+#include "condyle/specimen/start_warnings.h"
 
 namespace condyle {
 namespace {

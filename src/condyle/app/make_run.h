@@ -10,7 +10,7 @@
 
 #include "condyle/app/talk.h"
 #include "condyle/results/run_file.h"
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/scene/fitted_surface.h"
 
 namespace condyle {
 

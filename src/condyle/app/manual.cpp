@@ -6,6 +6,7 @@
 
 #include "condyle/app/command_tree.h"
 #include "condyle/app/commands.h"
+#include "condyle/version.h"
 
 namespace condyle {
 namespace {

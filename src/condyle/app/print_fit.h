@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/scene/fitted_surface.h"
 
 namespace condyle {
 

@@ -26,8 +26,6 @@
 namespace condyle {
 namespace {
 
-constexpr int kSomePoseFailed = 2;
-
 struct RenderCommand {
   Talk talk;
   std::string run, output;

@@ -4,6 +4,8 @@
 
 #include "condyle/app/print_fit.h"
 #include "condyle/app/progress.h"
+#include "condyle/specimen/fit_surfaces.h"
+#include "condyle/version.h"
 
 namespace condyle {
 

@@ -8,7 +8,7 @@
 
 #include "condyle/app/talk.h"
 #include "condyle/report/summary_json.h"
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/scene/fitted_surface.h"
 
 namespace condyle {
 

@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "condyle/report/summary_json.h"
+#include "condyle/version.h"
 
 namespace condyle {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "condyle/equilibrium/pose_result.h"
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/scene/fitted_surface.h"
 #include "condyle/scene/scene.h"
 
 namespace condyle {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "condyle/equilibrium/drive.h"
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/scene/fitted_surface.h"
 #include "condyle/scene/scene.h"
 
 namespace condyle {

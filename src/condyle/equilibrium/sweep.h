@@ -13,7 +13,7 @@
 #include "condyle/equilibrium/equilibrium_solver.h"
 #include "condyle/equilibrium/pose_result.h"
 #include "condyle/equilibrium/sweep_options.h"
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/scene/fitted_surface.h"
 #include "condyle/scene/scene.h"
 
 namespace condyle {

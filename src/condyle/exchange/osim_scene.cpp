@@ -11,7 +11,7 @@
 #include "condyle/exchange/stl_run.h"
 #include "condyle/input_error.h"
 #include "condyle/math/rotation.h"
-#include "condyle/mesh/load_mesh.h"
+#include "condyle/mesh_files/load_mesh.h"
 
 namespace condyle {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "condyle/exchange/shown_poses.h"
 #include "condyle/mesh/mesh_measures.h"
-#include "condyle/scene/surface_mesh.h"
+#include "condyle/specimen/surface_mesh.h"
 
 namespace condyle {
 namespace {

@@ -17,6 +17,7 @@
 #include "condyle/network/knee_network.h"
 #include "condyle/network/motion_poses.h"
 #include "condyle/network/network_equations.h"
+#include "condyle/specimen/fit_surfaces.h"
 
 namespace condyle {
 namespace {

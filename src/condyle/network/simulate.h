@@ -7,7 +7,7 @@
 #include "condyle/equilibrium/pose_result.h"
 #include "condyle/network/motion.h"
 #include "condyle/on_progress.h"
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/scene/fitted_surface.h"
 #include "condyle/scene/scene.h"
 
 namespace condyle {

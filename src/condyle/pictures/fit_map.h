@@ -6,7 +6,7 @@
 #include <string>
 
 #include "condyle/pictures/shaded_mesh.h"
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/scene/fitted_surface.h"
 #include "condyle/surface/patch.h"
 
 namespace condyle {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "condyle/pictures/color_map.h"
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "condyle/surface/patch.h"
 
 namespace condyle {

@@ -1,6 +1,6 @@
 #include "condyle/pictures/surface_shapes.h"
 
-#include "condyle/scene/surface_mesh.h"
+#include "condyle/specimen/surface_mesh.h"
 
 namespace condyle {
 

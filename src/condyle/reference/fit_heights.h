@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "condyle/reference/height_surface.h"
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/scene/fitted_surface.h"
 #include "condyle/scene/scene.h"
 
 namespace condyle {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "condyle/reference/fit_heights.h"
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/scene/fitted_surface.h"
 
 namespace condyle {
 

@@ -13,7 +13,7 @@
 #include "condyle/results/simulation_group.h"
 #include "condyle/results/sweep_group.h"
 #include "condyle/results/trace_columns.h"
-#include "condyle/scene/read_scene.h"
+#include "condyle/scene_file/read_scene.h"
 #include "condyle/surface/bspline_basis.h"
 
 namespace condyle {

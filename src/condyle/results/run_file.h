@@ -11,7 +11,7 @@
 
 #include "condyle/equilibrium/pose_result.h"
 #include "condyle/mesh/triangle_mesh.h"
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/scene/fitted_surface.h"
 #include "condyle/scene/scene.h"
 #include "condyle/surface/patch.h"
 

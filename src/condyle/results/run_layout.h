@@ -7,7 +7,7 @@
 
 #include "condyle/elements/joint_table.h"
 #include "condyle/equilibrium/pose_result.h"
-#include "condyle/scene/fit_surfaces.h"
+#include "condyle/scene/fitted_surface.h"
 
 namespace condyle {
 

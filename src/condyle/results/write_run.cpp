@@ -14,6 +14,7 @@
 #include "condyle/results/simulation_group.h"
 #include "condyle/results/sweep_group.h"
 #include "condyle/results/trace_columns.h"
+#include "condyle/version.h"
 
 namespace condyle {
 namespace {

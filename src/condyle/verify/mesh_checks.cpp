@@ -8,7 +8,7 @@
 
 #include "condyle/input_error.h"
 #include "condyle/mesh/clean_mesh.h"
-#include "condyle/mesh/load_mesh.h"
+#include "condyle/mesh_files/load_mesh.h"
 #include "condyle/results/digest.h"
 
 namespace condyle::verification {

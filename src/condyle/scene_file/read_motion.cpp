@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/input_error.h"
+#include "condyle/scene/start_pose.h"
+#include "condyle/scene/swept_quantity.h"
+#include "condyle/scene_file/read_sections.h"
+
+namespace condyle {
+namespace {
+
+int read_letter(const Section& section) {
+  static const Choices<int> letters = {{"x", 0}, {"y", 1}, {"z", 2}};
+  return section.choice("axis", letters);
+}
+
+Eigen::Vector3d read_translation_axis(const Section& section) {
+  const Value& value = section.value("axis", "a direction [x, y, z] in the ground frame");
+  if (value.type == Value::Type::kText) return Eigen::Vector3d::Unit(read_letter(section));
+  const Eigen::Vector3d axis = section.vector("axis", "a direction in the ground frame");
+  if (!(axis.norm() > 1e-12)) section.fail("axis", "a direction of some length");
+  return axis.normalized();
+}
+
+ConditionDescription read_condition(const Section& section, const Scene& scene) {
+  static const Choices<ConditionKind> kinds = {
+      {"flexion", ConditionKind::kFlexion},
+      {"adduction", ConditionKind::kAdduction},
+      {"internal_rotation", ConditionKind::kInternalRotation},
+      {"lateral_shift", ConditionKind::kLateralShift},
+      {"anterior_drawer", ConditionKind::kAnteriorDrawer},
+      {"distraction", ConditionKind::kDistraction},
+      {"translation", ConditionKind::kTranslation},
+      {"rotation", ConditionKind::kRotation},
+      {"distance", ConditionKind::kDistance}};
+  ConditionDescription condition;
+  condition.name = read_name(section, names_of(scene.conditions));
+  condition.kind = section.choice("kind", kinds);
+  const double unit = is_angle(condition.kind) ? scene.angle_to_rad : scene.length_to_mm;
+  const bool distance = condition.kind == ConditionKind::kDistance;
+  condition.value =
+      unit * section.number("value", is_angle(condition.kind) ? "an angle" : "a length",
+                            distance ? Range::kPositive : Range::kAny);
+  if (condition.kind == ConditionKind::kTranslation) {
+    condition.axis = read_translation_axis(section);
+  } else if (condition.kind == ConditionKind::kRotation) {
+    condition.cardan_axis = read_letter(section);
+  } else if (distance) {
+    condition.ends = read_ends(section, scene);
+  } else if (!scene.joint) {
+    section.fail("kind", "a [joint] that says where the anatomical frames are");
+  }
+  section.finish();
+  return condition;
+}
+
+LoadDescription read_load(const Section& section, const Scene& scene) {
+  static const Choices<bool> kinds = {{"force", false}, {"moment", true}};
+  static const Choices<bool> frames = {{"ground", false}, {"body", true}};
+  LoadDescription load;
+  load.name = read_name(section, names_of(scene.loads));
+  load.body = section.reference("body", "the name of a body", names_of(scene.bodies));
+  if (scene.bodies[static_cast<std::size_t>(load.body)].fixed)
+    section.fail("body", "a moving body");
+  load.moment = section.choice("kind", kinds);
+  load.vector = scene.force_to_n * (load.moment ? scene.length_to_mm : 1) *
+                section.vector("vector", load.moment ? "a moment" : "a force");
+  if (section.has("at")) {
+    if (load.moment) section.fail("at", "no point of application: a moment has none");
+    load.at = scene.length_to_mm * section.vector("at", "a point in the frame of the body");
+  }
+  if (section.has("follows")) load.follows_body = section.choice("follows", frames);
+  section.finish();
+  return load;
+}
+
+// "NAME" of a condition or "NAME.scale" of a load.
+void read_varied(const Section& section, const Scene& scene, SweepDescription& sweep) {
+  std::vector<std::string> names = names_of(scene.conditions);
+  const auto conditions = static_cast<int>(names.size());
+  for (const LoadDescription& load : scene.loads) names.push_back(load.name + ".scale");
+  const int index =
+      section.reference("vary", "the name of a condition, or NAME.scale of a load", names);
+  sweep.vary = names[static_cast<std::size_t>(index)];
+  sweep.varies_load = index >= conditions;
+  sweep.index = sweep.varies_load ? index - conditions : index;
+}
+
+std::vector<double> read_values(const Section& section) {
+  if (section.has("values")) {
+    for (const char* key : {"from", "to", "step"}) {
+      if (section.has(key)) section.fail(key, "either values or from, to and step, not both");
+    }
+    return section.numbers("values", "values [v1, v2, ...]");
+  }
+  const double from = section.number("from", "a number (or values in place of from, to and step)");
+  const double to = section.number("to", "a number");
+  const double step = from == to && !section.has("step") ? 1 : section.number("step", "a number");
+  try {
+    return range_values(from, to, step);
+  } catch (const InputError& error) {
+    section.fail_with(error.what());
+  }
+}
+
+}  // namespace
+
+void read_conditions(const Section& root, Scene& scene) {
+  for (const Section& section : root.sections("condition"))
+    scene.conditions.push_back(read_condition(section, scene));
+}
+
+void read_loads(const Section& root, Scene& scene) {
+  for (const Section& section : root.sections("load"))
+    scene.loads.push_back(read_load(section, scene));
+}
+
+void read_sweep(const Section& root, Scene& scene) {
+  if (!root.has("sweep")) return;
+  const Section section =
+      root.table("sweep", "a table [sweep] with vary and from, to, step or values");
+  SweepDescription sweep;
+  static const Choices<bool> paths = {{"steps", false}, {"arc length", true}};
+  read_varied(section, scene, sweep);
+  if (section.has("path")) sweep.arc_length = section.choice("path", paths);
+  sweep.values = read_values(section);
+  if (sweep.arc_length && sweep.values.size() < 2)
+    section.fail("path",
+                 "\"steps\": a path that is followed by its arc length needs two values or more");
+  section.finish();
+  scene.sweep = sweep;
+  const double factor = quantity_of_sweep(scene).declared.factor;
+  for (double& value : scene.sweep->values) value *= factor;
+  const bool length_needed =
+      !sweep.varies_load &&
+      scene.conditions[static_cast<std::size_t>(sweep.index)].kind == ConditionKind::kDistance;
+  if (length_needed && *std::min_element(sweep.values.begin(), sweep.values.end()) <= 0) {
+    section.fail_with("values down to 0 and below, expected distances > 0");
+  }
+}
+
+}  // namespace condyle

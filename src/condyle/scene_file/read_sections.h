@@ -1,0 +1,55 @@
+#pragma once
+
+/// The parts of a scene file, each read into the scene in the units used inside. Called in this
+/// order by parse_scene: later parts refer to earlier ones by name.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/scene/scene.h"
+#include "condyle/scene_file/section.h"
+
+namespace condyle {
+
+void read_units(const Section& root, Scene& scene);
+void read_bodies(const Section& root, Scene& scene);
+void read_joint(const Section& root, Scene& scene);
+void read_surfaces(const Section& root, Scene& scene);
+void read_contacts(const Section& root, Scene& scene);
+void read_ligaments(const Section& root, Scene& scene);
+void read_conditions(const Section& root, Scene& scene);
+void read_loads(const Section& root, Scene& scene);
+void read_sweep(const Section& root, Scene& scene);
+void read_laxity(const Section& root, Scene& scene);
+void read_simulation(const Section& root, Scene& scene);
+
+// Shared by them:
+
+/// The keys `mesh` and `mesh_units`, where given.
+[[nodiscard]] std::optional<MeshFile> read_mesh_file(const Section& section, const Scene& scene);
+
+/// Two tables { body, at } on two different bodies.
+[[nodiscard]] std::array<Attachment, 2> read_ends(const Section& section, const Scene& scene);
+
+/// A rotation: a rotation vector in the declared angle, or three directions that form a
+/// right-handed frame. Columns of the result are the directions.
+[[nodiscard]] Eigen::Matrix3d read_axes(const Section& section,
+                                        const std::string& key,
+                                        const Scene& scene);
+
+/// The key `name`: usable as a name in a result file, and not among `taken`.
+[[nodiscard]] std::string read_name(const Section& section, const std::vector<std::string>& taken);
+
+template <typename T>
+[[nodiscard]] std::vector<std::string> names_of(const std::vector<T>& items) {
+  std::vector<std::string> names;
+  for (const T& item : items) names.push_back(item.name);
+  return names;
+}
+
+/// mm, cm, m with their factors to mm.
+[[nodiscard]] const Choices<double>& length_units();
+
+}  // namespace condyle

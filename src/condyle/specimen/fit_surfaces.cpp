@@ -1,0 +1,380 @@
+#include "condyle/specimen/fit_surfaces.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "condyle/input_error.h"
+#include "condyle/mesh/clean_mesh.h"
+#include "condyle/mesh/mesh_measures.h"
+#include "condyle/mesh_files/load_mesh.h"
+#include "condyle/surface/bone_check.h"
+#include "condyle/surface/exact_surfaces.h"
+#include "condyle/surface/fit_figures.h"
+#include "condyle/surface/fit_patch.h"
+#include "condyle/surface/offset_patch.h"
+#include "condyle/surface/patch.h"
+
+namespace condyle {
+namespace {
+
+/// A mesh that patches of one body are cut from, with what all of them need to know about it. All
+/// is computed about the middle of the mesh, so that it does not matter where the file has its
+/// origin; only what fit_one hands out is in the file's frame again.
+struct Source {
+  MeshFile file;
+  int body = -1;
+  std::vector<int> surfaces;                         ///< indices into Scene::surfaces
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of the mesh, in the file's frame [mm]
+  CleanMesh mesh;                                    ///< about the middle, as the axis
+  std::optional<CondylarAxis> axis;
+  bool turned = false;  ///< some of the mesh was turned to face out of the bone
+  std::vector<std::string> notes;
+};
+
+std::string place_of(const Scene& scene, const SurfaceDescription& surface) {
+  return fmt::format("{}: surface \"{}\"", scene.file.string(), surface.name);
+}
+
+MeshFile mesh_of(const Scene& scene, const SurfaceDescription& surface) {
+  if (surface.patch.mesh) return *surface.patch.mesh;
+  const BodyDescription& body = scene.bodies[surface.body];
+  if (body.mesh) return *body.mesh;
+  throw InputError(fmt::format(
+      "{}: kind = \"patch\" needs a mesh: neither the surface nor its body \"{}\" names one",
+      place_of(scene, surface), body.name));
+}
+
+void check_patch(const Scene& scene, const SurfaceDescription& surface) {
+  const std::string place = place_of(scene, surface);
+  if (!surface.patch.compartment && surface.patch.region_box) return;
+  if (!surface.patch.compartment)
+    throw InputError(fmt::format(
+        "{}: a patch needs compartment = \"medial\" or \"lateral\", or region = {{ box = ... }}",
+        place));
+  if (!scene.joint)
+    throw InputError(fmt::format("{}: compartment is found from [joint], which is missing", place));
+  if (surface.body != scene.joint->femur.body && surface.body != scene.joint->tibia.body)
+    throw InputError(fmt::format("{}: body \"{}\" is neither the femur nor the tibia of [joint]",
+                                 place, scene.bodies[surface.body].name));
+}
+
+/// Patches by mesh, so that each file is read once per body.
+std::vector<Source> collect_sources(const Scene& scene) {
+  std::vector<Source> sources;
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+    const SurfaceDescription& surface = scene.surfaces[i];
+    if (surface.kind != SurfaceKind::kPatch) continue;
+    check_patch(scene, surface);
+    const MeshFile file = mesh_of(scene, surface);
+    auto source = std::find_if(sources.begin(), sources.end(), [&](const Source& s) {
+      return s.body == surface.body && s.file.path == file.path && s.file.to_mm == file.to_mm;
+    });
+    if (source == sources.end()) {
+      sources.push_back({.file = file,
+                         .body = surface.body,
+                         .surfaces = {},
+                         .middle = Eigen::Vector3d::Zero(),
+                         .mesh = {},
+                         .axis = {},
+                         .turned = false,
+                         .notes = {}});
+      source = sources.end() - 1;
+    }
+    source->surfaces.push_back(static_cast<int>(i));
+  }
+  return sources;
+}
+
+/// About the middle of the mesh.
+BoneFrame bone_frame(const AnatomicalFrame& frame, const Source& source) {
+  return {.origin = frame.origin - source.middle,
+          .lateral = frame.lateral,
+          .anterior = frame.anterior,
+          .proximal = frame.proximal};
+}
+
+bool is_femur(const Scene& scene, const Source& source) {
+  return scene.joint && source.body == scene.joint->femur.body;
+}
+bool is_tibia(const Scene& scene, const Source& source) {
+  return scene.joint && source.body == scene.joint->tibia.body;
+}
+
+bool needs_compartments(const Scene& scene, const Source& source) {
+  return std::any_of(source.surfaces.begin(), source.surfaces.end(),
+                     [&](int i) { return scene.surfaces[i].patch.compartment.has_value(); });
+}
+bool needs_axis(const Scene& scene, const Source& source) {
+  return is_femur(scene, source) && needs_compartments(scene, source);
+}
+
+/// The medial plateau is deeper from front to back than the lateral one, by 12 % on average
+/// [Cheng 2009]: the other way round, the knee may be one of the other side.
+void suspect_side(const Scene& scene, const TriangleMesh& mesh, Source& source) {
+  constexpr double kSuspicious = 0.95;
+  const double ratio = plateau_depth_ratio(mesh, bone_frame(scene.joint->tibia, source));
+  if (ratio > 0 && ratio < kSuspicious)
+    source.notes.push_back(
+        fmt::format("warning: the medial plateau is {:.2f} times as deep from front to back as the "
+                    "lateral one, "
+                    "expected about 1.1: is this a {} knee, or a mirrored mesh?",
+                    ratio, scene.joint->side == Side::kRight ? "left" : "right"));
+}
+
+/// In whole millimetres, so that moving there and back costs none of the digits of a usual file.
+Eigen::Vector3d middle_of(const TriangleMesh& mesh) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : mesh.vertices) sum += p;
+  sum /= std::max<double>(1, static_cast<double>(mesh.vertices.size()));
+  return sum.array().round();
+}
+
+void move(TriangleMesh& mesh, const Eigen::Vector3d& d) {
+  for (Eigen::Vector3d& p : mesh.vertices) p += d;
+}
+
+void load_source(const Scene& scene, const MeshReader& read, Source& source) {
+  TriangleMesh as_read = read(source.file);
+  source.middle = middle_of(as_read);
+  move(as_read, -source.middle);
+  source.mesh = clean_mesh(std::move(as_read));
+  source.notes = describe(source.mesh.report);
+  const auto all = static_cast<int>(source.mesh.mesh.triangles.size());
+  if (source.mesh.report.flipped_triangles > 0.9 * all)
+    source.notes.push_back(fmt::format(
+        "warning: {} of {} triangles faced into the bone, as after mirroring: check the side",
+        source.mesh.report.flipped_triangles, all));
+  int turned = 0;
+  if (is_femur(scene, source))
+    turned = face_out_of_femur(source.mesh, bone_frame(scene.joint->femur, source));
+  if (is_tibia(scene, source))
+    turned = face_out_of_tibia(source.mesh, bone_frame(scene.joint->tibia, source));
+  source.turned = turned > 0;
+  if (source.turned)
+    source.notes.push_back(fmt::format("{} of {} sheets faced into the bone and were turned",
+                                       turned, source.mesh.closed.size()));
+  const TriangleMesh& mesh = source.mesh.mesh;
+  if (is_tibia(scene, source)) suspect_side(scene, mesh, source);
+  try {
+    if (is_femur(scene, source)) check_one_knee(mesh, bone_frame(scene.joint->femur, source));
+    if (is_tibia(scene, source) && needs_compartments(scene, source)) {
+      check_one_knee(mesh, bone_frame(scene.joint->tibia, source));
+      check_is_no_femur(source.mesh, bone_frame(scene.joint->tibia, source));
+    }
+    if (!needs_axis(scene, source)) return;
+    source.axis =
+        fit_condylar_axis(mesh, vertex_normals(mesh), bone_frame(scene.joint->femur, source));
+    check_is_femur(*source.axis);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", source.file.path.string(), error.what()));
+  }
+}
+
+ArticularRegion find_region(const Scene& scene,
+                            const Source& source,
+                            const PatchDescription& patch) {
+  const TriangleMesh& mesh = source.mesh.mesh;
+  std::optional<std::array<Eigen::Vector3d, 2>> box = patch.region_box;
+  if (box)
+    for (Eigen::Vector3d& corner : *box) corner -= source.middle;
+  if (!patch.compartment) return box_region(mesh, *box);
+  RegionOptions options;
+  options.box = box;
+  if (patch.region_angles) {
+    options.femur_first_angle = (*patch.region_angles)[0];
+    options.femur_last_angle = (*patch.region_angles)[1];
+  }
+  if (patch.region_least_cosine)
+    options.femur_least_cosine = options.tibia_least_cosine = *patch.region_least_cosine;
+  const Half half = *patch.compartment == Compartment::kMedial ? Half::kMedial : Half::kLateral;
+  if (source.axis) return femoral_region(mesh, *source.axis, half, options);
+  return tibial_region(mesh, bone_frame(scene.joint->tibia, source), half, options);
+}
+
+FitReport report_of(const std::string& name, const ArticularRegion& region, const PatchFit& fit) {
+  const FitFigures figures = measure_fit(region, fit);
+  FitReport report;
+  report.surface = name;
+  report.mesh_vertices = static_cast<int>(region.mesh.vertices.size());
+  report.control_points = {fit.patch.nu, fit.patch.nv};
+  report.smoothing_length = fit.smoothing_length;
+  report.rms = figures.rms;
+  report.p95 = figures.p95;
+  report.max = figures.max;
+  report.core_rms = figures.core_rms;
+  report.core_max = figures.core_max;
+  report.normal_rms = figures.core_normal_rms;
+  report.curvature_range = figures.curvature_range;
+  report.condition = fit.condition;
+  report.back_rms = figures.back_rms;
+  report.back_p95 = figures.back_p95;
+  report.back_max = figures.back_max;
+  report.extent = figures.extent;
+  report.turn = figures.turn;
+  report.area = figures.area;
+  if (figures.folded > 0)
+    report.notes.push_back(
+        fmt::format("warning: fold: the patch faces away from the mesh at {} of {} vertices",
+                    figures.folded, report.mesh_vertices));
+  constexpr double kPoor = 0.3;  // as much as a rough segmentation leaves in a smooth patch [mm]
+  if (figures.core_rms > kPoor)
+    report.notes.push_back(fmt::format(
+        "warning: poor fit: {:.2f} mm rms and up to {:.2f} mm off the mesh away from its "
+        "edge, expected at most {:g} mm rms: more control points or less smoothing",
+        figures.core_rms, figures.core_max, kPoor));
+  constexpr double kThin = 4;  // [mm]
+  if (figures.depth < kThin)
+    report.notes.push_back(
+        fmt::format("warning: thin region: nowhere farther than {:.1f} mm from its edge, expected "
+                    "at least {:.0f} mm",
+                    figures.depth, kThin));
+  return report;
+}
+
+/// Moves patch and region; says how well.
+std::string move_out(double offset, ArticularRegion& region, PatchFit& fit) {
+  OffsetPatch moved = offset_patch(region, fit, offset);
+  fit.patch = std::move(moved.patch);
+  region.mesh = std::move(moved.region);
+  return fmt::format(
+      "moved {:g} mm out of the bone; the spline lies {:.4f} mm rms, {:.4f} mm at most, from the "
+      "surface at that distance",
+      offset, moved.rms, moved.max);
+}
+
+FittedSurface fit_one(const Scene& scene, const Source& source, const SurfaceDescription& surface) {
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    ArticularRegion region = find_region(scene, source, surface.patch);
+    FitOptions options;
+    options.control_points = surface.patch.control_points;
+    options.smoothing_length = surface.patch.smoothing;
+    options.degree = surface.patch.degree;
+    PatchFit fit = fit_patch(region, options);
+    FitReport report = report_of(surface.name, region, fit);
+    for (const std::vector<std::string>& notes : {source.notes, region.notes, fit.notes})
+      report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+    if (surface.patch.offset > 0)
+      report.notes.push_back(move_out(surface.patch.offset, region, fit));
+    report.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    for (Eigen::Vector3d& p : fit.patch.control_points) p += source.middle;
+    move(region.mesh, source.middle);
+    return {std::make_shared<const Patch>(std::move(fit.patch)),
+            std::move(report),
+            std::move(region.mesh),
+            {}};
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {} ({})", place_of(scene, surface), error.what(),
+                                 source.file.path.string()));
+  }
+}
+
+void fit_source(const Scene& scene,
+                const MeshReader& read,
+                Source& source,
+                std::vector<FittedSurface>& surfaces,
+                const std::function<void()>& on_patch) {
+  load_source(scene, read, source);
+  for (const int i : source.surfaces) {
+    surfaces[i] = fit_one(scene, source, scene.surfaces[i]);
+    on_patch();
+  }
+  if (source.turned) return;
+  move(source.mesh.mesh, source.middle);
+  const auto bone = std::make_shared<const TriangleMesh>(std::move(source.mesh.mesh));
+  for (const int i : source.surfaces)
+    if (!scene.surfaces[i].patch.mesh) surfaces[i].bone = bone;
+}
+
+/// Work for all sources on two threads, the first error rethrown: sources share nothing but their
+/// own places in `surfaces`.
+void fit_sources(const Scene& scene,
+                 const MeshReader& read,
+                 std::vector<Source>& sources,
+                 std::vector<FittedSurface>& surfaces,
+                 const OnProgress& on_patch) {
+  std::vector<std::exception_ptr> errors(sources.size());
+  int done = 0, total = 0;
+  for (const Source& source : sources) total += static_cast<int>(source.surfaces.size());
+  std::mutex one_at_a_time;
+  const auto tell = [&] {
+    const std::lock_guard lock(one_at_a_time);
+    ++done;
+    if (on_patch) on_patch(done, total);
+  };
+  const auto work = [&](std::size_t first, std::size_t step) {
+    for (std::size_t k = first; k < sources.size(); k += step) {
+      try {
+        fit_source(scene, read, sources[k], surfaces, tell);
+      } catch (...) {
+        errors[k] = std::current_exception();
+      }
+    }
+  };
+  std::thread other(work, 1, 2);
+  work(0, 2);
+  other.join();
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+}
+
+}  // namespace
+
+std::unique_ptr<Surface> make_exact_surface(const SurfaceDescription& s) {
+  switch (s.kind) {
+    case SurfaceKind::kPlane:
+      return make_plane(s.point, s.direction, s.known_radius);
+    case SurfaceKind::kSphere:
+      return make_sphere(s.point, s.radius, s.solid_inside);
+    case SurfaceKind::kCylinder:
+      return make_cylinder(s.point, s.direction, s.radius, s.solid_inside, s.length);
+    case SurfaceKind::kEllipsoid:
+      return make_ellipsoid(s.point, s.axes, s.semi_axes, s.solid_inside);
+    case SurfaceKind::kTorus:
+      return make_torus(s.point, s.direction, s.radius, s.minor_radius, s.solid_inside);
+    case SurfaceKind::kPolynomial:
+      return make_polynomial(s.point, s.axes, s.terms, s.solid_inside, s.known_radius);
+    case SurfaceKind::kPatch:
+      break;
+  }
+  assert(false);
+  return nullptr;
+}
+
+std::vector<FittedSurface> fit_surfaces(const Scene& scene,
+                                        const OnProgress& on_patch,
+                                        const MeshReader& read) {
+  std::vector<Source> sources = collect_sources(scene);
+  std::vector<FittedSurface> surfaces(scene.surfaces.size());
+  const MeshReader from_file = [](const MeshFile& file) {
+    return load_mesh(file.path, file.to_mm);
+  };
+  fit_sources(scene, read ? read : from_file, sources, surfaces, on_patch);
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    if (scene.surfaces[i].kind != SurfaceKind::kPatch)
+      surfaces[i].surface = make_exact_surface(scene.surfaces[i]);
+  return surfaces;
+}
+
+TriangleMesh load_body_mesh(const BodyDescription& body) {
+  if (!body.mesh) return {};
+  return clean_mesh(load_mesh(body.mesh->path, body.mesh->to_mm)).mesh;
+}
+
+TriangleMesh body_mesh(const Scene& scene, int body, const std::vector<FittedSurface>& surfaces) {
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    if (surfaces[i].bone && scene.surfaces[i].body == body) return *surfaces[i].bone;
+  return load_body_mesh(scene.bodies[body]);
+}
+
+}  // namespace condyle

@@ -1,0 +1,39 @@
+#pragma once
+
+/// From the described surfaces of a scene to surfaces that can be evaluated: exact kinds are made,
+/// patches are fitted to the meshes (loaded, cleaned, the articular region found, fitted).
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "condyle/mesh/triangle_mesh.h"
+#include "condyle/on_progress.h"
+#include "condyle/scene/fitted_surface.h"
+#include "condyle/scene/scene.h"
+#include "condyle/surface/surface.h"
+
+namespace condyle {
+
+/// A described surface of any kind but a patch.
+[[nodiscard]] std::unique_ptr<Surface> make_exact_surface(const SurfaceDescription& surface);
+
+/// What stands in for reading a mesh file, from either of two threads: a mesh in memory, in mm.
+using MeshReader = std::function<TriangleMesh(const MeshFile&)>;
+
+/// One entry per Scene::surfaces, in the frames of the scene; where these have their origins does
+/// not matter. Throws InputError for meshes that cannot be used. `on_patch` is told of each patch
+/// that is fitted, from either of two threads but never from both at once.
+[[nodiscard]] std::vector<FittedSurface> fit_surfaces(const Scene& scene,
+                                                      const OnProgress& on_patch = {},
+                                                      const MeshReader& read = {});
+
+/// The mesh of a body, loaded and cleaned, in mm; empty where the scene names none.
+[[nodiscard]] TriangleMesh load_body_mesh(const BodyDescription& body);
+
+/// The same, taken from the fitted surfaces where one was fitted to it: a file is read once.
+[[nodiscard]] TriangleMesh body_mesh(const Scene& scene,
+                                     int body,
+                                     const std::vector<FittedSurface>& surfaces);
+
+}  // namespace condyle

@@ -1,0 +1,138 @@
+#include "condyle/specimen/start_warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "condyle/scene/start_pose.h"
+#include "condyle/specimen/fit_surfaces.h"
+#include "condyle/surface/mesh_distance.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kSpacing = 2;  // of the points where gaps are looked for [mm]
+
+/// Neither surface has places to look from: two planes, or a plane and an endless cylinder.
+bool unbounded(const std::vector<FittedSurface>& surfaces, const ContactDescription& contact) {
+  return std::all_of(contact.surfaces.begin(), contact.surfaces.end(),
+                     [&](int s) { return surfaces[s].surface->samples(kSpacing).empty(); });
+}
+
+void warn_of_gaps(const Scene& scene,
+                  const std::vector<FittedSurface>& surfaces,
+                  double limit,
+                  std::vector<std::string>& lines) {
+  // Else the start pose is a first estimate and no more.
+  const bool sets_strains =
+      std::any_of(scene.ligaments.begin(), scene.ligaments.end(),
+                  [](const LigamentDescription& l) { return l.reference_strain.has_value(); });
+  for (const ContactDescription& contact : scene.contacts) {
+    if (unbounded(surfaces, contact)) continue;
+    const double gap = start_gap(scene, surfaces, contact);
+    if (!std::isfinite(gap)) {
+      lines.push_back(fmt::format(
+          "warning: contact \"{}\": its surfaces do not face each other at the start pose",
+          contact.name));
+      continue;
+    }
+    const bool matters = sets_strains && std::abs(gap) > limit;
+    lines.push_back(fmt::format("{}contact \"{}\": {} of {:.2f} mm at the start pose{}",
+                                matters ? "warning: " : "", contact.name,
+                                gap < 0 ? "overlap" : "gap", std::abs(gap),
+                                matters ? ", which the reference strains are given for" : ""));
+  }
+}
+
+void warn_of_insertions(const Scene& scene,
+                        const std::vector<TriangleMesh>& bones,
+                        double limit,
+                        std::vector<std::string>& lines) {
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    if (bones[b].triangles.empty()) continue;
+    const MeshDistance distance(bones[b]);
+    int count = 0, off = 0;
+    double farthest = 0;
+    std::string name;
+    for (const LigamentDescription& ligament : scene.ligaments)
+      for (const Attachment& end : ligament.ends) {
+        if (end.body != static_cast<int>(b)) continue;
+        const double d = distance(end.at);
+        ++count;
+        off += d > limit;
+        if (d > farthest) farthest = d, name = ligament.name;
+      }
+    if (off > 0)
+      lines.push_back(
+          fmt::format("warning: {} of {} insertions on \"{}\" lie more than {:g} mm off its mesh, "
+                      "\"{}\" {:.1f} mm",
+                      off, count, scene.bodies[b].name, limit, name, farthest));
+  }
+}
+
+void warn_of_strains(const Scene& scene, double limit, std::vector<std::string>& lines) {
+  if (scene.moving_body() < 0) return;
+  const RigidTransform X_BA = start_pose(scene);
+  for (const LigamentDescription& ligament : scene.ligaments) {
+    const double slack = slack_length(ligament.law);
+    if (!(slack > 0) || ligament.reference_strain) continue;
+    const double strain = distance_between(scene, ligament.ends, X_BA) / slack - 1;
+    if (std::abs(strain) > limit)
+      lines.push_back(
+          fmt::format("warning: ligament \"{}\": its slack length of {:.2f} mm means a strain of "
+                      "{:+.0f} % at the start pose",
+                      ligament.name, slack, 100 * strain));
+  }
+}
+
+}  // namespace
+
+double start_gap(const Scene& scene,
+                 const std::vector<FittedSurface>& surfaces,
+                 const ContactDescription& contact) {
+  const RigidTransform X_BA = start_pose(scene);
+  const auto pose = [&](int s) {
+    return scene.surfaces[s].body == scene.moving_body() ? X_BA : RigidTransform{};
+  };
+  int from = contact.surfaces[0], to = contact.surfaces[1];
+  if (surfaces[from].surface->samples(kSpacing).empty()) std::swap(from, to);
+  const Surface &a = *surfaces[from].surface, &b = *surfaces[to].surface;
+  const RigidTransform X_a = pose(from), X_b = pose(to);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Place& place : a.samples(kSpacing)) {
+    const SurfacePoint at = a.evaluate(place);
+    const Vector3d p = X_b.R.transpose() * (X_a * at.c - X_b.p);
+    const Place other = b.closest(p, b.seed(p));
+    const SurfacePoint opposite = b.evaluate(other);
+    const Vector3d n = X_b.R.transpose() * (X_a.R * at.n);
+    if (b.edge_distance(other) < 0 || n.dot(opposite.n) > -0.5) continue;
+    least = std::min(least, opposite.n.dot(p - opposite.c));
+  }
+  return least;
+}
+
+std::vector<std::string> start_warnings(const Scene& scene,
+                                        const std::vector<FittedSurface>& surfaces,
+                                        const std::vector<TriangleMesh>& bones,
+                                        const StartLimits& limits) {
+  std::vector<std::string> lines;
+  warn_of_gaps(scene, surfaces, limits.gap, lines);
+  warn_of_insertions(scene, bones, limits.insertion, lines);
+  warn_of_strains(scene, limits.strain, lines);
+  return lines;
+}
+
+std::vector<std::string> start_warnings(const Scene& scene,
+                                        const std::vector<FittedSurface>& surfaces,
+                                        const StartLimits& limits) {
+  std::vector<TriangleMesh> bones;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    bones.push_back(body_mesh(scene, static_cast<int>(b), surfaces));
+  return start_warnings(scene, surfaces, bones, limits);
+}
+
+}  // namespace condyle

@@ -1,0 +1,39 @@
+#pragma once
+
+/// What a user should know before a sweep: overlap or gap of the bodies at the start pose, ligament
+/// insertions off the bone, slack lengths that hardly fit the start pose. A strain that the scene
+/// gives itself for the start pose (`reference_strain`) is no surprise.
+
+#include <string>
+#include <vector>
+
+#include "condyle/scene/fitted_surface.h"
+#include "condyle/scene/scene.h"
+
+namespace condyle {
+
+struct StartLimits {
+  double gap = 1;        ///< of a contact, or overlap, where the start pose sets strains [mm]
+  double insertion = 3;  ///< from the mesh of the body [mm]
+  double strain = 0.15;  ///< of a ligament, either way [-]
+};
+
+/// Smallest gap of a contact at the start pose [mm], negative where the bodies overlap; infinite
+/// where the surfaces do not face each other.
+[[nodiscard]] double start_gap(const Scene& scene,
+                               const std::vector<FittedSurface>& surfaces,
+                               const ContactDescription& contact);
+
+/// One line each; those beyond the limits begin with "warning: ". `bones`: the mesh of each body of
+/// the scene, empty where it has none.
+[[nodiscard]] std::vector<std::string> start_warnings(const Scene& scene,
+                                                      const std::vector<FittedSurface>& surfaces,
+                                                      const std::vector<TriangleMesh>& bones,
+                                                      const StartLimits& limits = {});
+
+/// The same with the meshes of the bodies loaded for it.
+[[nodiscard]] std::vector<std::string> start_warnings(const Scene& scene,
+                                                      const std::vector<FittedSurface>& surfaces,
+                                                      const StartLimits& limits = {});
+
+}  // namespace condyle
