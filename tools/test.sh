@@ -1,17 +1,28 @@
 #!/usr/bin/env bash
-# Builds everything and runs all tests. --sanitize: with AddressSanitizer and UndefinedBehaviorSanitizer, in a build
-# folder of its own. Further arguments go to ctest.
+# Builds everything and runs all tests. --sanitize: with AddressSanitizer and UndefinedBehaviorSanitizer; --thread: those
+# tests that start threads, with ThreadSanitizer; each in a build folder of its own. Further arguments go to ctest, or to
+# the program of the latter.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source tools/packages.sh
 
 folder=build
 options=(-DCMAKE_BUILD_TYPE=Release)
-if [ "${1:-}" = --sanitize ]; then
-  shift
-  folder=build-sanitize
-  options=(-DCMAKE_BUILD_TYPE=RelWithDebInfo -DCONDYLE_SANITIZE=ON)
-fi
+case "${1:-}" in
+  --sanitize)
+    folder=build-sanitize
+    options+=(-DCONDYLE_SANITIZE=address)
+    shift
+    ;;
+  --thread)
+    shift
+    install_packages
+    TARGET=condyle_thread_tests build build-thread -DCMAKE_BUILD_TYPE=Release -DCONDYLE_SANITIZE=thread \
+      -DCONDYLE_PICTURES=OFF -DCONDYLE_VIEWER=OFF
+    build-thread/condyle_thread_tests --gtest_filter='SharedKnee.EightThreads*:FitSurfaces.FindsTheExactPhantom*:FitSurfaces.Names*' "$@"
+    exit
+    ;;
+esac
 
 install_packages
 install_npm_where_possible
