@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "accuracy/clock.h"
+#include "accuracy/condensed_peers.h"
 #include "accuracy/peers.h"
 #include "accuracy/study.h"
 #include "condyle/equilibrium/equilibrium_solver.h"
@@ -173,6 +174,26 @@ Row row_of(const Peer& peer, const std::vector<Task>& tasks) {
   return row;
 }
 
+Row row_of(const CondensedPeer& peer, const Model& model, const std::vector<Task>& tasks) {
+  Row row{peer.name};
+  std::vector<CondensedResult> results(tasks.size());
+  Drive drive = drive_of(model);
+  const auto all = [&] {
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      drive.values[0] = tasks[i].flexion;
+      results[i] = peer.solve(tasks[i].start, drive);
+    }
+  };
+  row.time = least_microseconds(kRuns, all, kSeconds) / kPoses;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    row.iterations += results[i].iterations / static_cast<double>(kPoses);
+    if (!results[i].converged) continue;
+    ++row.converged;
+    row.worst.take(tasks[i], results[i].state);
+  }
+  return row;
+}
+
 Row row_of_newton(const std::vector<Task>& tasks) {
   Row row{"ours, Newton alone"};
   const Model model = test::quadric_knee();
@@ -228,6 +249,9 @@ Row row_of_solver(const std::vector<Task>& tasks) {
 void beside_others(const std::vector<Task>& tasks, const Setting& setting, Study& study) {
   std::vector<Row> rows{row_of_newton(tasks), row_of_solver(tasks)};
   for (const Peer& peer : peers()) rows.push_back(row_of(peer, tasks));
+  const Model model = test::quadric_knee();
+  for (const CondensedPeer& peer : condensed_peers(model))
+    rows.push_back(row_of(peer, model, tasks));
   fmt::ostream csv = setting.table("solvers");
   csv.print(
       "solver,converged,poses,iterations,largest_pose_error,microseconds,largest_force_error_N\n");

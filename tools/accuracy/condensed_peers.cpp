@@ -1,0 +1,233 @@
+#include "accuracy/condensed_peers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "accuracy/knee_equations.h"
+#include "condyle/contact/contact_search.h"
+
+#ifdef CONDYLE_HAS_CERES
+#include <ceres/ceres.h>
+#endif
+#ifdef CONDYLE_HAS_KINSOL
+#include <kinsol/kinsol.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#endif
+
+namespace condyle::accuracy {
+namespace {
+
+constexpr int kSize = 9;  // da, turn, two contact forces, one multiplier
+constexpr int kMostIterations = 200;
+constexpr double kTolerance = 1e-9;  // of the residual [N], as of the 17 equations
+
+using Numbers = Eigen::Matrix<double, kSize, 1>;
+using Square = Eigen::Matrix<double, kSize, kSize>;
+
+/// The equations as a function of x = (a - a0, L g, p, σ/w), R = cayley(g) R0.
+class CondensedKnee {
+ public:
+  explicit CondensedKnee(const Model& model) : model_(model), system_(model) {}
+
+  /// Returns the unknowns of the start.
+  Numbers begin(const EquilibriumState& start, const Drive& drive) {
+    start_ = state_ = start;
+    drive_ = drive;
+    Numbers x = Numbers::Zero();
+    for (int k = 0; k < 2; ++k) x[6 + k] = start.contacts[k].p;
+    x[8] = start.sigma[0] / condition_weight(model_, 0);
+    evaluated_ = false;
+    return x;
+  }
+
+  /// Residual and matrix there; false where they do not exist.
+  bool evaluate(const Eigen::Ref<const Numbers>& x) {
+    if (evaluated_ && x == x_) return good_;
+    x_ = x;
+    evaluated_ = true;
+    const Eigen::Vector3d g = x.segment<3>(3) / model_.length;
+    state_.X.p = start_.X.p + x.head<3>();
+    state_.X.R = cayley<double>(g) * start_.X.R;
+    state_.sigma[0] = x[8] * condition_weight(model_, 0);
+    good_ = true;
+    for (int k = 0; k < 2; ++k) {
+      ClosedContact& contact = state_.contacts[k];
+      const ContactPair& pair = model_.pairs[contact.pair];
+      contact.p = x[6 + k];
+      good_ = good_ && refine_minimum(*pair.on_B, contact.on_B, *pair.on_A, contact.on_A, state_.X,
+                                      model_.length);
+    }
+    good_ = good_ && system_.assemble(state_, drive_);
+    if (!good_) {
+      for (int k = 0; k < 2; ++k) state_.contacts[k] = start_.contacts[k];
+      return false;
+    }
+    Numbers minus_r;
+    system_.fill(state_, matrix_, minus_r.data());
+    r_ = -minus_r;
+    // dπ = (I + [g]x/2) dg 4/(4 + g²)
+    Eigen::Matrix3d turn;
+    turn << 1, -g.z() / 2, g.y() / 2, g.z() / 2, 1, -g.x() / 2, -g.y() / 2, g.x() / 2, 1;
+    turn *= 4 / (4 + g.squaredNorm());
+    for (int i = 0; i < kSize; ++i)
+      for (int j = 0; j < kSize; ++j) J_(i, j) = matrix_(i, j);
+    J_.middleCols<3>(3) = (J_.middleCols<3>(3) * turn).eval();
+    return true;
+  }
+
+  [[nodiscard]] const Numbers& residual() const { return r_; }
+  [[nodiscard]] const Square& jacobian() const { return J_; }
+  [[nodiscard]] const EquilibriumState& state() const { return state_; }
+
+ private:
+  const Model& model_;
+  NewtonSystem system_;
+  EquilibriumState start_, state_;
+  Drive drive_;
+  SmallLu matrix_;
+  Numbers x_, r_;
+  Square J_;
+  bool evaluated_ = false, good_ = false;
+};
+
+/// What a solver ended with.
+CondensedResult result_at(CondensedKnee& knee, const Numbers& x, long iterations) {
+  const bool good = knee.evaluate(x);
+  return {knee.state(), static_cast<int>(iterations),
+          good && knee.residual().cwiseAbs().maxCoeff() < 10 * kTolerance};
+}
+
+#ifdef CONDYLE_HAS_KINSOL
+int kinsol_residual(N_Vector x, N_Vector r, void* data) {
+  auto& knee = *static_cast<CondensedKnee*>(data);
+  if (!knee.evaluate(Eigen::Map<const Numbers>(N_VGetArrayPointer(x)))) return 1;
+  Eigen::Map<Numbers>(N_VGetArrayPointer(r)) = knee.residual();
+  return 0;
+}
+
+int kinsol_jacobian(N_Vector x, N_Vector, SUNMatrix J, void* data, N_Vector, N_Vector) {
+  auto& knee = *static_cast<CondensedKnee*>(data);
+  if (!knee.evaluate(Eigen::Map<const Numbers>(N_VGetArrayPointer(x)))) return 1;
+  Eigen::Map<Square>(SUNDenseMatrix_Data(J)) = knee.jacobian();
+  return 0;
+}
+
+class Kinsol {
+ public:
+  explicit Kinsol(const Model& model) : knee_(model) {
+    SUNContext_Create(nullptr, &context_);
+    x_ = N_VNew_Serial(kSize, context_);
+    ones_ = N_VNew_Serial(kSize, context_);
+    N_VConst(1, ones_);
+    J_ = SUNDenseMatrix(kSize, kSize, context_);
+    linear_ = SUNLinSol_Dense(x_, J_, context_);
+    memory_ = KINCreate(context_);
+    KINSetErrFile(memory_, nullptr);
+    KINInit(memory_, kinsol_residual, x_);
+    KINSetUserData(memory_, &knee_);
+    KINSetLinearSolver(memory_, linear_, J_);
+    KINSetJacFn(memory_, kinsol_jacobian);
+    KINSetMaxSetupCalls(memory_, 1);
+    KINSetFuncNormTol(memory_, kTolerance);
+    KINSetScaledStepTol(memory_, 1e-16);
+  }
+  Kinsol(const Kinsol&) = delete;
+  Kinsol& operator=(const Kinsol&) = delete;
+  ~Kinsol() {
+    KINFree(&memory_);
+    SUNLinSolFree(linear_);
+    SUNMatDestroy(J_);
+    N_VDestroy(ones_);
+    N_VDestroy(x_);
+    SUNContext_Free(&context_);
+  }
+
+  CondensedResult solve(const EquilibriumState& start, const Drive& drive) {
+    Eigen::Map<Numbers> x(N_VGetArrayPointer(x_));
+    x = knee_.begin(start, drive);
+    KINSol(memory_, x_, KIN_LINESEARCH, ones_, ones_);
+    long iterations = 0;
+    KINGetNumNonlinSolvIters(memory_, &iterations);
+    return result_at(knee_, x, iterations);
+  }
+
+ private:
+  CondensedKnee knee_;
+  SUNContext context_ = nullptr;
+  N_Vector x_ = nullptr, ones_ = nullptr;
+  SUNMatrix J_ = nullptr;
+  SUNLinearSolver linear_ = nullptr;
+  void* memory_ = nullptr;
+};
+#endif
+
+#ifdef CONDYLE_HAS_CERES
+class CeresResidual : public ceres::SizedCostFunction<kSize, kSize> {
+ public:
+  explicit CeresResidual(CondensedKnee& knee) : knee_(knee) {}
+  bool Evaluate(const double* const* x, double* r, double** jacobians) const override {
+    if (!knee_.evaluate(Eigen::Map<const Numbers>(x[0]))) return false;
+    Eigen::Map<Numbers>{r} = knee_.residual();
+    if (jacobians != nullptr && jacobians[0] != nullptr)
+      Eigen::Map<Eigen::Matrix<double, kSize, kSize, Eigen::RowMajor>>{jacobians[0]} =
+          knee_.jacobian();
+    return true;
+  }
+
+ private:
+  CondensedKnee& knee_;
+};
+
+class Ceres {
+ public:
+  explicit Ceres(const Model& model) : knee_(model) {
+    problem_.AddResidualBlock(new CeresResidual(knee_), nullptr, x_.data());
+    options_.linear_solver_type = ceres::DENSE_QR;
+    options_.trust_region_strategy_type = ceres::DOGLEG;
+    options_.logging_type = ceres::SILENT;
+    options_.max_num_iterations = kMostIterations;
+    options_.function_tolerance = 0;
+    options_.parameter_tolerance = 1e-15;
+    options_.gradient_tolerance = 0;
+  }
+
+  CondensedResult solve(const EquilibriumState& start, const Drive& drive) {
+    x_ = knee_.begin(start, drive);
+    ceres::Solver::Summary summary;
+    ceres::Solve(options_, &problem_, &summary);
+    return result_at(knee_, x_, static_cast<long>(summary.iterations.size()) - 1);
+  }
+
+ private:
+  CondensedKnee knee_;
+  Numbers x_;
+  ceres::Problem problem_;
+  ceres::Solver::Options options_;
+};
+#endif
+
+template <class Solver>
+CondensedPeer peer(const char* name, const Model& model) {
+  const auto solver = std::make_shared<Solver>(model);
+  return {name, [solver](const EquilibriumState& start, const Drive& drive) {
+            return solver->solve(start, drive);
+          }};
+}
+
+}  // namespace
+
+std::vector<CondensedPeer> condensed_peers([[maybe_unused]] const Model& model) {
+  std::vector<CondensedPeer> all;
+#ifdef CONDYLE_HAS_KINSOL
+  all.push_back(peer<Kinsol>("KINSOL, line search, condensed, derivatives by hand", model));
+#endif
+#ifdef CONDYLE_HAS_CERES
+  all.push_back(peer<Ceres>("Ceres, dogleg, condensed, derivatives by hand", model));
+#endif
+  return all;
+}
+
+}  // namespace condyle::accuracy
