@@ -181,6 +181,15 @@ class CeresResidual : public ceres::SizedCostFunction<kSize, kSize> {
   CondensedKnee& knee_;
 };
 
+/// Ceres has no tolerance of the residual itself.
+class StopAtTolerance : public ceres::IterationCallback {
+ public:
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    return std::sqrt(2 * summary.cost) < kTolerance ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                    : ceres::SOLVER_CONTINUE;
+  }
+};
+
 class Ceres {
  public:
   explicit Ceres(const Model& model) : knee_(model) {
@@ -192,6 +201,7 @@ class Ceres {
     options_.function_tolerance = 0;
     options_.parameter_tolerance = 1e-15;
     options_.gradient_tolerance = 0;
+    options_.callbacks.push_back(&stop_);
   }
 
   CondensedResult solve(const EquilibriumState& start, const Drive& drive) {
@@ -204,6 +214,7 @@ class Ceres {
  private:
   CondensedKnee knee_;
   Numbers x_;
+  StopAtTolerance stop_;
   ceres::Problem problem_;
   ceres::Solver::Options options_;
 };
