@@ -14,7 +14,7 @@ namespace condyle {
 using Four = double __attribute__((vector_size(32)));
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define CONDYLE_FMA_CLONE __attribute__((target_clones("default", "fma")))
 #else
 #define CONDYLE_FMA_CLONE
