@@ -81,14 +81,14 @@ BENCHMARK(pose)
 /// solve.
 void floor_of_one_iteration(benchmark::State& state) {
   const Model model = patch_knee();
-  const LineElementBlock elements(model.elements);
+  LineElementBlock elements(model.elements);
   RigidTransform X;
   SmallLu lu;
   double right[SmallLu::kMaxSize];
   for (auto _ : state) {
     X.p.x() += 1e-9;
     Wrench wrench;
-    elements.add_to(X, wrench);
+    elements.add_to(X, {}, wrench);
     for (const ContactPair& pair : model.pairs) {
       benchmark::DoNotOptimize(pair.on_B->evaluate({X.p.x(), 0.5, 0}));
       benchmark::DoNotOptimize(pair.on_A->evaluate({X.p.x(), 0.5, 0}));

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kInnermost = 3;  // radius of the first shell, in spacings
-constexpr double kAround = 2;     // what the quadric of a cluster serves for, in its radii
 
 }  // namespace
 
@@ -19,6 +18,13 @@ Facing over_quadric(const SurfacePoint& at, const Eigen::Vector3d& point) {
   const Eigen::Vector3d d = point - at.c;
   const double along = d.dot(at.n);
   return {&at, 0, 0, d - along * at.n, along};
+}
+
+Facing facing_cell(const SurfaceCover& cover, const Eigen::Vector3d& p, int near) {
+  Facing facing = over_quadric(cover.sample(near), p);
+  facing.bend = cover.cell_change(near);
+  facing.error = 0.5 * facing.bend * facing.beside.squaredNorm();
+  return facing;
 }
 
 Bending::Radii Bending::shells(double spacing, double greatest) {
@@ -33,8 +39,6 @@ Bending::Radii Bending::shells(double spacing, double greatest) {
 Bending::Bending(const SurfaceCover& cover, const Radii& radii) : cover_(&cover), radii_(radii) {
   if (cover.bends_evenly()) return;
   shells_.resize(static_cast<std::size_t>(cover.size()));
-  around_.resize(cover.clusters().size());
-  scratch_.reserve(shells_.size());
 }
 
 /// Its curvature differs from the sample's, and so do height and slope on the way there, by less
@@ -56,39 +60,6 @@ Rise Bending::in_shell(int level, int sample, const Eigen::Matrix3d& K) {
                                    next == 0 ? 0 : radii_[next - 1], radii_[next]);
   }
   return shells.of[shell];
-}
-
-const SurfaceCell& Bending::around(int cluster) {
-  SurfaceCell& cell = around_[static_cast<std::size_t>(cluster)];
-  if (cell.radius == 0) {
-    const double radius = cover_->cluster(cluster).cell.radius;
-    cell = cover_->around(cluster, kAround * radius, scratch_);
-  }
-  return cell;
-}
-
-Facing Bending::facing_cell(const Eigen::Vector3d& p, int near) const {
-  Facing facing = over_quadric(cover_->sample(near), p);
-  facing.bend = cover_->cell_change(near);
-  facing.error = 0.5 * facing.bend * facing.beside.squaredNorm();
-  return facing;
-}
-
-Facing Bending::facing(const Eigen::Vector3d& p, double r, int near) {
-  for (int index = cover_->leaf(near); index >= 0;) {
-    const SurfaceCover::Cluster& cluster = cover_->cluster(index);
-    if (r < kAround * cluster.cell.radius) {
-      const SurfaceCell& cell = around(index);
-      const double room = cell.radius - r;
-      Facing facing = over_quadric(cell.at, p);
-      facing.error = cell.rise;
-      if (facing.beside.squaredNorm() < room * room) return facing;
-    }
-    // Every second size will do.
-    index = cluster.parent;
-    if (index >= 0) index = cover_->cluster(index).parent;
-  }
-  return {};
 }
 
 }  // namespace condyle

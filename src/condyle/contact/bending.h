@@ -1,8 +1,7 @@
 #pragma once
 
 /// How far a surface rises over its osculating quadrics, as far as a search asks: about known
-/// contacts shell by shell, about samples and clusters within a ball. What was measured once is
-/// kept.
+/// contacts shell by shell. What was measured once is kept.
 
 #include <array>
 #include <vector>
@@ -23,6 +22,10 @@ struct Facing {
 /// A point over the quadric at a place; nothing is allowed for yet.
 [[nodiscard]] Facing over_quadric(const SurfacePoint& at, const Eigen::Vector3d& point);
 
+/// Point p over the quadric of its nearest sample, for the cell of that and as far as the
+/// neighbours.
+[[nodiscard]] Facing facing_cell(const SurfaceCover& cover, const Eigen::Vector3d& p, int near);
+
 class Bending {
  public:
   static constexpr int kLevels = 9;
@@ -42,25 +45,15 @@ class Bending {
   /// What is added for a point in the cell of the sample, where the curvature tensor is K [1/mm].
   [[nodiscard]] double shift(int sample, const Eigen::Matrix3d& K) const;
 
-  /// Point p, whose nearest sample is `near`, over a quadric that serves as far as r [mm] about its
-  /// closest point; `at` is null where there is none.
-  [[nodiscard]] Facing facing(const Eigen::Vector3d& p, double r, int near);
-
-  /// The same point over the quadric of that sample, for its cell and as far as its neighbours.
-  [[nodiscard]] Facing facing_cell(const Eigen::Vector3d& p, int near) const;
-
  private:
   struct Shells {
     std::array<Rise, kLevels> of;
     int measured = 0;
   };
-  [[nodiscard]] const SurfaceCell& around(int cluster);
 
   const SurfaceCover* cover_;
   Radii radii_;
-  std::vector<Shells> shells_;       ///< of each sample
-  std::vector<SurfaceCell> around_;  ///< about each cluster; radius 0: not fitted yet
-  std::vector<const SurfaceCell*> scratch_;
+  std::vector<Shells> shells_;  ///< of each sample
 };
 
 }  // namespace condyle

@@ -94,6 +94,9 @@ ContactSearch::ContactSearch(std::shared_ptr<const ContactCover> cover)
   cluster_closest_.resize(sampled().clusters().size());
   split_.resize(sampled().clusters().size());
   near_.reserve(n);
+  lowest_.reserve(n);
+  doubtful_.reserve(n + 9 * static_cast<std::size_t>(other().size()));
+  doubtful_other_.reserve(static_cast<std::size_t>(other().size()));
   found_.reserve(n + kMaxConstraints);
   discs_.reserve(kMaxConstraints);
 }
@@ -128,14 +131,19 @@ bool ContactSearch::is_lowest_of_neighbours(int sample) const {
 
 /// Newton to the minimum near a sample. Where that does not settle, or leads beyond the known part
 /// while the sample itself is within, the sample stands for it.
-GapMinimum ContactSearch::refine(int sample, const RigidTransform& X_BA) const {
+std::optional<GapMinimum> ContactSearch::refine(int sample,
+                                                const RigidTransform& X_BA,
+                                                double cutoff) const {
   GapMinimum minimum;
   const Place& own = sampled().place(sample);
   minimum.on_A = sampled_on_A_ ? own : closest(sample).place;
   minimum.on_B = sampled_on_A_ ? closest(sample).place : own;
   Place refined_B = minimum.on_B, refined_A = minimum.on_A;
-  minimum.refined = refine_minimum(*on_B_, refined_B, *on_A_, refined_A, X_BA, 4 * spacing_) &&
-                    edge_of(refined_B, refined_A) > -kBeyondEdge * spacing_;
+  const Refinement outcome =
+      refine_minimum_below(cutoff, *on_B_, refined_B, *on_A_, refined_A, X_BA, 4 * spacing_);
+  if (outcome == Refinement::kAbove) return std::nullopt;
+  minimum.refined =
+      outcome == Refinement::kSettled && edge_of(refined_B, refined_A) > -kBeyondEdge * spacing_;
   if (minimum.refined) {
     minimum.on_B = refined_B;
     minimum.on_A = refined_A;
@@ -158,13 +166,16 @@ void ContactSearch::add_minimum(int sample,
                                 double cutoff,
                                 bool lowest,
                                 std::vector<GapMinimum>& minima) {
-  const GapMinimum minimum = refine(sample, X_BA);
+  // The ends of a line may lie lower than any minimum.
+  const std::optional<GapMinimum> minimum =
+      refine(sample, X_BA, cover_->lines ? kInfinity : cutoff);
+  if (!minimum) return;
   // A sample stands for a minimum of its own only where it is the lowest and faces what is known.
-  if (!minimum.refined && !(lowest && faces_known_part(sample))) return;
-  found_.push_back(sampled_on_A_ ? minimum.point_B : X_BA.inverse() * minimum.point_B);
-  if (cover_->lines && add_line_ends(*on_B_, *on_A_, X_BA, minimum, spacing_, cutoff, minima))
+  if (!minimum->refined && !(lowest && faces_known_part(sample))) return;
+  found_.push_back(sampled_on_A_ ? minimum->point_B : X_BA.inverse() * minimum->point_B);
+  if (cover_->lines && add_line_ends(*on_B_, *on_A_, X_BA, *minimum, spacing_, cutoff, minima))
     return;
-  if (minimum.gap < cutoff) minima.push_back(minimum);
+  if (minimum->gap < cutoff) minima.push_back(*minimum);
 }
 
 /// For certain, where its closest point was not found yet.
@@ -203,6 +214,14 @@ double ContactSearch::edge_of(const Place& on_B, const Place& on_A) const {
   return std::min(on_B_->edge_distance(on_B), on_A_->edge_distance(on_A));
 }
 
+/// The samples that are lower than all their neighbours, measured.
+void ContactSearch::gather_lowest(const RigidTransform& X_from_to) {
+  lowest_.clear();
+  for (const int sample : near_)
+    if (is_lowest_of_neighbours(sample)) lowest_.push_back(sample);
+  for (const int sample : lowest_) measure(sample, X_from_to);
+}
+
 void ContactSearch::find(const RigidTransform& X_BA,
                          double cutoff,
                          std::vector<GapMinimum>& minima,
@@ -214,14 +233,14 @@ void ContactSearch::find(const RigidTransform& X_BA,
   if (!has_samples()) return;
   set_discs(known);
   const RigidTransform X = from_to(X_BA);
-  visit(0, X, cutoff);
+  const bool beside = cutoff <= 0 && !known.empty() && !in_disc(sampled().cluster(0));
+  if (!beside || !look_beside(X, cutoff)) visit(0, X, cutoff);
   found_.clear();
   for (const KnownContact& contact : known)
     found_.push_back(sampled_on_A_ ? contact.on_B : contact.on_A);
-  for (const int sample : near_)
-    if (is_lowest_of_neighbours(sample)) measure(sample, X);
-  for (const int sample : near_)
-    if (seen(sample).measured && nearly_faces_known_part(sample) && is_lowest_of_neighbours(sample))
+  gather_lowest(X);
+  for (const int sample : lowest_)
+    if (nearly_faces_known_part(sample) && is_lowest_of_neighbours(sample))
       add_minimum(sample, X_BA, cutoff, /*lowest=*/true, minima);
   for (const int sample : near_) {
     if (seen(sample).lower > 0) continue;

@@ -14,6 +14,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "condyle/contact/bending.h"
@@ -104,19 +105,29 @@ class ContactSearch {
                    double reach,
                    std::vector<GapMinimum>& minima,
                    double merge);
+  [[nodiscard]] bool turns_beside(const KnownContact& contact, double shift, double doubt) const;
   void set_discs(const std::vector<KnownContact>& known);
-  /// What a sample tells about a cluster, before anything is fitted for it.
-  enum class Sight { kClear, kNotClear, kPerhaps };
-  [[nodiscard]] Sight look(const SurfaceCover::Cluster& cluster,
-                           const Eigen::Vector3d& p,
-                           const RigidTransform& X_from_to,
-                           double cutoff,
-                           int near) const;
+  [[nodiscard]] bool is_clear_of_sample(const SurfaceCover::Cluster& cluster,
+                                        const Eigen::Vector3d& p,
+                                        double cutoff,
+                                        int near) const;
+  [[nodiscard]] bool is_clear_of_closest(const SurfaceCover::Cluster& cluster,
+                                         const Eigen::Vector3d& p,
+                                         const RigidTransform& X_from_to,
+                                         double cutoff,
+                                         Closest& closest);
   [[nodiscard]] bool is_clear(int cluster, const RigidTransform& X_from_to, double cutoff);
+  [[nodiscard]] bool in_disc(const SurfaceCover::Cluster& cluster) const;
+  bool look_beside(const RigidTransform& X_from_to, double cutoff);
+  void look_at_facing(int sample_of_other,
+                      int& near,
+                      const RigidTransform& X_from_to,
+                      double cutoff);
+  void look_at(int sample, int& near, const RigidTransform& X_from_to, double cutoff);
   bool visit(int cluster, const RigidTransform& X_from_to, double cutoff);
-  void estimate(int sample, int near, const RigidTransform& X_from_to);
+  void estimate(int sample, int& near, const RigidTransform& X_from_to, double cutoff);
   void measure(int sample, const RigidTransform& X_from_to);
-  [[nodiscard]] Facing face(const Eigen::Vector3d& p, double r, Closest& closest);
+  void gather_lowest(const RigidTransform& X_from_to);
   [[nodiscard]] bool is_beside(const Eigen::Vector3d& p, double r, const Closest& closest) const;
   [[nodiscard]] Facing face_closest(const Eigen::Vector3d& p, double r, Closest& closest);
   void find_closest(const Eigen::Vector3d& p, double close, Closest& closest) const;
@@ -131,17 +142,16 @@ class ContactSearch {
                    std::vector<GapMinimum>& minima);
   [[nodiscard]] RigidTransform from_to(const RigidTransform& X_BA) const;
   [[nodiscard]] double edge_of(const Place& on_B, const Place& on_A) const;
-  [[nodiscard]] GapMinimum refine(int sample, const RigidTransform& X_BA) const;
+  /// Nothing where the minimum near the sample lies above the cutoff.
+  [[nodiscard]] std::optional<GapMinimum> refine(int sample,
+                                                 const RigidTransform& X_BA,
+                                                 double cutoff) const;
   [[nodiscard]] const SurfaceCover& sampled() const {
     return sampled_on_A_ ? cover_->on_A : cover_->on_B;
   }
   [[nodiscard]] const SurfaceCover& other() const {
     return sampled_on_A_ ? cover_->on_B : cover_->on_A;
   }
-  [[nodiscard]] const Bending& bending_of_other() const {
-    return sampled_on_A_ ? bending_B_ : bending_A_;
-  }
-  [[nodiscard]] Bending& bending_of_other() { return sampled_on_A_ ? bending_B_ : bending_A_; }
   [[nodiscard]] Seen& seen(int sample) { return seen_[static_cast<std::size_t>(sample)]; }
   [[nodiscard]] const Seen& seen(int sample) const {
     return seen_[static_cast<std::size_t>(sample)];
@@ -167,10 +177,22 @@ class ContactSearch {
   int near_contact_B_ = -1, near_contact_A_ = -1;  ///< samples
   std::vector<int> near_;                          ///< samples whose cell may reach the cutoff
   std::vector<Eigen::Vector3d> found_;             ///< minima, in the frame of the other body
+  std::vector<int> lowest_;                        ///< of these, lower than all neighbours
+  std::vector<int> doubtful_, doubtful_other_;     ///< samples not on their side of a quadric
   int now_ = 0;
   std::vector<GapMinimum> nearest_;  ///< the last answer of find_nearest, and to what
   RigidTransform nearest_X_;
   double nearest_reach_ = -1, nearest_merge_ = -1;
 };
+
+/// How low the gap may be [mm] in a cell of radius r [mm] about a point, in a frame turned by R,
+/// that faces the other surface like that and whose curvature changes by `bend` [1/mm]. Above the
+/// cutoff by the way alone it is not sought closer.
+[[nodiscard]] double bound_of_cell(const Facing& facing,
+                                   const SurfacePoint& own,
+                                   const Eigen::Matrix3d& R,
+                                   double r,
+                                   double bend,
+                                   double cutoff);
 
 }  // namespace condyle

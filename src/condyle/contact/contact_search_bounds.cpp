@@ -68,6 +68,32 @@ double drop_within(const Facing& facing,
 
 }  // namespace
 
+double bound_of_cell(const Facing& facing,
+                     const SurfacePoint& own,
+                     const Eigen::Matrix3d& R,
+                     double r,
+                     double bend,
+                     double cutoff) {
+  const double gap = gap_over(facing), by_way = gap - facing.error - kWay * r;
+  if (by_way > std::min(cutoff, 0.0)) return by_way;
+  const double drop = drop_within(facing, R * own.n, own.K, R, r, bend);
+  return std::max(by_way, gap - drop);
+}
+
+/// Is the innermost shell about a contact not free, as the cells of the nearest samples alone tell?
+bool ContactSearch::turns_beside(const KnownContact& contact, double shift, double doubt) const {
+  if (cover_->on_B.bends_evenly() || cover_->on_A.bends_evenly()) return false;
+  if (near_contact_B_ < 0 || near_contact_A_ < 0) return true;
+  const auto greatest = [](const SurfaceCover& cover, int near) {
+    return largest_principal(cover.sample(near).K) + cover.cell_change(near);
+  };
+  const double change =
+      cover_->on_B.cell_change(near_contact_B_) + cover_->on_A.cell_change(near_contact_A_) + shift;
+  return change > contact.least_curvature &&
+         greatest(cover_->on_B, near_contact_B_) + greatest(cover_->on_A, near_contact_A_) + shift >
+             -doubt;
+}
+
 /// About a contact the surfaces are apart as far, shell by shell, as its relative curvature
 /// outweighs what both rise over their quadrics, or as a paraboloid of revolution between them has
 /// both on its own sides.
@@ -80,6 +106,7 @@ void ContactSearch::set_discs(const std::vector<KnownContact>& known) {
     const double shift = bending_B_.shift(near_contact_B_, contact.K_B) +
                          bending_A_.shift(near_contact_A_, contact.K_A);
     double radius = 0;
+    if (turns_beside(contact, shift, doubt)) continue;
     for (int level = 0; level < Bending::kLevels; ++level) {
       const Rise B = bending_B_.in_shell(level, near_contact_B_, contact.K_B);
       const Rise A = bending_A_.in_shell(level, near_contact_A_, contact.K_A);
@@ -141,85 +168,77 @@ Facing ContactSearch::face_closest(const Eigen::Vector3d& p, double r, Closest& 
   return facing;
 }
 
-/// Point p, whose nearest sample is known, over a quadric of the other surface that serves as far
-/// as r [mm] about its closest point: that of a cluster, or where there is none, of the closest
-/// point itself.
-Facing ContactSearch::face(const Eigen::Vector3d& p, double r, Closest& closest) {
-  if (closest.near >= 0) {
-    const Facing facing = bending_of_other().facing(p, r, closest.near);
-    if (facing.at) return facing;
-  }
-  return face_closest(p, r, closest);
+/// By the quadric of the sample nearest to its centre p: as far as its cell, and by the way beyond.
+bool ContactSearch::is_clear_of_sample(const SurfaceCover::Cluster& cluster,
+                                       const Eigen::Vector3d& p,
+                                       double cutoff,
+                                       int near) const {
+  const Facing facing = facing_cell(other(), p, near);
+  const double cell = other().cell_radius(near), way = kWay * cluster.cell.radius;
+  const double beside = facing.beside.squaredNorm();
+  const double far = cutoff + way + cell + kBeyondEdge * spacing_;
+  if (facing.along > 0 && beside + facing.along * facing.along > far * far) return true;
+  if (beside > kCell * kCell * cell * cell) return false;
+  const double gap = gap_over(facing);
+  return gap - facing.error - way > cutoff || gap + facing.error + way < -deepest_;
 }
 
-/// By the quadric of the sample nearest to the centre p: clear by the way alone, or not to be shown
-/// clear by a quadric like this one.
-ContactSearch::Sight ContactSearch::look(const SurfaceCover::Cluster& cluster,
-                                         const Eigen::Vector3d& p,
-                                         const RigidTransform& X_from_to,
-                                         double cutoff,
-                                         int near) const {
-  Facing facing = bending_of_other().facing_cell(p, near);
-  const double r = cluster.cell.radius, cell = kCell * other().cell_radius(near);
-  const double square = facing.beside.squaredNorm();
-  const double far = cutoff + kWay * (r + cell) + kBeyondEdge * spacing_;
-  if (facing.along > 0 && square + facing.along * facing.along > far * far) return Sight::kClear;
-  if (square > cell * cell) return Sight::kPerhaps;
+/// By the quadric at the point of the other surface closest to its centre p.
+bool ContactSearch::is_clear_of_closest(const SurfaceCover::Cluster& cluster,
+                                        const Eigen::Vector3d& p,
+                                        const RigidTransform& X_from_to,
+                                        double cutoff,
+                                        Closest& closest) {
+  const double r = cluster.cell.radius, way = kWay * r;
+  const Facing facing = face_closest(p, r, closest);
   const double gap = gap_over(facing);
-  if (gap - facing.error - kWay * r > cutoff) return Sight::kClear;
-  if (gap < cutoff && gap > -deepest_) return Sight::kNotClear;
-  facing.bend = 0;
+  if (gap - way > cutoff || gap + way < -deepest_) return true;
+  // Beyond an edge they face nothing.
+  const double room = 1 - std::abs(gap) * closest.at.K.norm();
+  const double edge = other().surface().edge_distance(closest.place);
+  if (edge < -way / std::max(room, kLeastRoom) - kBeyondEdge * spacing_) return true;
+  if (!closest.close) return false;
   const SurfacePoint& center = cluster.cell.at;
   const double drop = drop_within(facing, X_from_to.R * center.n, center.K, X_from_to.R, r, 0);
-  return gap - drop < cutoff ? Sight::kNotClear : Sight::kPerhaps;
+  return gap - kWay * cluster.cell.rise - drop > cutoff;
 }
 
-/// Is the whole cluster shown to stay above the cutoff, by the way to its centre or by a quadric?
+/// Is the whole cluster shown to stay above the cutoff, by the way to its centre or by quadrics?
 bool ContactSearch::is_clear(int index, const RigidTransform& X_from_to, double cutoff) {
   const SurfaceCover::Cluster& cluster = sampled().cluster(index);
-  const SurfacePoint& center = cluster.cell.at;
-  const double r = cluster.cell.radius;
-  const Eigen::Vector3d p = X_from_to * center.c;
+  const Eigen::Vector3d p = X_from_to * cluster.cell.at.c;
   Closest& closest = cluster_closest_[static_cast<std::size_t>(index)];
   if (!other().bends_evenly()) closest.near = other().nearest(p, closest.near);
-  if (closest.near >= 0) {
-    const Sight sight = look(cluster, p, X_from_to, cutoff, closest.near);
-    if (sight != Sight::kPerhaps) return sight == Sight::kClear;
-  }
-  const Facing facing = face(p, r, closest);
-  const double gap = gap_over(facing), way = kWay * r + facing.error;
-  if (gap - way > cutoff || gap + way < -deepest_) return true;
-  if (facing.at == &closest.at) {
-    // Beyond an edge they face nothing.
-    const double room = 1 - std::abs(gap) * closest.at.K.norm();
-    const double edge = other().surface().edge_distance(closest.place);
-    if (edge < -way / std::max(room, kLeastRoom) - kBeyondEdge * spacing_) return true;
-    if (!closest.close) return false;
-  }
-  const double drop = drop_within(facing, X_from_to.R * center.n, center.K, X_from_to.R, r, 0);
-  return gap - facing.error - kWay * cluster.cell.rise - drop > cutoff;
+  return closest.near >= 0 ? is_clear_of_sample(cluster, p, cutoff, closest.near)
+                           : is_clear_of_closest(cluster, p, X_from_to, cutoff, closest);
+}
+
+bool ContactSearch::in_disc(const SurfaceCover::Cluster& cluster) const {
+  return std::any_of(discs_.begin(), discs_.end(), [&](const Disc& disc) {
+    const double room = disc.radius - cluster.cell.radius;
+    return room > 0 && (cluster.cell.at.c - disc.center).squaredNorm() < room * room;
+  });
+}
+
+/// A sample whose cell may reach the cutoff is near.
+void ContactSearch::look_at(int sample, int& near, const RigidTransform& X_from_to, double cutoff) {
+  estimate(sample, near, X_from_to, cutoff);
+  const Seen& now = seen(sample);
+  if (now.stamp == now_ && now.lower < cutoff && now.gap > -deepest_) near_.push_back(sample);
 }
 
 /// True where the cluster's own bound shows it to be clear. One that was not goes straight to its
 /// children until both of them are.
 bool ContactSearch::visit(int index, const RigidTransform& X_from_to, double cutoff) {
   const SurfaceCover::Cluster& cluster = sampled().cluster(index);
-  const Eigen::Vector3d& center = cluster.cell.at.c;
-  for (const Disc& disc : discs_) {
-    const double room = disc.radius - cluster.cell.radius;
-    if (room > 0 && (center - disc.center).squaredNorm() < room * room) return true;
-  }
+  if (in_disc(cluster)) return true;
   char& split = split_[static_cast<std::size_t>(index)];
   if (!split && cluster.cell.radius < kLargest * spacing_ && is_clear(index, X_from_to, cutoff))
     return true;
   if (cluster.child[0] < 0) {
-    const int near = cluster_closest_[static_cast<std::size_t>(index)].near;
-    for (int k = cluster.first; k < cluster.last; ++k) {
-      const int sample = sampled().in_order(k);
-      estimate(sample, near, X_from_to);
-      const Seen& now = seen(sample);
-      if (now.stamp == now_ && now.lower < cutoff && now.gap > -deepest_) near_.push_back(sample);
-    }
+    int near = cluster_closest_[static_cast<std::size_t>(index)].near;
+    for (int k = cluster.first; k < cluster.last; ++k)
+      look_at(sampled().in_order(k), near, X_from_to, cutoff);
     return false;
   }
   const bool first = visit(cluster.child[0], X_from_to, cutoff);
@@ -229,17 +248,21 @@ bool ContactSearch::visit(int index, const RigidTransform& X_from_to, double cut
 }
 
 /// The gap at a sample, and how low it may be in its cell, by the quadric of the nearest sample of
-/// the other surface.
-void ContactSearch::estimate(int sample, int near, const RigidTransform& X_from_to) {
+/// the other surface: that near `near`, which is then its own.
+void ContactSearch::estimate(int sample,
+                             int& near,
+                             const RigidTransform& X_from_to,
+                             double cutoff) {
   const SurfacePoint& own = sampled().sample(sample);
   const Eigen::Vector3d p = X_from_to * own.c;
   const double r = sampled().cell_radius(sample);
   Closest& there = closest(sample);
   Facing facing;
   if (!other().bends_evenly() && other().size() > 0) {
-    there.near = other().nearest(p, there.near >= 0 ? there.near : near);
+    there.near = other().nearest(p, near >= 0 ? near : there.near);
     if (there.near < 0) return;  // beyond the edge of the other surface
-    facing = bending_of_other().facing_cell(p, there.near);
+    near = there.near;
+    facing = facing_cell(other(), p, there.near);
     const double cell = kCell * other().cell_radius(there.near);
     if (facing.beside.squaredNorm() > cell * cell) facing.at = nullptr;
   }
@@ -249,11 +272,7 @@ void ContactSearch::estimate(int sample, int near, const RigidTransform& X_from_
   if (now.measured) facing = face_closest(p, r, there);
   now.gap = gap_over(facing);
   now.error = facing.error;
-  now.lower = now.gap - facing.error - kWay * r;
-  if (now.lower > 0) return;
-  const double drop = drop_within(facing, X_from_to.R * own.n, own.K, X_from_to.R, r,
-                                  sampled().cell_change(sample));
-  if (now.gap - drop > now.lower) now.lower = now.gap - drop;
+  now.lower = bound_of_cell(facing, own, X_from_to.R, r, sampled().cell_change(sample), cutoff);
 }
 
 /// To its closest point.

@@ -3,11 +3,15 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <limits>
 
 #include "condyle/contact/contact.h"
 
 namespace condyle {
 namespace {
+
+constexpr double kNear = 0.1;  // of the reach: a step that leads to the minimum itself
+constexpr double kFall = 2;    // of κ d²: more than the gap falls on the way d, ½ κ d²
 
 /// How far the point slides towards the minimum: by Newton, or, where the gap bends downwards along
 /// a direction, downhill along it, so that no saddle attracts.
@@ -32,18 +36,34 @@ bool refine_minimum(const Surface& on_B,
                     Place& place_A,
                     const RigidTransform& X_BA,
                     double reach) {
+  constexpr double kAnyGap = std::numeric_limits<double>::infinity();
+  return refine_minimum_below(kAnyGap, on_B, place_B, on_A, place_A, X_BA, reach) ==
+         Refinement::kSettled;
+}
+
+Refinement refine_minimum_below(double cutoff,
+                                const Surface& on_B,
+                                Place& place_B,
+                                const Surface& on_A,
+                                Place& place_A,
+                                const RigidTransform& X_BA,
+                                double reach) {
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   for (int iteration = 0; iteration < 30; ++iteration) {
     const ContactLinearization contact = linearize_contact(on_B, place_B, on_A, place_A, X_BA);
     if (iteration == 0) start = contact.B.c;
-    if (!contact.g.allFinite() || (contact.B.c - start).norm() > reach) return false;
+    if (!contact.g.allFinite() || (contact.B.c - start).norm() > reach) return Refinement::kLost;
     // At a finite gap only the tangential part of g is an error.
     const Eigen::Vector3d along = contact.gap() * contact.B.n;
     const double slide = (contact.g - along).norm() + contact.h.norm() / 0.05;
-    if (slide < 1e-11) return contact.relative_curvature[0] > 0;
+    if (slide < 1e-11)
+      return contact.relative_curvature[0] > 0 ? Refinement::kSettled : Refinement::kLost;
     Eigen::Vector3d dc = slide_downhill(contact, X_BA);
     Eigen::Vector3d dc_A = dc - (contact.g - along);
     const double longest = std::max(dc.norm(), dc_A.norm());
+    if (longest < kNear * reach && contact.relative_curvature[0] > 0 &&
+        contact.gap() - kFall * contact.relative_curvature[1] * longest * longest > cutoff)
+      return Refinement::kAbove;
     if (longest > reach) {
       dc *= reach / longest;
       dc_A *= reach / longest;
@@ -51,7 +71,7 @@ bool refine_minimum(const Surface& on_B,
     place_B = on_B.moved(place_B, contact.B, dc);
     place_A = on_A.moved(place_A, contact.A, X_BA.R.transpose() * dc_A);
   }
-  return false;
+  return Refinement::kLost;
 }
 
 }  // namespace condyle

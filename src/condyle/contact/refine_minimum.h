@@ -16,4 +16,19 @@ bool refine_minimum(const Surface& on_B,
                     const RigidTransform& X_BA,
                     double reach);
 
+enum class Refinement {
+  kSettled,  ///< on an isolated minimum
+  kAbove,    ///< on the way to one above the cutoff
+  kLost      ///< none within reach
+};
+
+/// The same, but given up where the gap does not fall below `cutoff` [mm] any more.
+Refinement refine_minimum_below(double cutoff,
+                                const Surface& on_B,
+                                Place& place_B,
+                                const Surface& on_A,
+                                Place& place_A,
+                                const RigidTransform& X_BA,
+                                double reach);
+
 }  // namespace condyle

@@ -20,6 +20,8 @@ constexpr double kBetween = 1.3;   // what lies between neighbours, beyond what 
 constexpr double kNeighbours = 3;  // how far these are looked for, in spacings
 constexpr double kLost = 2.5;      // beside a sample farther than this, in spacings: beyond
 constexpr double kFine = 0.36;     // of a piece: what a quadric is fitted to
+constexpr double kWithin = 0.7;    // of the radius of a cell: well within
+constexpr double kAtEdge = 1.5;    // nearer to an edge than this a sample stands for all up to it
 constexpr double kSmall = 0.125;   // a cluster counts as one cell below this share of its way
 
 /// For each point the up to eight nearest others within `radius` [mm]; -1 fills up.
@@ -108,6 +110,7 @@ SurfaceCover::SurfaceCover(const Surface& surface, double spacing)
   leaf_.resize(cells_.size());
   std::iota(order_.begin(), order_.end(), 0);
   build(0, size(), -1);
+  if (!even_) lay_columns();
 }
 
 void SurfaceCover::enclose(int i) {
@@ -144,15 +147,21 @@ void SurfaceCover::gather(int index,
     if (reaches(cells_[at(in_order(k))])) cells.push_back(&cells_[at(in_order(k))]);
 }
 
-SurfaceCell SurfaceCover::around(int index,
-                                 double radius,
-                                 std::vector<const SurfaceCell*>& scratch) const {
-  const SurfacePoint& center = clusters_[at(index)].cell.at;
-  scratch.clear();
-  gather(0, center.c, radius, kFine * radius, scratch);
-  SurfaceCell cell = fit_mean(center, scratch);
-  cell.radius = radius;
-  return cell;
+void SurfaceCover::lay_columns() {
+  columns_.reserve(cells_.size());
+  for (int i = 0; i < size(); ++i) {
+    const SurfaceCell& cell = cells_[at(i)];
+    const bool at_edge = edge_[at(i)] < kAtEdge * spacing_;
+    columns_.add(cell.at, at_edge ? std::max(cell.radius, edge_[at(i)]) : cell.radius,
+                 largest_principal(cell.at.K) + change_[at(i)]);
+  }
+}
+
+const SurfaceCover::Cluster& SurfaceCover::cluster_about(int sample, double radius) const {
+  int index = leaf(sample);
+  while (clusters_[at(index)].cell.radius < radius && clusters_[at(index)].parent >= 0)
+    index = clusters_[at(index)].parent;
+  return clusters_[at(index)];
 }
 
 /// The quadric of a cluster, from its samples or from clusters below it.
@@ -246,11 +255,13 @@ Rise SurfaceCover::rise(const SurfacePoint& of, double own, double from, double 
 
 int SurfaceCover::nearest(const Eigen::Vector3d& point, int start) const {
   if (cells_.empty()) return -1;
-  const auto near = [&](int i) {
-    return off_normal(point - sample(i).c, sample(i).n).squaredNorm() <
-           kLost * kLost * spacing_ * spacing_;
+  const auto beside = [&](int i) {
+    return off_normal(point - sample(i).c, sample(i).n).squaredNorm();
   };
+  const auto near = [&](int i) { return beside(i) < kLost * kLost * spacing_ * spacing_; };
   if (start >= 0) {
+    const double within = kWithin * cell_radius(start);
+    if (beside(start) < within * within) return start;
     int best = start;
     double square = (sample(best).c - point).squaredNorm();
     for (bool moved = true; moved;) {

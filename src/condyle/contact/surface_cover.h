@@ -15,6 +15,7 @@
 #include <memory>
 #include <vector>
 
+#include "condyle/contact/dividing_quadric.h"
 #include "condyle/contact/quadric_fit.h"
 #include "condyle/surface/surface.h"
 
@@ -60,16 +61,17 @@ class SurfaceCover {
   /// No two samples are farther apart [mm].
   [[nodiscard]] double extent() const { return extent_; }
 
-  /// The sample nearest to a point, walking from the sample `start` (-1: from any); -1 where none
-  /// is near it beside its normal: beyond the samples.
+  /// The sample nearest to a point, or one of which the point lies well within the cell, walking
+  /// from the sample `start` (-1: from any); -1 where none is near it beside its normal: beyond the
+  /// samples.
   [[nodiscard]] int nearest(const Eigen::Vector3d& point, int start) const;
 
-  [[nodiscard]] int leaf(int sample) const { return leaf_[at(sample)]; }
+  /// All cells; samples at an edge stand for what lies between them and the edge as well.
+  [[nodiscard]] const CellColumns& columns() const { return columns_; }
+  /// The smallest cluster about a sample whose radius is no less than that [mm].
+  [[nodiscard]] const Cluster& cluster_about(int sample, double radius) const;
 
-  /// A quadric about a cluster's centre as far as `radius` [mm]; `scratch` is overwritten.
-  [[nodiscard]] SurfaceCell around(int cluster,
-                                   double radius,
-                                   std::vector<const SurfaceCell*>& scratch) const;
+  [[nodiscard]] int leaf(int sample) const { return leaf_[at(sample)]; }
 
   /// Of all cells at a distance between `from` and `to` [mm] from a point within `own` [mm] of one
   /// of the surface.
@@ -80,6 +82,7 @@ class SurfaceCover {
   struct Range;
   [[nodiscard]] static std::size_t at(int index) { return static_cast<std::size_t>(index); }
   void enclose(int sample);
+  void lay_columns();
   int build(int first, int last, int parent);
   void enclose(Cluster& cluster, const SurfacePoint& middle) const;
   void gather(int cluster,
@@ -96,6 +99,7 @@ class SurfaceCover {
   std::vector<double> edge_;
   std::vector<std::array<int, 8>> neighbours_;
   std::vector<SurfaceCell> cells_;  ///< of the samples
+  CellColumns columns_;
   std::vector<double> change_;
   std::vector<int> order_, leaf_;  ///< leaf_: the cluster of each sample
   std::vector<Cluster> clusters_;

@@ -11,7 +11,6 @@ constexpr double kPull = 1e-12;              // round-off, of all forces
 constexpr double kFlat = 1e-7;               // relative curvature [1/mm] that counts as none
 constexpr double kRim = 2 * kSampleSpacing;  // of L, from an edge
 constexpr double kLeftByNewton = 1e-3;       // of the distance at which places count as one
-constexpr std::size_t kMinimaOfAPair = 64;   // room for them
 
 const ContactPair& pair_of(const Model& model, const ClosedContact& contact) {
   return model.pairs[static_cast<std::size_t>(contact.pair)];

@@ -11,6 +11,9 @@
 
 namespace condyle {
 
+/// Room for the minima of a pair at one pose.
+inline constexpr std::size_t kMinimaOfAPair = 64;
+
 struct ContactChanges {
   int opens = -1;                     ///< the contact of the state that pulls most
   std::vector<ClosedContact> closes;  ///< overlaps that are no contacts yet, without force

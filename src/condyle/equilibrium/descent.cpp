@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "condyle/math/rotation.h"
 
@@ -12,6 +13,7 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
+constexpr int kFewSteps = 10;  // by then most descents have come near enough for Newton
 // Constraints: more than a knee has at once.
 constexpr std::size_t kMemorySize = 24;  // material points
 constexpr std::size_t kMostMinima = 12;  // of one pair
@@ -77,7 +79,7 @@ Descent::Descent(const Model& model,
 DescentReport Descent::solve(EquilibriumState& state,
                              const Drive& drive,
                              const Accept& accept,
-                             int most_steps,
+                             const GoesOn& goes_on,
                              const Work& most) {
   check_drive(drive, model_);
   drive_ = &drive;
@@ -85,9 +87,14 @@ DescentReport Descent::solve(EquilibriumState& state,
   const Eigen::Vector3d origin = state.X.p;
   paths_ = paths_from_ = paths_to_ = state.paths;
   start(state.X);
+  bool asked = false;
   // Attempts of Newton's method within count as well.
-  while (report.steps < most_steps && report.spent.iterations < most.iterations &&
-         searches_made_ < most.searches && iterate(accept, report)) {
+  const int most_iterations = std::min(2 * options_.max_steps, most.iterations);
+  while (report.steps < options_.max_steps && report.spent.iterations < most_iterations &&
+         searches_made_ < most.searches) {
+    const bool few = report.steps < kFewSteps && report.spent.iterations < 2 * kFewSteps;
+    if (!few && !std::exchange(asked, true) && !goes_on()) break;
+    if (!iterate(accept, report)) break;
     report.ran_away = (X_.p - origin).norm() > kFarAway * model_.length;
     if (report.ran_away) break;
   }

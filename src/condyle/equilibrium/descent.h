@@ -48,13 +48,15 @@ class Descent {
           DescentOptions options = {});
 
   using Accept = std::function<bool(EquilibriumState&)>;
+  using GoesOn = std::function<bool()>;
 
-  /// Improves `state` in place. `drive` must stay until it returns; `accept` says whether a Newton solution is one (no pull, no
-  /// overlap). Given up after `most_steps` or as much work.
+  /// Improves `state` in place. `drive` must stay until it returns; `accept` says whether a Newton
+  /// solution is one (no pull, no overlap). Given up after `max_steps` or as much work; and where
+  /// `goes_on`, asked once after a few steps, says so.
   DescentReport solve(EquilibriumState& state,
                       const Drive& drive,
                       const Accept& accept,
-                      int most_steps,
+                      const GoesOn& goes_on,
                       const Work& most);
 
  private:

@@ -16,7 +16,6 @@
 namespace condyle {
 namespace {
 
-constexpr std::size_t kMinimaOfAPair = 64;  // room for them
 
 /// Where the way from the last pose ended: what a failure is explained by.
 struct Failed {
@@ -194,7 +193,7 @@ bool EquilibriumSolver::faces(const EquilibriumState& state, Attempt& attempt) {
 /// A force that is no number at a pose that still is one.
 void EquilibriumSolver::note_overflow(const EquilibriumState& state, Attempt& attempt) {
   constexpr double kReasonable = 10;  // of L, from the pose before
-  const bool at_a_pose = distance(*model_, state.X, state_.X) < kReasonable * model_->length;
+  const bool at_a_pose = distance(*model_, state.X, state_.X) < kReasonable;
   if (at_a_pose && attempt.overflow.empty())
     attempt.overflow = overflowed(*model_, newton_.system(), state, drive_);
 }

@@ -18,15 +18,13 @@ bool EquilibriumSolver::tried_from(const RigidTransform& X, const Attempt& attem
 }
 
 bool EquilibriumSolver::descend(EquilibriumState& state, Attempt& attempt) {
-  constexpr int kFewSteps = 10;  // where conforming surfaces leave the answer open
   const Work left = attempt.most.after(attempt.spent);
   if (!left.any() || (!on_the_way_ && tried_from(state.X, attempt))) return false;
   const RigidTransform from = state.X;
-  const bool open_ended = conforming_pair(*model_, searches_, state.X).has_value();
-  const int steps = open_ended ? kFewSteps : options_.descent.max_steps;
-  attempt.descent =
-      descent_.solve(state, drive_, [&](EquilibriumState& s) { return is_admissible(s, attempt); },
-                     steps, {std::min(2 * steps, left.iterations), left.searches});
+  // Conforming surfaces leave the answer open: nothing is gained by going on.
+  attempt.descent = descent_.solve(
+      state, drive_, [&](EquilibriumState& s) { return is_admissible(s, attempt); },
+      [&] { return !conforming_pair(*model_, searches_, from); }, left);
   attempt.newton = attempt.descent.newton;
   attempt.spent.add(attempt.descent.spent);
   attempt.trace.searches += attempt.descent.spent.searches;
