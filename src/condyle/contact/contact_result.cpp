@@ -32,6 +32,7 @@ void clear(ContactResult& contact) {
   contact.closed = false;
   contact.shape = ContactShape::kPoint;
   contact.force = 0;
+  contact.layer.reset();
   contact.resultant_ground.setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 

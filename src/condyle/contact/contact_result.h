@@ -45,6 +45,18 @@ enum class ContactShape {
   kConforming = 2  ///< over an area: rigid surfaces do not say where
 };
 
+/// What a pair of elastic layers says beside its force (contact/layer_contact.h).
+struct LayerResult {
+  double area = 0;           ///< [mm²]
+  double mean_pressure = 0;  ///< force over area [N/mm²]
+  double peak_pressure = 0;  ///< [N/mm²]
+  double deepest = 0;        ///< [mm]
+  double energy = 0;         ///< [N mm]
+  double error = 0;          ///< of the force by the lattice, relative
+  double beyond = 0;         ///< part of the force that faces what lies beyond an edge
+  int points = 0;            ///< of the lattice, in contact
+};
+
 /// A pair of surfaces. Closed with one or more points; open, it tells where the gap is smallest.
 /// What a law of its own says beside that (contact_law.h) gets a field here.
 struct ContactResult {
@@ -57,6 +69,7 @@ struct ContactResult {
       Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<ContactPointResult>
       points;  ///< closed: those that carry; open: the nearest one, force 0
+  std::optional<LayerResult> layer;  ///< of a pair of elastic layers, closed
 };
 
 /// A point of contact with its force [N] and its distance from the nearest edge [mm]; whether that

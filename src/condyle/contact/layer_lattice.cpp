@@ -1,0 +1,89 @@
+#include "condyle/contact/layer_lattice.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Knots of a direction within its domain, without repetitions.
+std::vector<double> breaks(const std::vector<double>& knots, double min, double max) {
+  std::vector<double> all;
+  for (const double t : knots)
+    if (t >= min && t <= max && (all.empty() || t > all.back())) all.push_back(t);
+  return all;
+}
+
+/// The midpoint rule of a direction in equal cells of each span; shifted, its outermost points
+/// stand for half a cell.
+struct Midpoints {
+  std::vector<double> t, width;
+
+  Midpoints(const std::vector<double>& spans, int cells, bool shifted) {
+    for (std::size_t k = 0; k + 1 < spans.size(); ++k) {
+      const double h = (spans[k + 1] - spans[k]) / cells;
+      for (int i = 0; i < cells; ++i) {
+        const double before = i > 0 || k == 0 ? h : (spans[k] - spans[k - 1]) / cells;
+        t.push_back(spans[k] + (i + (shifted ? 0.0 : 0.5)) * h);
+        width.push_back(!shifted ? h : (i == 0 && k == 0 ? h / 2 : (h + before) / 2));
+      }
+    }
+    if (!shifted) return;
+    t.push_back(spans.back());
+    width.push_back((spans.back() - spans[spans.size() - 2]) / cells / 2);
+  }
+};
+
+/// 0 at the edge, 1 from `width` inside it, with continuous second derivative.
+double faded(double edge, double width) {
+  if (!(width > 0)) return edge > 0 ? 1 : 0;
+  const double x = std::clamp(edge / width, 0.0, 1.0);
+  return x * x * x * (10 - x * (15 - 6 * x));
+}
+
+void add_point(
+    const Patch& patch, double u, double v, double cell, double fade, LayerLattice& lattice) {
+  const double share = faded(patch.edge_distance({u, v, 0}), fade);
+  if (!(share > 0)) return;
+  const PatchDerivatives d = patch.derivatives(u, v);
+  const Vector3d normal = d.c_u.cross(d.c_v);
+  lattice.x.push_back(d.c);
+  lattice.n.emplace_back(patch.data().orientation * normal.normalized());
+  lattice.area.push_back(share * normal.norm() * cell);
+}
+
+void close_block(std::size_t first, LayerLattice& lattice) {
+  LayerBlock block{first, lattice.x.size() - first};
+  if (block.count == 0) return;
+  for (std::size_t i = first; i < lattice.x.size(); ++i) block.center += lattice.x[i];
+  block.center /= static_cast<double>(block.count);
+  for (std::size_t i = first; i < lattice.x.size(); ++i)
+    block.radius = std::max(block.radius, (lattice.x[i] - block.center).norm());
+  lattice.blocks.push_back(block);
+}
+
+}  // namespace
+
+LayerLattice layer_lattice(const Patch& patch, int per_span, bool shifted, double fade) {
+  constexpr int kSpans = 2;  // of a block, in either direction
+  const PatchData& data = patch.data();
+  const Midpoints u(breaks(data.knots_u, patch.u_min(), patch.u_max()), per_span, shifted),
+      v(breaks(data.knots_v, patch.v_min(), patch.v_max()), per_span, shifted);
+  const auto side = static_cast<std::size_t>(kSpans * per_span);
+  LayerLattice lattice;
+  for (std::size_t i0 = 0; i0 < u.t.size(); i0 += side)
+    for (std::size_t j0 = 0; j0 < v.t.size(); j0 += side) {
+      const std::size_t first = lattice.x.size();
+      for (std::size_t i = i0; i < std::min(i0 + side, u.t.size()); ++i)
+        for (std::size_t j = j0; j < std::min(j0 + side, v.t.size()); ++j)
+          add_point(patch, u.t[i], v.t[j], u.width[i] * v.width[j], fade, lattice);
+      close_block(first, lattice);
+    }
+  return lattice;
+}
+
+}  // namespace condyle

@@ -1,0 +1,42 @@
+#pragma once
+
+/// Points of a surface that stay where they are on it, each with the area it stands for: what the
+/// energy of an elastic layer is summed over (layer_contact.h). On a patch they are the midpoints
+/// of equal cells in each knot span. The integrand has a bounded support and a kink only at the
+/// edge of the contact, where a lattice of midpoints beats Gauss' points: with cells of H the
+/// errors of energy, force and stiffness fall as H^7/2, H^5/2, H^3/2.
+
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "condyle/surface/patch.h"
+
+namespace condyle {
+
+/// Neighbouring points: all within a ball.
+struct LayerBlock {
+  std::size_t first = 0, count = 0;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< [mm]
+  double radius = 0;                                 ///< [mm]
+};
+
+/// Of one surface, in its body's frame.
+struct LayerLattice {
+  std::vector<Eigen::Vector3d> x, n;  ///< point [mm] and outward unit normal
+  std::vector<double> area;           ///< [mm²]
+  std::vector<LayerBlock> blocks;
+};
+
+/// Width of the border at the edge of the known part over which areas fade to nothing [mm]: a hard
+/// cut would leave poses without any equilibrium.
+inline constexpr double kFade = 1;
+
+/// Of `per_span` x `per_span` cells in each knot span, those on the known part; `shifted`: by half
+/// a cell in both directions, for an estimate of the error. `fade`: width of the border [mm].
+[[nodiscard]] LayerLattice layer_lattice(const Patch& patch,
+                                         int per_span,
+                                         bool shifted = false,
+                                         double fade = kFade);
+
+}  // namespace condyle

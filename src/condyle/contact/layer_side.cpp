@@ -1,0 +1,159 @@
+#include "condyle/contact/layer_side.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/math/rotation.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Cosine between the normals of two places that face each other, at most: others have passed
+/// behind the other body.
+constexpr double kOpposed = -0.3;
+
+}  // namespace
+
+/// What a point is pressed against, in the frame of the body that carries the other surface.
+struct LayerSide::Pressed {
+  std::size_t point;
+  double phi;  ///< signed distance [mm], < 0
+  Vector3d n;  ///< out of the other solid
+  Matrix3d K;  ///< curvature tensor there [1/mm]
+  Place place;
+};
+
+LayerSide::LayerSide(const LayerLattice& points, bool of_A, const Surface& into)
+    : points_(points),
+      of_A_(of_A),
+      into_(into),
+      blocks_(points.blocks.size()),
+      places_(points.x.size(), Place::Zero()),
+      known_(points.x.size(), 0) {}
+
+void LayerSide::reset() {
+  std::fill(blocks_.begin(), blocks_.end(), Seen());
+  std::fill(known_.begin(), known_.end(), char{0});
+}
+
+/// φ changes by no more than the way of a point, so a block whose centre is farther off than its
+/// radius stays out until it has moved by the rest.
+bool LayerSide::is_near(std::size_t block, const RigidTransform& X) {
+  Seen& seen = blocks_[block];
+  const Vector3d center = X * points_.blocks[block].center;
+  const double radius = points_.blocks[block].radius;
+  if (seen.known && seen.phi - (center - seen.center).norm() > radius) return false;
+  seen.place = into_.closest(center, seen.known ? seen.place : into_.seed(center));
+  seen.known = true;
+  seen.center = center;
+  const SurfacePoint at = into_.evaluate_frame(seen.place);
+  seen.phi = at.n.dot(center - at.c);
+  return !(seen.phi > radius);
+}
+
+bool LayerSide::press(std::size_t point,
+                      const Seen& block,
+                      const RigidTransform& X,
+                      Pressed& pressed) {
+  const Vector3d p = X * points_.x[point];
+  Place& place = places_[point];
+  place = into_.closest(p, known_[point] != 0 ? place : block.place);
+  known_[point] = 1;
+  const SurfacePoint at = into_.evaluate(place);
+  pressed = {point, at.n.dot(p - at.c), at.n, at.K, place};
+  return pressed.phi < 0 && at.n.dot(X.R * points_.n[point]) < kOpposed;
+}
+
+template <typename Visit>
+void LayerSide::visit(const RigidTransform& X_BA, const Visit& visit) {
+  const RigidTransform X = of_A_ ? X_BA : X_BA.inverse();
+  Pressed pressed;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    if (!is_near(b, X)) continue;
+    const LayerBlock& block = points_.blocks[b];
+    for (std::size_t i = block.first; i < block.first + block.count; ++i)
+      if (press(i, blocks_[b], X, pressed)) visit(pressed);
+  }
+}
+
+namespace {
+
+void add_to_sums(const LayerLaw::Answer& answer,
+                 double w,
+                 double depth,
+                 const Vector3d& x,
+                 const Vector3d& normal,
+                 bool beyond,
+                 LayerSums& sums) {
+  ++sums.points;
+  sums.energy += w * answer.energy;
+  sums.area += w;
+  sums.force += w * answer.pressure;
+  sums.moment += w * answer.pressure * x;
+  sums.on_A += w * answer.pressure * normal;
+  sums.deepest = std::max(sums.deepest, depth);
+  if (beyond) sums.beyond += w * answer.pressure;
+  if (answer.pressure <= sums.peak_pressure) return;
+  sums.peak_pressure = answer.pressure;
+  sums.peak = x;
+  sums.normal = normal;
+}
+
+}  // namespace
+
+void LayerSide::add_to(const RigidTransform& X_BA,
+                       const LayerLaw& law,
+                       double share,
+                       LayerSums& sums) {
+  visit(X_BA, [&](const Pressed& pressed) {
+    const Vector3d& own = points_.x[pressed.point];
+    const Vector3d x = of_A_ ? X_BA * own : own;
+    const Vector3d out_of_B = of_A_ ? pressed.n : Vector3d(-(X_BA.R * pressed.n));
+    add_to_sums(law.at(-pressed.phi), share * points_.area[pressed.point], -pressed.phi, x,
+                out_of_B, into_.edge_distance(pressed.place) < 0, sums);
+  });
+}
+
+void LayerSide::add_to(const RigidTransform& X_BA,
+                       const LayerLaw& law,
+                       double share,
+                       Wrench& wrench,
+                       LayerSums& sums) {
+  visit(X_BA, [&](const Pressed& pressed) {
+    const Vector3d& own = points_.x[pressed.point];
+    const Vector3d s = of_A_ ? Vector3d(X_BA.R * own) : Vector3d(own - X_BA.p);
+    const double w = share * points_.area[pressed.point], phi = pressed.phi;
+    const LayerLaw::Answer answer = law.at(-phi);
+    Matrix3d H = -pressed.K * (Matrix3d::Identity() - phi * pressed.K).inverse();
+    Vector3d n = pressed.n;
+    if (!of_A_) {
+      n = X_BA.R * n;
+      H = X_BA.R * H * X_BA.R.transpose();
+    }
+    const Matrix3d G = w * (answer.pressure * H - answer.stiffness * n * n.transpose());
+    const Vector3d f = (of_A_ ? w : -w) * answer.pressure * n;
+    const Matrix3d S = skew(s), f_x = skew(f), SG = S * G;
+    wrench.f += f;
+    wrench.m += s.cross(f);
+    wrench.F1 += G;
+    if (of_A_) {
+      wrench.F2 += SG.transpose();  // -G S, G being symmetric
+      wrench.M1 += SG;
+      wrench.M2 += f_x * S - SG * S;
+    } else {
+      wrench.F2 += SG.transpose() - f_x;
+      wrench.M1 += SG + f_x;
+      wrench.M2 -= SG * S + S * f_x;
+    }
+    add_to_sums(answer, w, -phi, X_BA.p + s, of_A_ ? n : Vector3d(-n),
+                into_.edge_distance(pressed.place) < 0, sums);
+  });
+}
+
+}  // namespace condyle

@@ -1,0 +1,88 @@
+#pragma once
+
+/// The wrench of an elastic layer on the moving body, with its exact derivatives: material points
+/// of one surface, each with the area w it stands for, pressed into the other by the signed
+/// distance φ of its closest point. With W the energy of an area at depth -φ (layer_law.h), p = W',
+///     U = Σ w W(-φ),   f = -∂U/∂a,   m = -∂U/∂π.
+/// Points x = a + s fixed on A, closest point on B with normal n and curvature tensor K, the second
+/// derivative of φ being H = -K (I - φ K)⁻¹ in the tangent plane: f = p n, m = s x f, and with
+/// G = p H - W'' n nᵀ
+///     F1 = Σ w G,  F2 = -Σ w G [s]x,  M1 = Σ w [s]x G,  M2 = Σ w (-[s]x G [s]x + [f]x [s]x).
+/// Points y = a + s fixed on B, closest point on A, n its normal in the ground frame: f = -p n,
+///     F1 = Σ w G,  F2 = -Σ w (G [s]x + [f]x),  M1 = Σ w ([s]x G + [f]x),
+///     M2 = -Σ w ([s]x G [s]x + [s]x [f]x).
+/// W(0) = W'(0) = 0 leaves the moving edge of the contact no part in the first two derivatives.
+
+#include <Eigen/Core>
+
+#include <limits>
+#include <vector>
+
+#include "condyle/contact/layer_lattice.h"
+#include "condyle/contact/layer_law.h"
+#include "condyle/elements/wrench.h"
+#include "condyle/math/rigid_transform.h"
+
+namespace condyle {
+
+/// What the pressed points amount to.
+struct LayerSums {
+  int points = 0;            ///< in contact
+  double energy = 0;         ///< U [N mm]
+  double area = 0;           ///< in contact [mm²]
+  double force = 0;          ///< Σ w p [N]
+  double beyond = 0;         ///< of it, of points that face what lies beyond the other's edge [N]
+  double deepest = 0;        ///< greatest depth [mm]
+  double peak_pressure = 0;  ///< [N/mm²]
+  Eigen::Vector3d peak = Eigen::Vector3d::Zero();     ///< where, ground frame [mm]
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< there, out of B, ground frame
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();   ///< Σ w p x, x in the ground frame [N mm]
+  Eigen::Vector3d on_A = Eigen::Vector3d::Zero();     ///< force on A, ground frame [N]
+
+  /// Σ w p x / Σ w p [mm].
+  [[nodiscard]] Eigen::Vector3d center_of_pressure() const { return moment / force; }
+};
+
+/// Points of one body, pressed into a surface of the other. Keeps closest points from pose to pose;
+/// one thread.
+class LayerSide {
+ public:
+  /// Points of A pressed into B's surface, or the other way round. All is referred to.
+  LayerSide(const LayerLattice& points, bool of_A, const Surface& into);
+
+  /// As newly made. Allocates nothing.
+  void reset();
+
+  /// Adds `share` of what the points do to A. Allocates nothing.
+  void add_to(const RigidTransform& X_BA,
+              const LayerLaw& law,
+              double share,
+              Wrench& wrench,
+              LayerSums& sums);
+
+  /// The same without the wrench.
+  void add_to(const RigidTransform& X_BA, const LayerLaw& law, double share, LayerSums& sums);
+
+ private:
+  struct Pressed;
+  /// A block and where its centre was when the other surface was last asked for it.
+  struct Seen {
+    Place place = Place::Zero();
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< in the other body's frame [mm]
+    double phi = -std::numeric_limits<double>::infinity();
+    bool known = false;
+  };
+  [[nodiscard]] bool is_near(std::size_t block, const RigidTransform& X);
+  bool press(std::size_t point, const Seen& block, const RigidTransform& X, Pressed& pressed);
+  template <typename Visit>
+  void visit(const RigidTransform& X_BA, const Visit& visit);
+
+  const LayerLattice& points_;
+  bool of_A_;
+  const Surface& into_;
+  std::vector<Seen> blocks_;
+  std::vector<Place> places_;
+  std::vector<char> known_;
+};
+
+}  // namespace condyle
