@@ -6,6 +6,7 @@
 
 #include "accuracy/knee_equations.h"
 #include "condyle/contact/contact_search.h"
+#include "condyle/contact/refine_minimum.h"
 
 #ifdef CONDYLE_HAS_CERES
 #include <ceres/ceres.h>
