@@ -134,8 +134,9 @@ TEST(ReportPage, TellsByWhichWayPosesWereFound) {
   const std::string page = report_page(made_up_run(), "run.h5", words_only());
   EXPECT_NE(page.find("in 3 parts, with descents from the pose after it: 2."), std::string::npos);
   // 0.3, 0.3², 0.3⁴ of the first pose, with a bar each.
-  EXPECT_NE(page.find("<td class=\"text\">3.0e-01, 9.0e-02, 8.1e-03</td><td class=\"text\">█▇▇</td>"),
-            std::string::npos);
+  EXPECT_NE(
+      page.find("<td class=\"text\">3.0e-01, 9.0e-02, 8.1e-03</td><td class=\"text\">█▇▇</td>"),
+      std::string::npos);
   EXPECT_EQ(report_page(block_run(), "run.h5", words_only()).find("each pose was found"),
             std::string::npos);
 }

@@ -50,8 +50,7 @@ inline PoseResult made_up_pose(double i) {
   pose.trace.searches = 12;
   pose.trace.closings = 2;
   pose.trace.openings = 1;
-  for (int k = 0; k < 3 + static_cast<int>(i); ++k)
-    pose.trace.residuals.add(std::pow(0.3, 1 << k));
+  for (int k = 0; k < 3 + static_cast<int>(i); ++k) pose.trace.residuals.add(std::pow(0.3, 1 << k));
   return pose;
 }
 

@@ -68,7 +68,7 @@ struct ContactResult {
   Eigen::Vector3d resultant_ground =
       Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<ContactPointResult>
-      points;  ///< closed: those that carry; open: the nearest one, force 0
+      points;                        ///< closed: those that carry; open: the nearest one, force 0
   std::optional<LayerResult> layer;  ///< of a pair of elastic layers, closed
 };
 

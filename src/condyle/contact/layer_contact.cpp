@@ -73,12 +73,10 @@ class BothSides {
   void reset() {
     for (LayerSide& side : sides_) side.reset();
   }
-  void add_to(const RigidTransform& X, const LayerLaw& law, Wrench& wrench, LayerSums& sums) {
-    for (LayerSide& side : sides_) side.add_to(X, law, share(), wrench, sums);
-  }
-  LayerSums sums(const RigidTransform& X, const LayerLaw& law) {
+  /// At a pose, their wrench on A added where one is asked for.
+  LayerSums sums(const RigidTransform& X, const LayerLaw& law, Wrench* wrench = nullptr) {
     LayerSums all;
-    for (LayerSide& side : sides_) side.add_to(X, law, share(), all);
+    for (LayerSide& side : sides_) side.add_to(X, law, share(), wrench, all);
     return all;
   }
 
@@ -114,9 +112,7 @@ class LayerContact final : public ContactPotential {
   }
 
   double add_to(const RigidTransform& X_BA, Wrench& wrench) override {
-    LayerSums sums;
-    sides(false).add_to(X_BA, law_, wrench, sums);
-    return sums.force;
+    return sides(false).sums(X_BA, law_, &wrench).force;
   }
 
   double energy(const RigidTransform& X_BA) override {
@@ -133,12 +129,9 @@ class LayerContact final : public ContactPotential {
   }
   /// Errors of the lattice and of the shifted one have nearly opposite signs.
   [[nodiscard]] double lattice_error(const RigidTransform& X_BA) {
-    Wrench here, there;
-    LayerSums sums, shifted;
-    sides(false).add_to(X_BA, law_, here, sums);
-    sides(true).add_to(X_BA, law_, there, shifted);
-    const double force = std::max(sums.force, shifted.force);
-    return force > 0 ? 0.5 * (here.f - there.f).norm() / force : 0;
+    const LayerSums here = sides(false).sums(X_BA, law_), shifted = sides(true).sums(X_BA, law_);
+    const double force = std::max(here.force, shifted.force);
+    return force > 0 ? 0.5 * (here.on_A - shifted.on_A).norm() / force : 0;
   }
   [[nodiscard]] std::optional<Objection> objection(const LayerSums& sums) const;
 

@@ -105,54 +105,45 @@ void add_to_sums(const LayerLaw::Answer& answer,
   sums.normal = normal;
 }
 
+/// Force f at the arm s, and G: the blocks of a point that is fixed on A, or on B.
+void add_to_wrench(
+    const Vector3d& f, const Vector3d& s, const Matrix3d& G, bool of_A, Wrench& wrench) {
+  const Matrix3d S = skew(s), f_x = skew(f), SG = S * G;
+  wrench.f += f;
+  wrench.m += s.cross(f);
+  wrench.F1 += G;
+  if (of_A) {
+    wrench.F2 += SG.transpose();  // -G S, G being symmetric
+    wrench.M1 += SG;
+    wrench.M2 += f_x * S - SG * S;
+  } else {
+    wrench.F2 += SG.transpose() - f_x;
+    wrench.M1 += SG + f_x;
+    wrench.M2 -= SG * S + S * f_x;
+  }
+}
+
 }  // namespace
 
 void LayerSide::add_to(const RigidTransform& X_BA,
                        const LayerLaw& law,
                        double share,
-                       LayerSums& sums) {
-  visit(X_BA, [&](const Pressed& pressed) {
-    const Vector3d& own = points_.x[pressed.point];
-    const Vector3d x = of_A_ ? X_BA * own : own;
-    const Vector3d out_of_B = of_A_ ? pressed.n : Vector3d(-(X_BA.R * pressed.n));
-    add_to_sums(law.at(-pressed.phi), share * points_.area[pressed.point], -pressed.phi, x,
-                out_of_B, into_.edge_distance(pressed.place) < 0, sums);
-  });
-}
-
-void LayerSide::add_to(const RigidTransform& X_BA,
-                       const LayerLaw& law,
-                       double share,
-                       Wrench& wrench,
+                       Wrench* wrench,
                        LayerSums& sums) {
   visit(X_BA, [&](const Pressed& pressed) {
     const Vector3d& own = points_.x[pressed.point];
     const Vector3d s = of_A_ ? Vector3d(X_BA.R * own) : Vector3d(own - X_BA.p);
     const double w = share * points_.area[pressed.point], phi = pressed.phi;
     const LayerLaw::Answer answer = law.at(-phi);
+    const Vector3d n = of_A_ ? pressed.n : Vector3d(X_BA.R * pressed.n);
+    const Vector3d out_of_B = of_A_ ? n : Vector3d(-n);
+    add_to_sums(answer, w, -phi, X_BA.p + s, out_of_B, into_.edge_distance(pressed.place) < 0,
+                sums);
+    if (wrench == nullptr) return;
     Matrix3d H = -pressed.K * (Matrix3d::Identity() - phi * pressed.K).inverse();
-    Vector3d n = pressed.n;
-    if (!of_A_) {
-      n = X_BA.R * n;
-      H = X_BA.R * H * X_BA.R.transpose();
-    }
+    if (!of_A_) H = X_BA.R * H * X_BA.R.transpose();
     const Matrix3d G = w * (answer.pressure * H - answer.stiffness * n * n.transpose());
-    const Vector3d f = (of_A_ ? w : -w) * answer.pressure * n;
-    const Matrix3d S = skew(s), f_x = skew(f), SG = S * G;
-    wrench.f += f;
-    wrench.m += s.cross(f);
-    wrench.F1 += G;
-    if (of_A_) {
-      wrench.F2 += SG.transpose();  // -G S, G being symmetric
-      wrench.M1 += SG;
-      wrench.M2 += f_x * S - SG * S;
-    } else {
-      wrench.F2 += SG.transpose() - f_x;
-      wrench.M1 += SG + f_x;
-      wrench.M2 -= SG * S + S * f_x;
-    }
-    add_to_sums(answer, w, -phi, X_BA.p + s, of_A_ ? n : Vector3d(-n),
-                into_.edge_distance(pressed.place) < 0, sums);
+    add_to_wrench(w * answer.pressure * out_of_B, s, G, of_A_, *wrench);
   });
 }
 

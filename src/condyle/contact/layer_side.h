@@ -53,15 +53,12 @@ class LayerSide {
   /// As newly made. Allocates nothing.
   void reset();
 
-  /// Adds `share` of what the points do to A. Allocates nothing.
+  /// Adds `share` of what the points do to A, its wrench where one is asked for. Allocates nothing.
   void add_to(const RigidTransform& X_BA,
               const LayerLaw& law,
               double share,
-              Wrench& wrench,
+              Wrench* wrench,
               LayerSums& sums);
-
-  /// The same without the wrench.
-  void add_to(const RigidTransform& X_BA, const LayerLaw& law, double share, LayerSums& sums);
 
  private:
   struct Pressed;

@@ -16,7 +16,6 @@
 namespace condyle {
 namespace {
 
-
 /// Where the way from the last pose ended: what a failure is explained by.
 struct Failed {
   EquilibriumState state;
