@@ -36,7 +36,8 @@ Bending::Radii Bending::shells(double spacing, double greatest) {
   return radii;
 }
 
-Bending::Bending(const SurfaceCover& cover, const Radii& radii) : cover_(&cover), radii_(radii) {
+Bending::Bending(const SurfaceCover& cover, const Radii& radii)
+    : cover_(&cover), quadrics_(cover), radii_(radii) {
   if (cover.bends_evenly()) return;
   shells_.resize(static_cast<std::size_t>(cover.size()));
 }
@@ -56,8 +57,8 @@ Rise Bending::in_shell(int level, int sample, const Eigen::Matrix3d& K) {
   Shells& shells = shells_[static_cast<std::size_t>(sample)];
   for (; shells.measured <= level; ++shells.measured) {
     const auto next = static_cast<std::size_t>(shells.measured);
-    shells.of[next] = cover_->rise(cover_->sample(sample), cover_->cell_radius(sample),
-                                   next == 0 ? 0 : radii_[next - 1], radii_[next]);
+    shells.of[next] = quadrics_.rise(cover_->sample(sample), cover_->cell_radius(sample),
+                                     next == 0 ? 0 : radii_[next - 1], radii_[next]);
   }
   return shells.of[shell];
 }

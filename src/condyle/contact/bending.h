@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "condyle/contact/cluster_quadrics.h"
 #include "condyle/contact/surface_cover.h"
 
 namespace condyle {
@@ -45,6 +46,8 @@ class Bending {
   /// What is added for a point in the cell of the sample, where the curvature tensor is K [1/mm].
   [[nodiscard]] double shift(int sample, const Eigen::Matrix3d& K) const;
 
+  [[nodiscard]] ClusterQuadrics& quadrics() { return quadrics_; }
+
  private:
   struct Shells {
     std::array<Rise, kLevels> of;
@@ -52,6 +55,7 @@ class Bending {
   };
 
   const SurfaceCover* cover_;
+  ClusterQuadrics quadrics_;
   Radii radii_;
   std::vector<Shells> shells_;  ///< of each sample
 };

@@ -32,18 +32,12 @@ double affordable_spacing(const Surface& surface, double wanted) {
   constexpr std::size_t kEnough = 64, kMost = 20000;
   const double size = surface.extent().radius;
   if (!std::isfinite(size)) return wanted;
-  for (double coarse = std::max(4 * size, wanted); coarse > wanted; coarse /= 2) {
+  for (double coarse = size / 2; coarse > wanted; coarse /= 2) {
     const std::size_t n = surface.samples(coarse).size();
     if (n < kEnough) continue;
     return std::max(wanted, coarse * std::sqrt(static_cast<double>(n) / kMost));
   }
   return wanted;
-}
-
-/// Does surface a take fewer samples than b? One without bounds has none.
-bool takes_fewer(const Surface& a, const Surface& b, double spacing) {
-  const std::size_t of_a = a.samples(spacing).size(), of_b = b.samples(spacing).size();
-  return of_a > 0 && (of_b == 0 || of_a <= of_b);
 }
 
 /// Behind a surface that ends somewhere is not yet inside.
@@ -68,14 +62,33 @@ void keep_isolated(std::vector<GapMinimum>& minima, double merge) {
 
 }  // namespace
 
+/// Both surfaces with the spacing that can be afforded.
+struct ContactCover::Samples {
+  double spacing;
+  std::vector<Place> on_B, on_A;
+
+  Samples(const ContactPair& pair, double wanted)
+      : spacing(std::max(affordable_spacing(*pair.on_B, wanted),
+                         affordable_spacing(*pair.on_A, wanted))),
+        on_B(pair.on_B->samples(spacing)),
+        on_A(pair.on_A->samples(spacing)) {}
+  [[nodiscard]] bool fewer_on_A() const {
+    return !on_A.empty() && (on_B.empty() || on_A.size() <= on_B.size());
+  }
+};
+
 ContactCover::ContactCover(const ContactPair& pair, double wanted)
+    : ContactCover(pair, Samples(pair, wanted)) {}
+
+ContactCover::ContactCover(const ContactPair& pair, Samples samples)
     : surface_B(pair.on_B),
       surface_A(pair.on_A),
-      spacing(
-          std::max(affordable_spacing(*pair.on_B, wanted), affordable_spacing(*pair.on_A, wanted))),
-      sampled_on_A(takes_fewer(*pair.on_A, *pair.on_B, spacing)),
-      on_B(*pair.on_B, sampled_on_A ? kFacingSpacing * spacing : spacing),
-      on_A(*pair.on_A, sampled_on_A ? spacing : kFacingSpacing * spacing),
+      spacing(samples.spacing),
+      sampled_on_A(samples.fewer_on_A()),
+      on_B(sampled_on_A ? SurfaceCover(*pair.on_B, kFacingSpacing * spacing)
+                        : SurfaceCover(*pair.on_B, spacing, std::move(samples.on_B))),
+      on_A(sampled_on_A ? SurfaceCover(*pair.on_A, spacing, std::move(samples.on_A))
+                        : SurfaceCover(*pair.on_A, kFacingSpacing * spacing)),
       lines(have_straight_lines(*pair.on_B, *pair.on_A, spacing)) {}
 
 ContactSearch::ContactSearch(std::shared_ptr<const ContactCover> cover)

@@ -41,6 +41,10 @@ struct ContactCover {
   bool sampled_on_A;  ///< the surface that takes fewer samples; one without bounds has none
   SurfaceCover on_B, on_A;
   bool lines;  ///< the surfaces may touch along a line (line_contact.h)
+
+ private:
+  struct Samples;
+  ContactCover(const ContactPair& pair, Samples samples);
 };
 
 /// One for each pair.
@@ -111,8 +115,7 @@ class ContactSearch {
                                         const Eigen::Vector3d& p,
                                         double cutoff,
                                         int near) const;
-  [[nodiscard]] bool is_clear_of_closest(const SurfaceCover::Cluster& cluster,
-                                         const Eigen::Vector3d& p,
+  [[nodiscard]] bool is_clear_of_closest(const SurfaceCell& cluster,
                                          const RigidTransform& X_from_to,
                                          double cutoff,
                                          Closest& closest);
@@ -152,6 +155,8 @@ class ContactSearch {
   [[nodiscard]] const SurfaceCover& other() const {
     return sampled_on_A_ ? cover_->on_B : cover_->on_A;
   }
+  [[nodiscard]] Bending& bending_sampled() { return sampled_on_A_ ? bending_A_ : bending_B_; }
+  [[nodiscard]] Bending& bending_other() { return sampled_on_A_ ? bending_B_ : bending_A_; }
   [[nodiscard]] Seen& seen(int sample) { return seen_[static_cast<std::size_t>(sample)]; }
   [[nodiscard]] const Seen& seen(int sample) const {
     return seen_[static_cast<std::size_t>(sample)];

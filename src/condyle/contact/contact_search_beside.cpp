@@ -30,9 +30,10 @@ bool ContactSearch::look_beside(const RigidTransform& X_from_to, double cutoff) 
     return false;
   const RigidTransform X_to_from = X_from_to.inverse();
   const double piece = kPiece * spacing_;
-  const DividingQuadric quadric = divide(
-      other().cluster_about(near_other, piece).cell.at,
-      moved(sampled().cluster_about(near, piece).cell.at, X_from_to), other().sample(near_other).c);
+  const DividingQuadric quadric =
+      divide(bending_other().quadrics().about(near_other, piece).cell.at,
+             moved(bending_sampled().quadrics().about(near, piece).cell.at, X_from_to),
+             other().sample(near_other).c);
   sampled().columns().not_on(CellColumns::Side::kAbove, moved(quadric, X_to_from), doubtful_);
   other().columns().not_on(CellColumns::Side::kBelow, quadric, doubtful_other_);
   int facing = near, faced = near_other;

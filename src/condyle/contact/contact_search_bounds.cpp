@@ -174,7 +174,7 @@ bool ContactSearch::is_clear_of_sample(const SurfaceCover::Cluster& cluster,
                                        double cutoff,
                                        int near) const {
   const Facing facing = facing_cell(other(), p, near);
-  const double cell = other().cell_radius(near), way = kWay * cluster.cell.radius;
+  const double cell = other().cell_radius(near), way = kWay * cluster.radius;
   const double beside = facing.beside.squaredNorm();
   const double far = cutoff + way + cell + kBeyondEdge * spacing_;
   if (facing.along > 0 && beside + facing.along * facing.along > far * far) return true;
@@ -184,12 +184,12 @@ bool ContactSearch::is_clear_of_sample(const SurfaceCover::Cluster& cluster,
 }
 
 /// By the quadric at the point of the other surface closest to its centre p.
-bool ContactSearch::is_clear_of_closest(const SurfaceCover::Cluster& cluster,
-                                        const Eigen::Vector3d& p,
+bool ContactSearch::is_clear_of_closest(const SurfaceCell& cluster,
                                         const RigidTransform& X_from_to,
                                         double cutoff,
                                         Closest& closest) {
-  const double r = cluster.cell.radius, way = kWay * r;
+  const Eigen::Vector3d p = X_from_to * cluster.at.c;
+  const double r = cluster.radius, way = kWay * r;
   const Facing facing = face_closest(p, r, closest);
   const double gap = gap_over(facing);
   if (gap - way > cutoff || gap + way < -deepest_) return true;
@@ -198,25 +198,28 @@ bool ContactSearch::is_clear_of_closest(const SurfaceCover::Cluster& cluster,
   const double edge = other().surface().edge_distance(closest.place);
   if (edge < -way / std::max(room, kLeastRoom) - kBeyondEdge * spacing_) return true;
   if (!closest.close) return false;
-  const SurfacePoint& center = cluster.cell.at;
+  const SurfacePoint& center = cluster.at;
   const double drop = drop_within(facing, X_from_to.R * center.n, center.K, X_from_to.R, r, 0);
-  return gap - kWay * cluster.cell.rise - drop > cutoff;
+  return gap - kWay * cluster.rise - drop > cutoff;
 }
 
 /// Is the whole cluster shown to stay above the cutoff, by the way to its centre or by quadrics?
 bool ContactSearch::is_clear(int index, const RigidTransform& X_from_to, double cutoff) {
   const SurfaceCover::Cluster& cluster = sampled().cluster(index);
-  const Eigen::Vector3d p = X_from_to * cluster.cell.at.c;
   Closest& closest = cluster_closest_[static_cast<std::size_t>(index)];
-  if (!other().bends_evenly()) closest.near = other().nearest(p, closest.near);
-  return closest.near >= 0 ? is_clear_of_sample(cluster, p, cutoff, closest.near)
-                           : is_clear_of_closest(cluster, p, X_from_to, cutoff, closest);
+  if (!other().bends_evenly()) {
+    const Eigen::Vector3d p = X_from_to * cluster.center;
+    closest.near = other().nearest(p, closest.near);
+    if (closest.near >= 0) return is_clear_of_sample(cluster, p, cutoff, closest.near);
+  }
+  return is_clear_of_closest(bending_sampled().quadrics().of(index).cell, X_from_to, cutoff,
+                             closest);
 }
 
 bool ContactSearch::in_disc(const SurfaceCover::Cluster& cluster) const {
   return std::any_of(discs_.begin(), discs_.end(), [&](const Disc& disc) {
-    const double room = disc.radius - cluster.cell.radius;
-    return room > 0 && (cluster.cell.at.c - disc.center).squaredNorm() < room * room;
+    const double room = disc.radius - cluster.radius;
+    return room > 0 && (cluster.center - disc.center).squaredNorm() < room * room;
   });
 }
 
@@ -233,7 +236,7 @@ bool ContactSearch::visit(int index, const RigidTransform& X_from_to, double cut
   const SurfaceCover::Cluster& cluster = sampled().cluster(index);
   if (in_disc(cluster)) return true;
   char& split = split_[static_cast<std::size_t>(index)];
-  if (!split && cluster.cell.radius < kLargest * spacing_ && is_clear(index, X_from_to, cutoff))
+  if (!split && cluster.radius < kLargest * spacing_ && is_clear(index, X_from_to, cutoff))
     return true;
   if (cluster.child[0] < 0) {
     int near = cluster_closest_[static_cast<std::size_t>(index)].near;

@@ -29,7 +29,7 @@ double rise_over(const SurfacePoint& quadric, const SurfaceCell& cell) {
 
 /// The mean curvature tensor, the normal that leaves no mean slope and the height that leaves no
 /// mean height; each cell counts by its area.
-SurfacePoint mean_quadric(const SurfacePoint& about, const std::vector<const SurfaceCell*>& cells) {
+SurfacePoint mean_quadric(const SurfacePoint& about, SurfaceCells cells) {
   Eigen::Matrix3d K = Eigen::Matrix3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero(), way = Eigen::Vector3d::Zero();
   double area = 0;
@@ -55,7 +55,7 @@ SurfacePoint mean_quadric(const SurfacePoint& about, const std::vector<const Sur
   return mean;
 }
 
-SurfaceCell enclosed(const SurfacePoint& quadric, const std::vector<const SurfaceCell*>& cells) {
+SurfaceCell enclosed(const SurfacePoint& quadric, SurfaceCells cells) {
   SurfaceCell all{quadric};
   for (const SurfaceCell* cell : cells) {
     all.radius = std::max(all.radius, (cell->at.c - quadric.c).norm() + cell->radius);
@@ -66,11 +66,11 @@ SurfaceCell enclosed(const SurfacePoint& quadric, const std::vector<const Surfac
 
 }  // namespace
 
-SurfaceCell fit_mean(const SurfacePoint& about, const std::vector<const SurfaceCell*>& cells) {
+SurfaceCell fit_mean(const SurfacePoint& about, SurfaceCells cells) {
   return enclosed(mean_quadric(about, cells), cells);
 }
 
-SurfaceCell fit_quadric(const SurfacePoint& about, const std::vector<const SurfaceCell*>& cells) {
+SurfaceCell fit_quadric(const SurfacePoint& about, SurfaceCells cells) {
   const SurfaceCell given = enclosed(about, cells);
   const double least = cells.front()->rise;
   if (given.rise <= least || given.rise == kInfinity) return given;

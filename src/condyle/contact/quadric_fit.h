@@ -6,7 +6,7 @@
 /// per mm in waves of 5 mm are heights of 0.025 mm. A quadric with the mean curvature of a piece
 /// departs from it by such heights alone.
 
-#include <vector>
+#include <span>
 
 #include "condyle/surface/surface.h"
 
@@ -19,13 +19,13 @@ struct SurfaceCell {
   double rise = 0;    ///< of the surface over the quadric, greatest [mm]
 };
 
+using SurfaceCells = std::span<const SurfaceCell* const>;
+
 /// The mean quadric of the cells near `about`; `radius` holds all of them and `rise` is that of all
 /// of them, infinite where the surface turns by more than 60 degrees.
-[[nodiscard]] SurfaceCell fit_mean(const SurfacePoint& about,
-                                   const std::vector<const SurfaceCell*>& cells);
+[[nodiscard]] SurfaceCell fit_mean(const SurfacePoint& about, SurfaceCells cells);
 
 /// The same, or the quadric at `about` where the cells rise less over it.
-[[nodiscard]] SurfaceCell fit_quadric(const SurfacePoint& about,
-                                      const std::vector<const SurfaceCell*>& cells);
+[[nodiscard]] SurfaceCell fit_quadric(const SurfacePoint& about, SurfaceCells cells);
 
 }  // namespace condyle

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "condyle/contact/curvature_tensor.h"
-#include "condyle/surface/point_tree.h"
+#include "condyle/contact/neighbour_grid.h"
 
 namespace condyle {
 namespace {
@@ -19,62 +19,10 @@ constexpr int kLeafSize = 8;
 constexpr double kBetween = 1.3;   // what lies between neighbours, beyond what they tell
 constexpr double kNeighbours = 3;  // how far these are looked for, in spacings
 constexpr double kLost = 2.5;      // beside a sample farther than this, in spacings: beyond
-constexpr double kFine = 0.36;     // of a piece: what a quadric is fitted to
 constexpr double kWithin = 0.7;    // of the radius of a cell: well within
 constexpr double kAtEdge = 1.5;    // nearer to an edge than this a sample stands for all up to it
-constexpr double kSmall = 0.125;   // a cluster counts as one cell below this share of its way
-
-/// For each point the up to eight nearest others within `radius` [mm]; -1 fills up.
-std::vector<std::array<int, 8>> nearest_neighbours(const std::vector<Eigen::Vector3d>& points,
-                                                   const PointTree& tree,
-                                                   double radius) {
-  std::vector<std::array<int, 8>> neighbours(points.size());
-  std::array<unsigned int, 9> index;
-  std::array<double, 9> square;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    neighbours[i].fill(-1);
-    const std::size_t found = tree.knnSearch(points[i].data(), 9, index.data(), square.data());
-    std::size_t k = 0;
-    for (std::size_t j = 0; j < found && k < 8; ++j)
-      if (index[j] != static_cast<unsigned int>(i) && square[j] < radius * radius)
-        neighbours[i][k++] = static_cast<int>(index[j]);
-  }
-  return neighbours;
-}
-
-/// Of a cell as seen from a point of the surface; within the cell the curvature changes by
-/// `change_within`.
-Rise rise_of(const SurfaceCell& cell, double change_within, const SurfacePoint& from) {
-  const SurfacePoint& to = cell.at;
-  const double radius = cell.radius;
-  const Eigen::Vector3d d = to.c - from.c;
-  const double height = from.n.dot(d);
-  const Eigen::Vector3d t = d - height * from.n;
-  const double square = t.squaredNorm();
-  if (from.n.dot(to.n) < 0.5) return {kInfinity, 2 * height / std::max(square, radius * radius)};
-  const double change = tangent_change(to.K, from.K, from.n);
-  if (square < 4 * radius * radius) {
-    const double rise = change + change_within;
-    return {rise, largest_principal(from.K) + rise};
-  }
-  const double quadric = t.dot(from.K * t), over = 2 * height - quadric;
-  const double part = radius * radius / square;
-  const double rise =
-      (over + 2 * cell.rise) / square + (change + 3 * std::abs(over) / square) * part;
-  const double turn = 2 * from.K.norm() * part;  // of the direction within the cell
-  return {rise, quadric / square + rise + turn};
-}
 
 }  // namespace
-
-/// With its points, so that it stays where a cover moves.
-struct SurfaceCover::Tree {
-  explicit Tree(std::vector<Eigen::Vector3d> of)
-      : points(std::move(of)), cloud{points}, search(3, cloud) {}
-  std::vector<Eigen::Vector3d> points;
-  PointCloud cloud;
-  PointTree search;
-};
 
 /// A cup of radius R rises to h = d²/2R at the distance d from its point, so 2 h/t² =
 /// 1/R (1 - d²/4R²).
@@ -87,13 +35,16 @@ Rise even_rise(double radius, const Eigen::Matrix3d& K) {
   return {rise - greatest, rise};
 }
 
-SurfaceCover::SurfaceCover(const Surface& surface, double spacing)
+SurfaceCover::SurfaceCover(const Surface& surface, double spacing, std::vector<Place> samples)
     : surface_(&surface),
       spacing_(spacing),
       even_(surface.bends_evenly()),
-      places_(surface.samples(spacing)) {
+      places_(std::move(samples)) {
   if (places_.empty()) return;
   std::vector<Eigen::Vector3d> points;
+  points.reserve(places_.size());
+  cells_.reserve(places_.size());
+  edge_.reserve(places_.size());
   Eigen::AlignedBox3d box;
   for (const Place& place : places_) {
     cells_.push_back({surface.evaluate(place)});
@@ -102,8 +53,7 @@ SurfaceCover::SurfaceCover(const Surface& surface, double spacing)
     box.extend(points.back());
   }
   extent_ = box.diagonal().norm();
-  tree_ = std::make_shared<const Tree>(std::move(points));
-  neighbours_ = nearest_neighbours(tree_->points, tree_->search, kNeighbours * spacing);
+  neighbours_ = nearest_neighbours(points, kNeighbours * spacing);
   change_.assign(cells_.size(), 0);
   for (int i = 0; i < size(); ++i) enclose(i);
   order_.resize(cells_.size());
@@ -126,27 +76,6 @@ void SurfaceCover::enclose(int i) {
   cell.rise = 0.5 * change * cell.radius * cell.radius;
 }
 
-/// Cells within `radius` [mm] of a point: clusters no larger than `fine` [mm], or samples.
-void SurfaceCover::gather(int index,
-                          const Eigen::Vector3d& about,
-                          double radius,
-                          double fine,
-                          std::vector<const SurfaceCell*>& cells) const {
-  const Cluster& cluster = clusters_[at(index)];
-  const auto reaches = [&](const SurfaceCell& cell) {
-    const double reach = radius + cell.radius;
-    return (cell.at.c - about).squaredNorm() < reach * reach;
-  };
-  if (!reaches(cluster.cell)) return;
-  if (cluster.cell.radius < fine) return cells.push_back(&cluster.cell);
-  if (cluster.child[0] >= 0) {
-    for (const int child : cluster.child) gather(child, about, radius, fine, cells);
-    return;
-  }
-  for (int k = cluster.first; k < cluster.last; ++k)
-    if (reaches(cells_[at(in_order(k))])) cells.push_back(&cells_[at(in_order(k))]);
-}
-
 void SurfaceCover::lay_columns() {
   columns_.reserve(cells_.size());
   for (int i = 0; i < size(); ++i) {
@@ -157,52 +86,34 @@ void SurfaceCover::lay_columns() {
   }
 }
 
-const SurfaceCover::Cluster& SurfaceCover::cluster_about(int sample, double radius) const {
-  int index = leaf(sample);
-  while (clusters_[at(index)].cell.radius < radius && clusters_[at(index)].parent >= 0)
-    index = clusters_[at(index)].parent;
-  return clusters_[at(index)];
-}
-
-/// The quadric of a cluster, from its samples or from clusters below it.
-void SurfaceCover::enclose(Cluster& cluster, const SurfacePoint& middle) const {
-  std::vector<const SurfaceCell*> cells;
-  double radius = 0;
-  for (int k = cluster.first; k < cluster.last; ++k)
-    radius = std::max(radius, (sample(in_order(k)).c - middle.c).norm());
-  if (cluster.child[0] < 0) {
-    for (int k = cluster.first; k < cluster.last; ++k) cells.push_back(&cells_[at(in_order(k))]);
-  } else {
-    for (const int child : cluster.child) gather(child, middle.c, kInfinity, kFine * radius, cells);
-  }
-  cluster.cell = fit_quadric(middle, cells);
-  const SurfacePoint& center = cluster.cell.at;
+/// The ball about the mean of its samples that holds their cells.
+void SurfaceCover::enclose(Cluster& cluster) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int k = cluster.first; k < cluster.last; ++k) sum += sample(in_order(k)).c;
+  cluster.center = sum / (cluster.last - cluster.first);
+  double square = 0, widest = 0;
   for (int k = cluster.first; k < cluster.last; ++k) {
-    const int i = in_order(k);
-    cluster.change =
-        std::max(cluster.change, tangent_change(sample(i).K, center.K, center.n) + change_[at(i)]);
+    const SurfaceCell& cell = cells_[at(in_order(k))];
+    square = std::max(square, (cell.at.c - cluster.center).squaredNorm());
+    widest = std::max(widest, cell.radius);
   }
+  cluster.spread = std::sqrt(square);
+  cluster.radius = cluster.spread + widest;
 }
 
 int SurfaceCover::build(int first, int last, int parent) {
-  Cluster cluster;
+  const int index = static_cast<int>(clusters_.size());
+  Cluster& cluster = clusters_.emplace_back();
   cluster.first = first;
   cluster.last = last;
   cluster.parent = parent;
-  Eigen::AlignedBox3d box;
-  Eigen::Vector3d numbers = Eigen::Vector3d::Zero();
-  for (int k = first; k < last; ++k) {
-    box.extend(sample(in_order(k)).c);
-    numbers += place(in_order(k)) / (last - first);
-  }
-  const SurfacePoint middle = surface_->evaluate(surface_->place_of(numbers));
-  const int index = static_cast<int>(clusters_.size());
-  clusters_.push_back(cluster);
+  enclose(cluster);
   if (last - first <= kLeafSize) {
     for (int k = first; k < last; ++k) leaf_[at(in_order(k))] = index;
-    enclose(clusters_.back(), middle);
     return index;
   }
+  Eigen::AlignedBox3d box;
+  for (int k = first; k < last; ++k) box.extend(sample(in_order(k)).c);
   Eigen::Index axis;
   box.sizes().maxCoeff(&axis);
   const int half = (first + last) / 2;
@@ -210,47 +121,31 @@ int SurfaceCover::build(int first, int last, int parent) {
                    [&](int a, int b) { return sample(a).c[axis] < sample(b).c[axis]; });
   const int low = build(first, half, index), high = build(half, last, index);
   clusters_[at(index)].child = {low, high};
-  enclose(clusters_[at(index)], middle);
   return index;
 }
 
-/// A shell about a point.
-struct SurfaceCover::Range {
-  const SurfacePoint& about;
-  double own, from, to;
-  [[nodiscard]] bool holds(double way, double radius) const {
-    return way - radius - own <= to && way + radius + own >= from;
-  }
+struct SurfaceCover::Candidate {
+  int sample = -1;
+  double square = kInfinity;  // of its distance [mm²]
 };
 
-void SurfaceCover::add_rise(int index, const Range& range, Rise& greatest) const {
+void SurfaceCover::find_nearest(int index, const Eigen::Vector3d& point, Candidate& nearest) const {
   const Cluster& cluster = clusters_[at(index)];
-  const auto add = [&](const SurfaceCell& cell, double change) {
-    const Rise rise = rise_of(cell, change, range.about);
-    greatest.over_quadric = std::max(greatest.over_quadric, rise.over_quadric);
-    greatest.over_plane = std::max(greatest.over_plane, rise.over_plane);
-  };
-  const double way = (cluster.cell.at.c - range.about.c).norm();
-  if (!range.holds(way, cluster.cell.radius)) return;
-  if (cluster.cell.radius < kSmall * way && cluster.cell.rise < kInfinity)
-    return add(cluster.cell, cluster.change);
-  if (cluster.child[0] >= 0) {
-    for (const int child : cluster.child) add_rise(child, range, greatest);
+  if (cluster.child[0] < 0) {
+    for (int k = cluster.first; k < cluster.last; ++k) {
+      const double square = (sample(in_order(k)).c - point).squaredNorm();
+      if (square < nearest.square) nearest = {in_order(k), square};
+    }
     return;
   }
-  for (int k = cluster.first; k < cluster.last; ++k) {
-    const auto i = at(in_order(k));
-    if (range.holds((cells_[i].at.c - range.about.c).norm(), cells_[i].radius))
-      add(cells_[i], change_[i]);
+  std::array<std::pair<double, int>, 2> children;
+  for (const std::size_t k : {0, 1}) {
+    const Cluster& child = clusters_[at(cluster.child[k])];
+    children[k] = {(child.center - point).norm() - child.spread, cluster.child[k]};
   }
-}
-
-Rise SurfaceCover::rise(const SurfacePoint& of, double own, double from, double to) const {
-  Rise greatest = {-kInfinity, -kInfinity};
-  if (!clusters_.empty()) add_rise(0, {of, own, from, to}, greatest);
-  const double nearer = from > 0 ? 1 + own / from : 1;
-  if (greatest.over_quadric > 0) greatest.over_quadric *= nearer * nearer;
-  return greatest;
+  if (children[1] < children[0]) std::swap(children[0], children[1]);
+  for (const auto& [way, child] : children)
+    if (way < 0 || way * way < nearest.square) find_nearest(child, point, nearest);
 }
 
 int SurfaceCover::nearest(const Eigen::Vector3d& point, int start) const {
@@ -278,10 +173,9 @@ int SurfaceCover::nearest(const Eigen::Vector3d& point, int start) const {
     }
     if (near(best)) return best;
   }
-  unsigned int index = 0;
-  double square = 0;
-  tree_->search.knnSearch(point.data(), 1, &index, &square);
-  return near(static_cast<int>(index)) ? static_cast<int>(index) : -1;
+  Candidate nearest;
+  find_nearest(0, point, nearest);
+  return near(nearest.sample) ? nearest.sample : -1;
 }
 
 }  // namespace condyle

@@ -5,14 +5,12 @@
 ///
 /// What lies between the samples is allowed for: within a cell, half the way to the neighbours, the
 /// curvature changes by no more than it does on the way to them. The samples hang in a binary tree
-/// of clusters, each with a quadric fitted to what is below it; a cluster that is small as seen
-/// from a point counts as one cell. A surface without samples tells nothing, unless it bends evenly
+/// of clusters; quadrics are fitted to these where they are asked for (cluster_quadrics.h). A surface without samples tells nothing, unless it bends evenly
 /// (plane, sphere, cylinder).
 
 #include <Eigen/Core>
 
 #include <array>
-#include <memory>
 #include <vector>
 
 #include "condyle/contact/dividing_quadric.h"
@@ -30,21 +28,25 @@ struct Rise {
 class SurfaceCover {
  public:
   struct Cluster {
-    SurfaceCell cell;                     ///< with the quadric fitted to all samples below
-    double change = 0;                    ///< of the curvature tensor from the quadric's [1/mm]
+    Eigen::Vector3d center;               ///< of its samples [mm]
+    double spread = 0;                    ///< farthest sample from there [mm]
+    double radius = 0;                    ///< of a ball that holds their cells [mm]
     int first = 0, last = 0;              ///< range in order
     int parent = -1;                      ///< -1: the root
     std::array<int, 2> child = {-1, -1};  ///< -1: a leaf
   };
 
-  /// `spacing` of the samples [mm].
-  SurfaceCover(const Surface& surface, double spacing);
+  /// `samples` of the surface, with that spacing [mm].
+  SurfaceCover(const Surface& surface, double spacing, std::vector<Place> samples);
+  SurfaceCover(const Surface& surface, double spacing)
+      : SurfaceCover(surface, spacing, surface.samples(spacing)) {}
 
   [[nodiscard]] double spacing() const { return spacing_; }
   [[nodiscard]] const Surface& surface() const { return *surface_; }
   [[nodiscard]] int size() const { return static_cast<int>(cells_.size()); }
   [[nodiscard]] const Place& place(int sample) const { return places_[at(sample)]; }
   [[nodiscard]] const SurfacePoint& sample(int sample) const { return cells_[at(sample)].at; }
+  [[nodiscard]] const SurfaceCell& cell(int sample) const { return cells_[at(sample)]; }
   [[nodiscard]] double edge_distance(int sample) const { return edge_[at(sample)]; }
   /// Up to eight nearest samples within three spacings; -1 fills up.
   [[nodiscard]] const std::array<int, 8>& neighbours(int sample) const {
@@ -68,29 +70,16 @@ class SurfaceCover {
 
   /// All cells; samples at an edge stand for what lies between them and the edge as well.
   [[nodiscard]] const CellColumns& columns() const { return columns_; }
-  /// The smallest cluster about a sample whose radius is no less than that [mm].
-  [[nodiscard]] const Cluster& cluster_about(int sample, double radius) const;
-
   [[nodiscard]] int leaf(int sample) const { return leaf_[at(sample)]; }
 
-  /// Of all cells at a distance between `from` and `to` [mm] from a point within `own` [mm] of one
-  /// of the surface.
-  [[nodiscard]] Rise rise(const SurfacePoint& of, double own, double from, double to) const;
-
  private:
-  struct Tree;
-  struct Range;
   [[nodiscard]] static std::size_t at(int index) { return static_cast<std::size_t>(index); }
   void enclose(int sample);
   void lay_columns();
   int build(int first, int last, int parent);
-  void enclose(Cluster& cluster, const SurfacePoint& middle) const;
-  void gather(int cluster,
-              const Eigen::Vector3d& about,
-              double radius,
-              double fine,
-              std::vector<const SurfaceCell*>& cells) const;
-  void add_rise(int cluster, const Range& range, Rise& greatest) const;
+  void enclose(Cluster& cluster) const;
+  struct Candidate;
+  void find_nearest(int cluster, const Eigen::Vector3d& point, Candidate& nearest) const;
 
   const Surface* surface_;
   double spacing_;
@@ -104,7 +93,6 @@ class SurfaceCover {
   std::vector<int> order_, leaf_;  ///< leaf_: the cluster of each sample
   std::vector<Cluster> clusters_;
   double extent_ = 0;
-  std::shared_ptr<const Tree> tree_;
 };
 
 /// Of a plane, sphere or cylinder as far as `radius` [mm] from any of its points.
