@@ -108,8 +108,10 @@ ContactSearch::ContactSearch(std::shared_ptr<const ContactCover> cover)
   split_.resize(sampled().clusters().size());
   near_.reserve(n);
   lowest_.reserve(n);
-  doubtful_.reserve(n + 9 * static_cast<std::size_t>(other().size()));
-  doubtful_other_.reserve(static_cast<std::size_t>(other().size()));
+  for (std::vector<int>* doubtful : {&doubtful_, &doubtful_there_}) doubtful->reserve(n);
+  for (std::vector<int>* doubtful : {&doubtful_other_, &doubtful_other_there_})
+    doubtful->reserve(static_cast<std::size_t>(other().size()));
+  near_contacts_.reserve(kMaxConstraints);
   found_.reserve(n + kMaxConstraints);
   discs_.reserve(kMaxConstraints);
 }
@@ -119,7 +121,9 @@ void ContactSearch::reset() {
   std::fill(seen_.begin(), seen_.end(), Seen());
   std::fill(cluster_closest_.begin(), cluster_closest_.end(), Closest());
   std::fill(split_.begin(), split_.end(), char{0});
-  near_contact_B_ = near_contact_A_ = -1;
+  std::fill(near_contacts_.begin(), near_contacts_.end(), NearContact());
+  division_ = Division();
+  doubts_ = 0;
   now_ = 0;
   nearest_reach_ = nearest_merge_ = -1;
 }
@@ -132,11 +136,12 @@ bool ContactSearch::is_lowest_of_neighbours(int sample) const {
   for (const int other : sampled().neighbours(sample)) {
     if (other < 0) break;
     const Seen& neighbour = seen(other);
-    if (neighbour.stamp != now_ || !faces_known_part(other)) continue;
+    if (neighbour.stamp != now_) continue;
     const double above = neighbour.gap + neighbour.error - (own.gap - own.error);
     if (above > 0 || (above == 0 && other > sample)) continue;
     if ((sampled().sample(other).c - c).squaredNorm() <
-        kNeighbour * kNeighbour * spacing_ * spacing_)
+            kNeighbour * kNeighbour * spacing_ * spacing_ &&
+        faces_known_part(other))
       return false;
   }
   return true;

@@ -99,6 +99,14 @@ class ContactSearch {
     int stamp = -1;         ///< pose at which it was computed
     bool measured = false;  ///< to the closest point, not by a quadric nearby
   };
+  /// Samples beside a known contact.
+  struct NearContact {
+    int on_B = -1, on_A = -1;
+  };
+  /// Which quadric parts the surfaces: about which known contact, from pieces of which size.
+  struct Division {
+    std::size_t contact = 0, size = 0;
+  };
   /// A ball about a known contact in which the surfaces touch nowhere else.
   struct Disc {
     Eigen::Vector3d center;  ///< on the sampled surface, in its body's frame
@@ -109,7 +117,10 @@ class ContactSearch {
                    double reach,
                    std::vector<GapMinimum>& minima,
                    double merge);
-  [[nodiscard]] bool turns_beside(const KnownContact& contact, double shift, double doubt) const;
+  [[nodiscard]] bool turns_beside(const KnownContact& contact,
+                                  const NearContact& near,
+                                  double shift,
+                                  double doubt) const;
   void set_discs(const std::vector<KnownContact>& known);
   [[nodiscard]] bool is_clear_of_sample(const SurfaceCover::Cluster& cluster,
                                         const Eigen::Vector3d& p,
@@ -122,6 +133,11 @@ class ContactSearch {
   [[nodiscard]] bool is_clear(int cluster, const RigidTransform& X_from_to, double cutoff);
   [[nodiscard]] bool in_disc(const SurfaceCover::Cluster& cluster) const;
   bool look_beside(const RigidTransform& X_from_to, double cutoff);
+  bool part(const Division& division,
+            const RigidTransform& X_from_to,
+            std::vector<int>& doubtful,
+            std::vector<int>& doubtful_other);
+  void part_best(const RigidTransform& X_from_to);
   void look_at_facing(int sample_of_other,
                       int& near,
                       const RigidTransform& X_from_to,
@@ -179,11 +195,15 @@ class ContactSearch {
   std::vector<char> split_;               ///< the cluster's own bound was of no use the last time
   std::vector<Seen> seen_;
   std::vector<Disc> discs_;
-  int near_contact_B_ = -1, near_contact_A_ = -1;  ///< samples
-  std::vector<int> near_;                          ///< samples whose cell may reach the cutoff
-  std::vector<Eigen::Vector3d> found_;             ///< minima, in the frame of the other body
-  std::vector<int> lowest_;                        ///< of these, lower than all neighbours
-  std::vector<int> doubtful_, doubtful_other_;     ///< samples not on their side of a quadric
+  std::vector<NearContact> near_contacts_;      ///< of those known now, and more
+  std::size_t known_ = 0;                       ///< of these
+  Division division_;                           ///< that left the fewest doubts when all were tried
+  std::size_t doubts_ = 0;                      ///< that it left then
+  std::vector<int> near_;                       ///< samples whose cell may reach the cutoff
+  std::vector<Eigen::Vector3d> found_;          ///< minima, in the frame of the other body
+  std::vector<int> lowest_;                     ///< of these, lower than all neighbours
+  std::vector<int> doubtful_, doubtful_other_;  ///< samples not on their side of a quadric,
+  std::vector<int> doubtful_there_, doubtful_other_there_;  ///< and of another one
   int now_ = 0;
   std::vector<GapMinimum> nearest_;  ///< the last answer of find_nearest, and to what
   RigidTransform nearest_X_;

@@ -81,17 +81,19 @@ double bound_of_cell(const Facing& facing,
 }
 
 /// Is the innermost shell about a contact not free, as the cells of the nearest samples alone tell?
-bool ContactSearch::turns_beside(const KnownContact& contact, double shift, double doubt) const {
+bool ContactSearch::turns_beside(const KnownContact& contact,
+                                 const NearContact& near,
+                                 double shift,
+                                 double doubt) const {
   if (cover_->on_B.bends_evenly() || cover_->on_A.bends_evenly()) return false;
-  if (near_contact_B_ < 0 || near_contact_A_ < 0) return true;
-  const auto greatest = [](const SurfaceCover& cover, int near) {
-    return largest_principal(cover.sample(near).K) + cover.cell_change(near);
+  if (near.on_B < 0 || near.on_A < 0) return true;
+  const auto greatest = [](const SurfaceCover& cover, int sample) {
+    return largest_principal(cover.sample(sample).K) + cover.cell_change(sample);
   };
   const double change =
-      cover_->on_B.cell_change(near_contact_B_) + cover_->on_A.cell_change(near_contact_A_) + shift;
+      cover_->on_B.cell_change(near.on_B) + cover_->on_A.cell_change(near.on_A) + shift;
   return change > contact.least_curvature &&
-         greatest(cover_->on_B, near_contact_B_) + greatest(cover_->on_A, near_contact_A_) + shift >
-             -doubt;
+         greatest(cover_->on_B, near.on_B) + greatest(cover_->on_A, near.on_A) + shift > -doubt;
 }
 
 /// About a contact the surfaces are apart as far, shell by shell, as its relative curvature
@@ -99,17 +101,21 @@ bool ContactSearch::turns_beside(const KnownContact& contact, double shift, doub
 /// both on its own sides.
 void ContactSearch::set_discs(const std::vector<KnownContact>& known) {
   discs_.clear();
-  for (const KnownContact& contact : known) {
-    near_contact_B_ = cover_->on_B.nearest(contact.on_B, near_contact_B_);
-    near_contact_A_ = cover_->on_A.nearest(contact.on_A, near_contact_A_);
+  known_ = known.size();
+  if (near_contacts_.size() < known_) near_contacts_.resize(known_);
+  for (std::size_t k = 0; k < known_; ++k) {
+    const KnownContact& contact = known[k];
+    NearContact& near = near_contacts_[k];
+    near.on_B = cover_->on_B.nearest(contact.on_B, near.on_B);
+    near.on_A = cover_->on_A.nearest(contact.on_A, near.on_A);
     const double doubt = kDoubt * (contact.K_B.norm() + contact.K_A.norm());
-    const double shift = bending_B_.shift(near_contact_B_, contact.K_B) +
-                         bending_A_.shift(near_contact_A_, contact.K_A);
+    const double shift =
+        bending_B_.shift(near.on_B, contact.K_B) + bending_A_.shift(near.on_A, contact.K_A);
     double radius = 0;
-    if (turns_beside(contact, shift, doubt)) continue;
+    if (turns_beside(contact, near, shift, doubt)) continue;
     for (int level = 0; level < Bending::kLevels; ++level) {
-      const Rise B = bending_B_.in_shell(level, near_contact_B_, contact.K_B);
-      const Rise A = bending_A_.in_shell(level, near_contact_A_, contact.K_A);
+      const Rise B = bending_B_.in_shell(level, near.on_B, contact.K_B);
+      const Rise A = bending_A_.in_shell(level, near.on_A, contact.K_A);
       if (!(B.over_quadric + A.over_quadric + shift < contact.least_curvature) &&
           !(B.over_plane + A.over_plane + shift < -doubt))
         break;
@@ -209,7 +215,10 @@ bool ContactSearch::is_clear(int index, const RigidTransform& X_from_to, double 
   Closest& closest = cluster_closest_[static_cast<std::size_t>(index)];
   if (!other().bends_evenly()) {
     const Eigen::Vector3d p = X_from_to * cluster.center;
-    closest.near = other().nearest(p, closest.near);
+    const int above = closest.near < 0 && cluster.parent >= 0
+                          ? cluster_closest_[static_cast<std::size_t>(cluster.parent)].near
+                          : closest.near;
+    closest.near = other().nearest(p, above);
     if (closest.near >= 0) return is_clear_of_sample(cluster, p, cutoff, closest.near);
   }
   return is_clear_of_closest(bending_sampled().quadrics().of(index).cell, X_from_to, cutoff,
