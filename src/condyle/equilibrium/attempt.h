@@ -38,6 +38,10 @@ struct Attempt {
   std::optional<OffSurfaces> off;
   /// The first one met on the way to those values, else the last one the solver told of.
   std::optional<OffSurfaces> off_on_the_way;
+  std::optional<RigidTransform> first_solution;  ///< of Newton, of the contacts of the last start
+  /// The same of a start from where contacts did not settle; another start with the same contacts
+  /// that leads there does not either.
+  std::optional<RigidTransform> not_settled;
   /// From where the descent has been tried in vain with the values asked for.
   std::vector<RigidTransform> descended_from;
   std::optional<RigidTransform> other;  ///< a second position of equilibrium at the same values

@@ -122,8 +122,14 @@ void ContactRules::find_overlaps(const Linearization& at) {
   changes_.rims = inner.contacts.empty() && !rims.contacts.empty();
   if (changes_.rims) inner.contacts.assign(rims.contacts.begin(), rims.contacts.end());
   changes_.deepest = changes_.rims ? rims.deepest : inner.deepest;
-  changes_.too_many =
-      state.contacts.size() + state.sigma.size() + inner.contacts.size() > kMaxConstraints;
+  // Several minima of one rough overlap cannot all be contacts: the deepest is the one to begin with.
+  const std::size_t others = state.contacts.size() + state.sigma.size();
+  if (others + changes_.closes.size() > kMaxConstraints && changes_.closes.size() > 1) {
+    changes_.closes.front() = changes_.closes[changes_.deepest];
+    changes_.closes.resize(1);
+    changes_.deepest = 0;
+  }
+  changes_.too_many = others + changes_.closes.size() > kMaxConstraints;
 }
 
 }  // namespace condyle

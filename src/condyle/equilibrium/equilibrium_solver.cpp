@@ -208,8 +208,16 @@ bool EquilibriumSolver::is_admissible(const EquilibriumState& state, Attempt& at
   return changes(state, attempt).none_needed() && on_surfaces(state, attempt);
 }
 
+/// Is Newton's first solution one from where contacts have not settled before?
+bool EquilibriumSolver::leads_nowhere(const RigidTransform& X, Attempt& attempt) const {
+  constexpr double kSame = 1e-9;  // of L
+  attempt.first_solution = X;
+  return attempt.not_settled && distance(*model_, X, *attempt.not_settled) < kSame;
+}
+
 bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
   constexpr int kRounds = 8;  // of changes of contact; real knees take one or two
+  attempt.first_solution.reset();
   for (int round = 0; round < kRounds; ++round) {
     attempt.newton = newton_.solve(state, drive_);
     attempt.spent.iterations += attempt.newton.iterations;
@@ -217,6 +225,7 @@ bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
       attempt.zero_element = attempt.newton.zero_element;
     if (attempt.newton.outcome == NewtonOutcome::kDiverged) note_overflow(state, attempt);
     if (attempt.newton.outcome != NewtonOutcome::kConverged) return false;
+    if (round == 0 && leads_nowhere(state.X, attempt)) return false;
     const ContactChanges& found = changes(state, attempt);
     if (found.too_many) return false;
     if (!found.any()) {

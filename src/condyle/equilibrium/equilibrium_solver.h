@@ -117,6 +117,7 @@ class EquilibriumSolver {
   bool advance(EquilibriumState& state, const Drive& from, const Drive& to, Attempt& attempt);
   bool descend(EquilibriumState& state, Attempt& attempt);
   [[nodiscard]] bool tried_from(const RigidTransform& X, const Attempt& attempt) const;
+  [[nodiscard]] bool leads_nowhere(const RigidTransform& X, Attempt& attempt) const;
   bool settle(EquilibriumState& state, Attempt& attempt);
   bool solve_from_last(EquilibriumState& state, Attempt& attempt, Patience patience);
   bool solve_from_elsewhere(EquilibriumState& state, Attempt& attempt);

@@ -125,9 +125,13 @@ bool EquilibriumSolver::solve_from_last(EquilibriumState& state,
                                         Attempt& attempt,
                                         Patience patience) {
   attempt.begin(PoseRoute::kNewton, PoseOrigin::kPrediction);
-  if (predictor_.predict(target_, state) && settle(state, attempt)) return true;
+  if (predictor_.predict(target_, state)) {
+    if (settle(state, attempt)) return true;
+    attempt.not_settled = attempt.first_solution;
+  }
   attempt.begin(PoseRoute::kNewton, PoseOrigin::kLastPose);
   if (settle(state = state_, attempt)) return true;
+  attempt.not_settled.reset();
   // On a branch that leaves the known surfaces nothing else is found by going on.
   if (attempt.off && patience == Patience::kNone) return false;
   attempt.begin(PoseRoute::kDescent, PoseOrigin::kLastPose);
