@@ -35,6 +35,10 @@ class ContactPotential {
   /// solved on.
   virtual bool accepts(const RigidTransform& /*X_BA*/) { return true; }
 
+  /// Until told otherwise it is `factor` times as stiff as it is: a way to poses that Newton does
+  /// not find at once. Allocates nothing.
+  virtual void soften(double /*factor*/) {}
+
   /// Adds the wrench on A with its exact derivatives to `wrench`; returns the sum of the forces'
   /// magnitudes [N]. Finite at every pose. Allocates nothing once it was asked.
   virtual double add_to(const RigidTransform& X_BA, Wrench& wrench) = 0;

@@ -29,6 +29,10 @@ void ContactPotentials::prepare(const RigidTransform& X_BA) {
   for (const Entry& entry : entries_) entry.potential->prepare(X_BA);
 }
 
+void ContactPotentials::soften(double factor) {
+  for (const Entry& entry : entries_) entry.potential->soften(factor);
+}
+
 bool ContactPotentials::accept(const RigidTransform& X_BA) {
   bool accepted = true;
   for (const Entry& entry : entries_) accepted &= entry.potential->accepts(X_BA);

@@ -22,6 +22,7 @@ class ContactPotentials {
 
   void reset();
   void prepare(const RigidTransform& X_BA);
+  void soften(double factor);
   [[nodiscard]] bool accept(const RigidTransform& X_BA);
   double add_to(const RigidTransform& X_BA, Wrench& wrench);
   [[nodiscard]] double energy(const RigidTransform& X_BA);

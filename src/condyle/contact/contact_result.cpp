@@ -33,6 +33,7 @@ void clear(ContactResult& contact) {
   contact.shape = ContactShape::kPoint;
   contact.force = 0;
   contact.layer.reset();
+  contact.pressures.clear();
   contact.resultant_ground.setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 

@@ -48,13 +48,31 @@ enum class ContactShape {
 /// What a pair of elastic layers says beside its force (contact/layer_contact.h).
 struct LayerResult {
   double area = 0;           ///< [mm²]
-  double mean_pressure = 0;  ///< force over area [N/mm²]
+  double mean_pressure = 0;  ///< sum of pressures times areas, over the area [N/mm²]
   double peak_pressure = 0;  ///< [N/mm²]
   double deepest = 0;        ///< [mm]
   double energy = 0;         ///< [N mm]
   double error = 0;          ///< of the force by the lattice, relative
-  double beyond = 0;         ///< part of the force that faces what lies beyond an edge
-  int points = 0;            ///< of the lattice, in contact
+  double lost =
+      0;  ///< part of the force that an edge takes away: it faces what lies beyond one, or
+          ///< fades at its own
+  double lateral =
+      0;           ///< λ/a: length over which a layer gives way sideways, over the radius of the
+                   ///< area; above 1 pressures are those of the model rather than of tissue
+  int points = 0;  ///< of the lattice, in contact
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< on the moving body, ground frame [N]
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< about O_A, ground frame [N mm]
+};
+
+/// Pressure at a point of one of two elastic layers. The force is the mean over the sides that have
+/// points: the sum of pressure times area of both, halved where there are two.
+struct PressurePoint {
+  bool on_A = false;                                ///< of the moving body's surface
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< u, v of a patch
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< in the frame of its body [mm]
+  double pressure = 0;                              ///< [N/mm²]
+  double depth = 0;                                 ///< [mm]
+  double area = 0;                                  ///< that it stands for [mm²]
 };
 
 /// A pair of surfaces. Closed with one or more points; open, it tells where the gap is smallest.
@@ -70,6 +88,7 @@ struct ContactResult {
   std::vector<ContactPointResult>
       points;                        ///< closed: those that carry; open: the nearest one, force 0
   std::optional<LayerResult> layer;  ///< of a pair of elastic layers, closed
+  std::vector<PressurePoint> pressures;  ///< of it: points of B, then of A
 };
 
 /// A point of contact with its force [N] and its distance from the nearest edge [mm]; whether that

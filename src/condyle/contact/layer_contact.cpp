@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -20,22 +22,18 @@ constexpr std::size_t kLevels = kCells.size();
 /// The lattices of a pair's surfaces, made when they are first asked for.
 class Lattices {
  public:
-  explicit Lattices(const ContactPair& pair)
-      : on_B(pair.on_B),
-        on_A(pair.on_A),
-        patch_B_(dynamic_cast<const Patch*>(on_B.get())),
-        patch_A_(dynamic_cast<const Patch*>(on_A.get())) {
-    if (patch_B_ == nullptr && patch_A_ == nullptr)
+  explicit Lattices(const ContactPair& pair) : on_B(pair.on_B), on_A(pair.on_A) {
+    if (of_A(0, false) == nullptr && of_B(0, false) == nullptr)
       throw std::invalid_argument("contact \"" + pair.name +
-                                  "\": a layer needs a patch on one side at least");
+                                  "\": a layer needs bounds of one of its surfaces at least");
   }
 
-  /// Null for a surface that is no patch.
+  /// Null for a surface without points.
   [[nodiscard]] const LayerLattice* of_A(std::size_t level, bool shifted) const {
-    return lattice(patch_A_, of_A_[2 * level + shifted], level, shifted);
+    return lattice(*on_A, of_A_[2 * level + shifted], level, shifted);
   }
   [[nodiscard]] const LayerLattice* of_B(std::size_t level, bool shifted) const {
-    return lattice(patch_B_, of_B_[2 * level + shifted], level, shifted);
+    return lattice(*on_B, of_B_[2 * level + shifted], level, shifted);
   }
 
   const std::shared_ptr<const Surface> on_B, on_A;
@@ -45,18 +43,15 @@ class Lattices {
     std::once_flag once;
     LayerLattice lattice;
   };
-  static const LayerLattice* lattice(const Patch* patch,
+  static const LayerLattice* lattice(const Surface& surface,
                                      Entry& entry,
                                      std::size_t level,
                                      bool shifted) {
-    if (patch == nullptr) return nullptr;
     std::call_once(entry.once,
-                   [&] { entry.lattice = layer_lattice(*patch, kCells[level], shifted); });
-    return &entry.lattice;
+                   [&] { entry.lattice = layer_lattice(surface, kCells[level], shifted); });
+    return entry.lattice.x.empty() ? nullptr : &entry.lattice;
   }
 
-  const Patch* patch_B_;
-  const Patch* patch_A_;
   mutable std::array<Entry, 2 * kLevels> of_A_, of_B_;
 };
 
@@ -73,11 +68,20 @@ class BothSides {
   void reset() {
     for (LayerSide& side : sides_) side.reset();
   }
-  /// At a pose, their wrench on A added where one is asked for.
-  LayerSums sums(const RigidTransform& X, const LayerLaw& law, Wrench* wrench = nullptr) {
+  /// At a pose, of layers `factor` times as stiff, their wrench on A added where one is asked for.
+  LayerSums sums(const RigidTransform& X,
+                 const LayerLaw& law,
+                 double factor = 1,
+                 Wrench* wrench = nullptr) {
     LayerSums all;
-    for (LayerSide& side : sides_) side.add_to(X, law, share(), wrench, all);
+    for (LayerSide& side : sides_) side.add_to(X, law, factor * share(), wrench, all);
     return all;
+  }
+  /// The points that are pressed, B's first.
+  void add_pressures(const RigidTransform& X,
+                     const LayerLaw& law,
+                     std::vector<PressurePoint>& points) {
+    for (std::size_t i = sides_.size(); i-- > 0;) sides_[i].add_pressures(X, law, points);
   }
 
  private:
@@ -90,19 +94,24 @@ class LayerContact final : public ContactPotential {
  public:
   LayerContact(std::shared_ptr<const Lattices> lattices,
                const ContactPair& pair,
-               const LayerOptions& options)
+               const LayerOptions& options,
+               const Vector3d& origin)
       : lattices_(std::move(lattices)),
         name_(pair.name),
         law_(pair.elastic_B, pair.elastic_A, options.pressure),
-        options_(options) {}
+        options_(options),
+        origin_(origin) {}
 
   void reset() override {
     level_ = 0;
+    factor_ = 1;
     for (auto& sides : sides_)
       if (sides) sides->reset();
   }
 
   void prepare(const RigidTransform&) override { level_ = 0; }
+
+  void soften(double factor) override { factor_ = factor; }
 
   bool accepts(const RigidTransform& X_BA) override {
     error_ = lattice_error(X_BA);
@@ -112,11 +121,11 @@ class LayerContact final : public ContactPotential {
   }
 
   double add_to(const RigidTransform& X_BA, Wrench& wrench) override {
-    return sides(false).sums(X_BA, law_, &wrench).force;
+    return sides(false).sums(X_BA, law_, factor_, &wrench).force;
   }
 
   double energy(const RigidTransform& X_BA) override {
-    return sides(false).sums(X_BA, law_).energy;
+    return sides(false).sums(X_BA, law_, factor_).energy;
   }
 
   std::optional<Objection> describe(const RigidTransform& X_BA, ContactResult& result) override;
@@ -133,15 +142,25 @@ class LayerContact final : public ContactPotential {
     const double force = std::max(here.force, shifted.force);
     return force > 0 ? 0.5 * (here.on_A - shifted.on_A).norm() / force : 0;
   }
+  /// Part of the force that an edge takes away.
+  [[nodiscard]] static double lost(const LayerSums& sums) {
+    return (sums.beyond + sums.faded) / (sums.force + sums.faded);
+  }
+  [[nodiscard]] std::string place(const Vector3d& x) const {
+    const Vector3d at = x + origin_;
+    return fmt::format("[{:.1f}, {:.1f}, {:.1f}] mm of the fixed body", at.x(), at.y(), at.z());
+  }
   [[nodiscard]] std::optional<Objection> objection(const LayerSums& sums) const;
 
   std::shared_ptr<const Lattices> lattices_;
   std::string name_;
   LayerLaw law_;
   LayerOptions options_;
+  Vector3d origin_;  ///< of the model's frame of B, in the file's [mm]
   std::array<std::optional<BothSides>, 2 * kLevels> sides_;
   std::size_t level_ = 0;
   double error_ = 0;
+  double factor_ = 1;  ///< of the stiffness
 };
 
 std::optional<Objection> LayerContact::describe(const RigidTransform& X_BA, ContactResult& result) {
@@ -158,14 +177,19 @@ std::optional<Objection> LayerContact::describe(const RigidTransform& X_BA, Cont
   result.points.push_back(point);
   result.force = point.force;
   result.resultant_ground = sums.center_of_pressure();
-  result.layer = LayerResult{.area = sums.area,
-                             .mean_pressure = sums.force / sums.area,
-                             .peak_pressure = sums.peak_pressure,
-                             .deepest = sums.deepest,
-                             .energy = sums.energy,
-                             .error = error_,
-                             .beyond = sums.beyond / sums.force,
-                             .points = sums.points};
+  result.layer =
+      LayerResult{.area = sums.area,
+                  .mean_pressure = sums.force / sums.area,
+                  .peak_pressure = sums.peak_pressure,
+                  .deepest = sums.deepest,
+                  .energy = sums.energy,
+                  .error = error_,
+                  .lost = lost(sums),
+                  .lateral = law_.lateral_length() / std::sqrt(sums.area / std::numbers::pi),
+                  .points = sums.points,
+                  .force = sums.on_A,
+                  .moment = sums.torque - X_BA.p.cross(sums.on_A)};
+  sides(false).add_pressures(X_BA, law_, result.pressures);
   return objection(sums);
 }
 
@@ -173,31 +197,33 @@ std::optional<Objection> LayerContact::objection(const LayerSums& sums) const {
   if (sums.deepest > law_.deepest())
     return Objection{
         PoseStatus::kOverlap,
-        fmt::format("contact \"{}\" is pressed {:.2f} mm deep, its layers of {:.2f} mm bear {:.2f}",
-                    name_, sums.deepest, law_.thickness(), law_.deepest())};
-  const double beyond = sums.beyond / sums.force;
-  if (beyond > options_.beyond)
+        fmt::format("contact \"{}\" is pressed {:.2f} mm deep at {}, its layers of "
+                    "{:.2f} mm bear {:.2f}",
+                    name_, sums.deepest, place(sums.peak), law_.thickness(), law_.deepest())};
+  if (lost(sums) > options_.beyond)
     return Objection{
         PoseStatus::kLeftPatch,
-        fmt::format("{:.0f} % of the force of contact \"{}\" lies beyond the known part of its "
-                    "surfaces, {:.0f} % at most",
-                    100 * beyond, name_, 100 * options_.beyond)};
+        fmt::format(
+            "{:.1f} % of the force of contact \"{}\" is lost at an edge of the known part of "
+            "its surfaces, about {}, {:g} % at most",
+            100 * lost(sums), name_, place(sums.lost_moment / (sums.beyond + sums.faded)),
+            100 * options_.beyond)};
   return std::nullopt;
 }
 
 }  // namespace
 
-ContactLaw layer_contact(const LayerOptions& options) {
+ContactLaw layer_contact(const LayerOptions& options, const Vector3d& origin) {
   struct Shared {
     std::mutex mutex;
     std::shared_ptr<const Lattices> lattices;
   };
-  return [options, shared = std::make_shared<Shared>()](const ContactPair& pair) {
+  return [options, origin, shared = std::make_shared<Shared>()](const ContactPair& pair) {
     const std::lock_guard lock(shared->mutex);
     std::shared_ptr<const Lattices>& lattices = shared->lattices;
     if (!lattices || lattices->on_B != pair.on_B || lattices->on_A != pair.on_A)
       lattices = std::make_shared<const Lattices>(pair);
-    return std::make_unique<LayerContact>(lattices, pair, options);
+    return std::make_unique<LayerContact>(lattices, pair, options, origin);
   };
 }
 

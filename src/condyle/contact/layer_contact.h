@@ -2,7 +2,7 @@
 
 /// Elastic layers as the law of a pair (contact_law.h): U = (U_A + U_B)/2, material points of
 /// either surface pressed into the other (layer_side.h). The mean takes away the preference of a
-/// side, which is of the order of depth over radius. A surface that is no patch has no points:
+/// side, which is of the order of depth over radius. A surface without bounds has no points:
 /// those of the other carry alone.
 ///
 /// The lattice is as fine as the force asks for: a pose is solved on one lattice, which is held
@@ -17,17 +17,14 @@
 #include "condyle/contact/contact_law.h"
 #include "condyle/contact/layer_lattice.h"
 #include "condyle/contact/layer_law.h"
+#include "condyle/contact/layer_options.h"
 
 namespace condyle {
 
-struct LayerOptions {
-  PressureLaw pressure = PressureLaw::kLinear;
-  double tolerance = 1e-3;  ///< of the force, relative
-  double beyond = 0.05;     ///< part of the force that may face what lies beyond an edge, at most
-};
-
 /// For a pair whose surfaces have a layer each, or one of them; throws std::invalid_argument where
-/// LayerLaw does, or where neither surface is a patch. Lattices are shared by all that it makes.
-[[nodiscard]] ContactLaw layer_contact(const LayerOptions& options = {});
+/// LayerLaw does, or where neither surface has points. Lattices are shared by all that it makes.
+/// `origin` of the model's frame of B, in that of files: for words about places [mm].
+[[nodiscard]] ContactLaw layer_contact(const LayerOptions& options = {},
+                                       const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
 }  // namespace condyle

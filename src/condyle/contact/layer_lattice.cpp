@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/surface/exact_charts.h"
+
 namespace condyle {
 namespace {
 
@@ -45,15 +47,34 @@ double faded(double edge, double width) {
   return x * x * x * (10 - x * (15 - 6 * x));
 }
 
-void add_point(
-    const Patch& patch, double u, double v, double cell, double fade, LayerLattice& lattice) {
-  const double share = faded(patch.edge_distance({u, v, 0}), fade);
+void add_point(const Patch& patch,
+               const Eigen::Vector2d& place,
+               double cell,
+               double fade,
+               LayerLattice& lattice) {
+  const double share = faded(patch.edge_distance({place.x(), place.y(), 0}), fade);
   if (!(share > 0)) return;
-  const PatchDerivatives d = patch.derivatives(u, v);
+  const PatchDerivatives d = patch.derivatives(place.x(), place.y());
   const Vector3d normal = d.c_u.cross(d.c_v);
+  const double area = normal.norm() * cell;
   lattice.x.push_back(d.c);
   lattice.n.emplace_back(patch.data().orientation * normal.normalized());
-  lattice.area.push_back(share * normal.norm() * cell);
+  lattice.area.push_back(share * area);
+  lattice.faded.push_back((1 - share) * area);
+  lattice.place.push_back(place);
+}
+
+void add_point(const ExactSurface& surface,
+               const SurfaceChart::At& at,
+               double cell,
+               LayerLattice& lattice) {
+  const double share = faded(surface.edge_distance(at.c), kFade), area = at.stretch * cell;
+  if (!(share * area > 0)) return;
+  lattice.x.push_back(at.c);
+  lattice.n.push_back(surface.evaluate_frame(at.c).n);
+  lattice.area.push_back(share * area);
+  lattice.faded.push_back((1 - share) * area);
+  lattice.place.emplace_back(Eigen::Vector2d::Zero());
 }
 
 void close_block(std::size_t first, LayerLattice& lattice) {
@@ -66,23 +87,58 @@ void close_block(std::size_t first, LayerLattice& lattice) {
   lattice.blocks.push_back(block);
 }
 
-}  // namespace
-
-LayerLattice layer_lattice(const Patch& patch, int per_span, bool shifted, double fade) {
+/// Cells of a rectangle in blocks of neighbours; `add` is told u, v and the size of each.
+template <typename Add>
+void add_blocks(
+    const Midpoints& u, const Midpoints& v, int per_span, LayerLattice& lattice, const Add& add) {
   constexpr int kSpans = 2;  // of a block, in either direction
-  const PatchData& data = patch.data();
-  const Midpoints u(breaks(data.knots_u, patch.u_min(), patch.u_max()), per_span, shifted),
-      v(breaks(data.knots_v, patch.v_min(), patch.v_max()), per_span, shifted);
   const auto side = static_cast<std::size_t>(kSpans * per_span);
-  LayerLattice lattice;
   for (std::size_t i0 = 0; i0 < u.t.size(); i0 += side)
     for (std::size_t j0 = 0; j0 < v.t.size(); j0 += side) {
       const std::size_t first = lattice.x.size();
       for (std::size_t i = i0; i < std::min(i0 + side, u.t.size()); ++i)
         for (std::size_t j = j0; j < std::min(j0 + side, v.t.size()); ++j)
-          add_point(patch, u.t[i], v.t[j], u.width[i] * v.width[j], fade, lattice);
+          add(Eigen::Vector2d(u.t[i], v.t[j]), u.width[i] * v.width[j]);
       close_block(first, lattice);
     }
+}
+
+std::vector<double> even_breaks(double min, double max) {
+  constexpr double kSpan = 2;             // [mm]
+  constexpr int kFewest = 8, kMost = 64;  // a small or a great surface has them finer or coarser
+  const int spans =
+      static_cast<int>(std::clamp<double>(std::ceil((max - min) / kSpan), kFewest, kMost));
+  std::vector<double> all;
+  for (int i = 0; i <= spans; ++i) all.push_back(min + (max - min) * i / spans);
+  return all;
+}
+
+}  // namespace
+
+LayerLattice layer_lattice(const Patch& patch, int per_span, bool shifted, double fade) {
+  const PatchData& data = patch.data();
+  const Midpoints u(breaks(data.knots_u, patch.u_min(), patch.u_max()), per_span, shifted),
+      v(breaks(data.knots_v, patch.v_min(), patch.v_max()), per_span, shifted);
+  LayerLattice lattice;
+  add_blocks(u, v, per_span, lattice, [&](const Eigen::Vector2d& place, double cell) {
+    add_point(patch, place, cell, fade, lattice);
+  });
+  return lattice;
+}
+
+LayerLattice layer_lattice(const Surface& surface, int per_span, bool shifted) {
+  if (const auto* patch = dynamic_cast<const Patch*>(&surface))
+    return layer_lattice(*patch, per_span, shifted, kFade);
+  LayerLattice lattice;
+  const auto* exact = dynamic_cast<const ExactSurface*>(&surface);
+  if (exact == nullptr) return lattice;
+  for (const SurfaceChart& chart : exact->charts()) {
+    const Midpoints u(even_breaks(chart.u_min, chart.u_max), per_span, shifted),
+        v(even_breaks(chart.v_min, chart.v_max), per_span, shifted);
+    add_blocks(u, v, per_span, lattice, [&](const Eigen::Vector2d& place, double cell) {
+      add_point(*exact, chart.at(place.x(), place.y()), cell, lattice);
+    });
+  }
   return lattice;
 }
 

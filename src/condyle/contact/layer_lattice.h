@@ -2,7 +2,7 @@
 
 /// Points of a surface that stay where they are on it, each with the area it stands for: what the
 /// energy of an elastic layer is summed over (layer_contact.h). On a patch they are the midpoints
-/// of equal cells in each knot span. The integrand has a bounded support and a kink only at the
+/// of equal cells in each knot span, on an exact surface of cells of its charts. The integrand has a bounded support and a kink only at the
 /// edge of the contact, where a lattice of midpoints beats Gauss' points: with cells of H the
 /// errors of energy, force and stiffness fall as H^7/2, H^5/2, H^3/2.
 
@@ -23,8 +23,10 @@ struct LayerBlock {
 
 /// Of one surface, in its body's frame.
 struct LayerLattice {
-  std::vector<Eigen::Vector3d> x, n;  ///< point [mm] and outward unit normal
-  std::vector<double> area;           ///< [mm²]
+  std::vector<Eigen::Vector3d> x, n;   ///< point [mm] and outward unit normal
+  std::vector<double> area;            ///< [mm²]
+  std::vector<double> faded;           ///< what the border took of it [mm²]
+  std::vector<Eigen::Vector2d> place;  ///< u, v of a patch
   std::vector<LayerBlock> blocks;
 };
 
@@ -38,5 +40,11 @@ inline constexpr double kFade = 1;
                                          int per_span,
                                          bool shifted = false,
                                          double fade = kFade);
+
+/// The same of any surface, an exact one in spans of 2 mm, or as many as a great one may have. No
+/// points where it has no bounds.
+[[nodiscard]] LayerLattice layer_lattice(const Surface& surface,
+                                         int per_span,
+                                         bool shifted = false);
 
 }  // namespace condyle

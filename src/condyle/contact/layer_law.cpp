@@ -34,7 +34,7 @@ LayerLaw::LayerLaw(const std::optional<ElasticSurface>& on_B,
       throw std::invalid_argument("a layer needs a thickness and a modulus above 0");
     if (!(layer.poisson >= 0 && layer.poisson <= kGreatestLayerPoisson))
       throw std::invalid_argument("the Poisson's ratio of a layer must lie within 0 and 0.49");
-    sides_[i] = {confined_modulus(layer), layer.layer};
+    sides_[i] = {confined_modulus(layer), layer.layer, layer.modulus / (2 + 2 * layer.poisson)};
     softness += sides_[i].h / sides_[i].K;
   }
   if (!(softness > 0)) throw std::invalid_argument("neither surface has a layer");
@@ -43,6 +43,13 @@ LayerLaw::LayerLaw(const std::optional<ElasticSurface>& on_B,
 
 double LayerLaw::deepest() const {
   return (law_ == PressureLaw::kLinear ? 0.5 : 0.9) * thickness();
+}
+
+double LayerLaw::lateral_length() const {
+  double longest = 0;
+  for (const Side& side : sides_)
+    longest = std::max(longest, side.h * std::sqrt(side.K / (3 * side.mu)));
+  return longest;
 }
 
 LayerLaw::Answer LayerLaw::at(double d) const {

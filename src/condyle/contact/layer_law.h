@@ -12,13 +12,9 @@
 #include <optional>
 
 #include "condyle/contact/hertz.h"
+#include "condyle/contact/layer_options.h"
 
 namespace condyle {
-
-enum class PressureLaw { kLinear, kLogarithmic };
-
-/// Above this ν a confined layer is a rigid one: at 0.49 its modulus is 17 E, at 0.499 167 E.
-inline constexpr double kGreatestLayerPoisson = 0.49;
 
 /// K [N/mm²].
 [[nodiscard]] double confined_modulus(const ElasticSurface& layer);
@@ -44,12 +40,15 @@ class LayerLaw {
   [[nodiscard]] double stiffness() const { return k_; }
   /// Of both layers [mm].
   [[nodiscard]] double thickness() const { return sides_[0].h + sides_[1].h; }
+  /// λ = h √(K/3μ) of the layer where it is greater [mm]: over contacts smaller than this a bonded
+  /// layer gives way sideways, and pressures are those of the model rather than of tissue.
+  [[nodiscard]] double lateral_length() const;
   /// As deep as the law is meant to go [mm]: half of the layers, 0.9 of them where it stiffens.
   [[nodiscard]] double deepest() const;
 
  private:
   struct Side {
-    double K = 1, h = 0;  ///< [N/mm²], [mm]; h = 0: rigid
+    double K = 1, h = 0, mu = 1;  ///< [N/mm²], [mm], shear modulus [N/mm²]; h = 0: rigid
   };
   [[nodiscard]] Answer logarithmic(double d) const;
 

@@ -84,25 +84,33 @@ void LayerSide::visit(const RigidTransform& X_BA, const Visit& visit) {
 
 namespace {
 
-void add_to_sums(const LayerLaw::Answer& answer,
-                 double w,
-                 double depth,
-                 const Vector3d& x,
-                 const Vector3d& normal,
-                 bool beyond,
-                 LayerSums& sums) {
+/// What a pressed point does.
+struct Push {
+  LayerLaw::Answer answer;
+  double w, faded;  ///< area that it stands for, and that a border took [mm²]
+  double depth;     ///< [mm]
+  Vector3d x, n;    ///< where, and out of B, ground frame
+  bool beyond;      ///< it faces what lies beyond an edge
+};
+
+void add_to_sums(const Push& push, LayerSums& sums) {
+  const double force = push.w * push.answer.pressure;
   ++sums.points;
-  sums.energy += w * answer.energy;
-  sums.area += w;
-  sums.force += w * answer.pressure;
-  sums.moment += w * answer.pressure * x;
-  sums.on_A += w * answer.pressure * normal;
-  sums.deepest = std::max(sums.deepest, depth);
-  if (beyond) sums.beyond += w * answer.pressure;
-  if (answer.pressure <= sums.peak_pressure) return;
-  sums.peak_pressure = answer.pressure;
-  sums.peak = x;
-  sums.normal = normal;
+  sums.energy += push.w * push.answer.energy;
+  sums.area += push.w;
+  sums.force += force;
+  sums.moment += force * push.x;
+  sums.on_A += force * push.n;
+  sums.torque += force * push.x.cross(push.n);
+  sums.deepest = std::max(sums.deepest, push.depth);
+  const double faded = push.faded * push.answer.pressure, beyond = push.beyond ? force : 0;
+  sums.faded += faded;
+  sums.beyond += beyond;
+  sums.lost_moment += (faded + beyond) * push.x;
+  if (push.answer.pressure <= sums.peak_pressure) return;
+  sums.peak_pressure = push.answer.pressure;
+  sums.peak = push.x;
+  sums.normal = push.n;
 }
 
 /// Force f at the arm s, and G: the blocks of a point that is fixed on A, or on B.
@@ -133,17 +141,30 @@ void LayerSide::add_to(const RigidTransform& X_BA,
   visit(X_BA, [&](const Pressed& pressed) {
     const Vector3d& own = points_.x[pressed.point];
     const Vector3d s = of_A_ ? Vector3d(X_BA.R * own) : Vector3d(own - X_BA.p);
-    const double w = share * points_.area[pressed.point], phi = pressed.phi;
+    const double phi = pressed.phi;
     const LayerLaw::Answer answer = law.at(-phi);
     const Vector3d n = of_A_ ? pressed.n : Vector3d(X_BA.R * pressed.n);
     const Vector3d out_of_B = of_A_ ? n : Vector3d(-n);
-    add_to_sums(answer, w, -phi, X_BA.p + s, out_of_B, into_.edge_distance(pressed.place) < 0,
-                sums);
+    const double w = share * points_.area[pressed.point];
+    const double faded = points_.faded.empty() ? 0 : share * points_.faded[pressed.point];
+    add_to_sums(
+        {answer, w, faded, -phi, X_BA.p + s, out_of_B, into_.edge_distance(pressed.place) < 0},
+        sums);
     if (wrench == nullptr) return;
     Matrix3d H = -pressed.K * (Matrix3d::Identity() - phi * pressed.K).inverse();
     if (!of_A_) H = X_BA.R * H * X_BA.R.transpose();
     const Matrix3d G = w * (answer.pressure * H - answer.stiffness * n * n.transpose());
     add_to_wrench(w * answer.pressure * out_of_B, s, G, of_A_, *wrench);
+  });
+}
+
+void LayerSide::add_pressures(const RigidTransform& X_BA,
+                              const LayerLaw& law,
+                              std::vector<PressurePoint>& points) {
+  visit(X_BA, [&](const Pressed& pressed) {
+    const std::size_t i = pressed.point;
+    points.push_back({of_A_, points_.place[i], points_.x[i], law.at(-pressed.phi).pressure,
+                      -pressed.phi, points_.area[i]});
   });
 }
 

@@ -18,6 +18,7 @@
 #include <limits>
 #include <vector>
 
+#include "condyle/contact/contact_result.h"
 #include "condyle/contact/layer_lattice.h"
 #include "condyle/contact/layer_law.h"
 #include "condyle/elements/wrench.h"
@@ -27,17 +28,20 @@ namespace condyle {
 
 /// What the pressed points amount to.
 struct LayerSums {
-  int points = 0;            ///< in contact
-  double energy = 0;         ///< U [N mm]
-  double area = 0;           ///< in contact [mm²]
-  double force = 0;          ///< Σ w p [N]
-  double beyond = 0;         ///< of it, of points that face what lies beyond the other's edge [N]
-  double deepest = 0;        ///< greatest depth [mm]
-  double peak_pressure = 0;  ///< [N/mm²]
-  Eigen::Vector3d peak = Eigen::Vector3d::Zero();     ///< where, ground frame [mm]
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< there, out of B, ground frame
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();   ///< Σ w p x, x in the ground frame [N mm]
-  Eigen::Vector3d on_A = Eigen::Vector3d::Zero();     ///< force on A, ground frame [N]
+  int points = 0;     ///< in contact
+  double energy = 0;  ///< U [N mm]
+  double area = 0;    ///< in contact [mm²]
+  double force = 0;   ///< Σ w p [N]
+  double beyond = 0;  ///< of it, of points that face what lies beyond the other's edge [N]
+  double faded = 0;   ///< what the border at an edge took of the force [N]
+  Eigen::Vector3d lost_moment = Eigen::Vector3d::Zero();  ///< Σ x of either, by their forces [N mm]
+  double deepest = 0;                                     ///< greatest depth [mm]
+  double peak_pressure = 0;                               ///< [N/mm²]
+  Eigen::Vector3d peak = Eigen::Vector3d::Zero();         ///< where, ground frame [mm]
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();      ///< there, out of B, ground frame
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< Σ w p x, x in the ground frame [N mm]
+  Eigen::Vector3d on_A = Eigen::Vector3d::Zero();    ///< force on A, ground frame [N]
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< its moment about the origin of B [N mm]
 
   /// Σ w p x / Σ w p [mm].
   [[nodiscard]] Eigen::Vector3d center_of_pressure() const { return moment / force; }
@@ -59,6 +63,11 @@ class LayerSide {
               double share,
               Wrench* wrench,
               LayerSums& sums);
+
+  /// Appends the points that are pressed.
+  void add_pressures(const RigidTransform& X_BA,
+                     const LayerLaw& law,
+                     std::vector<PressurePoint>& points);
 
  private:
   struct Pressed;

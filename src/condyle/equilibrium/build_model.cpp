@@ -1,5 +1,6 @@
 #include "condyle/equilibrium/build_model.h"
 
+#include "condyle/contact/layer_contact.h"
 #include "condyle/equilibrium/model_origins.h"
 #include "condyle/scene/start_pose.h"
 
@@ -20,6 +21,15 @@ ContactMode mode_of(ContactState state) {
       return ContactMode::kOpen;
     default:
       return ContactMode::kAuto;
+  }
+}
+
+/// The laws of pairs that are not rigid, on surfaces that stay where they are from now on.
+void set_laws(const Scene& scene, Model& model) {
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    if (!scene.contacts[i].layer) continue;
+    model.pairs[i].mode = ContactMode::kOpen;
+    model.pairs[i].law = layer_contact(*scene.contacts[i].layer, model.origins.B);
   }
 }
 
@@ -75,6 +85,7 @@ Model build_model(const Scene& scene, const std::vector<FittedSurface>& surfaces
     model.pairs.push_back(std::move(pair));
   }
   move_origins(middle_of_forces(model), model);
+  set_laws(scene, model);
   model.length = characteristic_length(model);
   return model;
 }

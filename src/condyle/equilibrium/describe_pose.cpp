@@ -117,7 +117,11 @@ std::string nearly_conforming(const ContactPair& pair,
       quoted(pair.name), least, kDeviation, std::sqrt(2 * kDeviation / least));
 }
 
-/// The nearest place of an open contact; one that is nowhere, or buried, lowers the status.
+/// A law that sums over points sees nothing of what touches between them: so deep at most [mm].
+constexpr double kUnseen = 0.5;
+
+/// The nearest place of an open contact; one that is nowhere, or buried, lowers the status. One with
+/// a law of its own that touches there is closed, and carries nothing yet.
 void describe_open(const ContactPair& pair,
                    const EquilibriumState& state,
                    ContactSearch& search,
@@ -127,7 +131,8 @@ void describe_open(const ContactPair& pair,
                    ContactResult& contact,
                    PoseResult& result) {
   search.find_nearest(state.X, kAnywhere * L, minima, kMerge * L);
-  const bool watched = pair.mode == ContactMode::kAuto;
+  const bool watched = pair.mode == ContactMode::kAuto || pair.law;
+  const double overlap = pair.law ? kUnseen : options.overlap;
   if (minima.empty()) {
     if (!watched || !search.has_samples()) return;
     result.status = PoseStatus::kLeftPatch;
@@ -135,7 +140,7 @@ void describe_open(const ContactPair& pair,
     return;
   }
   const GapMinimum& lowest = minima.front();
-  if (watched && lowest.gap < -options.overlap * L / 30) {
+  if (watched && lowest.gap < -overlap * L / 30) {
     result.status = PoseStatus::kOverlap;
     result.reason = "contact \"" + pair.name + "\": one body is buried in the other";
   }
@@ -143,6 +148,7 @@ void describe_open(const ContactPair& pair,
       linearize_contact(*pair.on_B, lowest.on_B, *pair.on_A, lowest.on_A, state.X);
   set_nearest_point(describe_point(at, 0, lowest.edge), contact);
   contact.points.back().on_edge = lowest.edge < options.edge_margin;
+  contact.closed = pair.law && lowest.gap < 0;
 }
 
 }  // namespace
@@ -166,10 +172,10 @@ void describe_pose(const Linearization& at,
       if (const std::optional<Objection> reason =
               potential->describe(at.state.X, result.contacts[p]))
         set_status(result, *reason);
-    } else {
-      describe_open(model.pairs[p], at.state, searches[p], model.length, options, minima,
-                    result.contacts[p], result);
+      if (result.contacts[p].closed || !result.contacts[p].points.empty()) continue;
     }
+    describe_open(model.pairs[p], at.state, searches[p], model.length, options, minima,
+                  result.contacts[p], result);
   }
   if (options.joint_stiffness) result.joint_stiffness = joint_stiffness(at);
   if (options.stability) {

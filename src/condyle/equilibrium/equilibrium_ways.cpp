@@ -33,6 +33,34 @@ bool EquilibriumSolver::descend(EquilibriumState& state, Attempt& attempt) {
   return attempt.descent.converged;
 }
 
+/// Laws of energy made softer, then four times as stiff each time, which halves their depths. False
+/// where a step fails.
+bool EquilibriumSolver::stiffen(double softest, EquilibriumState& state, Attempt& attempt) {
+  ContactPotentials& laws = newton_.system().potentials();
+  const bool on_the_way = on_the_way_;
+  on_the_way_ = true;
+  laws.soften(softest);
+  bool solved = descend(state, attempt);
+  for (double factor = 4 * softest; solved && factor <= 1; factor *= 4) {
+    laws.soften(factor);
+    on_the_way_ = on_the_way || factor < 1;
+    solved = settle(state, attempt);
+  }
+  laws.soften(1);
+  on_the_way_ = on_the_way;
+  return solved;
+}
+
+/// The descent; where stiff laws throw overlapping bodies apart, by softer ones.
+bool EquilibriumSolver::descend_or_stiffen(EquilibriumState& state, Attempt& attempt) {
+  if (newton_.system().potentials().empty()) return descend(state, attempt);
+  const EquilibriumState start = state;
+  if (descend(state, attempt)) return true;
+  for (const double softest : {1.0 / 16, 1.0 / 256, 1.0 / 4096, 1.0 / 65536})
+    if (stiffen(softest, state = start, attempt)) return true;
+  return false;
+}
+
 /// From a solved state to another drive in parts: halved where a part fails, doubled where it
 /// succeeds.
 bool EquilibriumSolver::advance(EquilibriumState& state,
@@ -88,7 +116,7 @@ bool EquilibriumSolver::find_first(EquilibriumState& state, Attempt& attempt) {
   attempt.begin(PoseRoute::kNewton, PoseOrigin::kStart);
   if (settle_at_estimates(state, attempt)) return true;
   attempt.begin(PoseRoute::kDescent, PoseOrigin::kStart);
-  return descend(state, attempt);
+  return descend_or_stiffen(state, attempt);
 }
 
 /// The first pose: where the start is far from what the conditions prescribe, the equilibrium at
@@ -149,7 +177,7 @@ bool EquilibriumSolver::descend_from(const RigidTransform& X,
   state.X = carried(*model_, drive_, X);
   state.contacts.clear();
   state.sigma.assign(model_->conditions.size(), 0);
-  return descend(state, attempt);
+  return descend_or_stiffen(state, attempt);
 }
 
 /// The descent from the scene's start pose and from the last pose, both carried to the values asked

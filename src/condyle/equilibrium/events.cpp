@@ -31,8 +31,14 @@ bool same_contacts(const PoseResult& a, const PoseResult& b) {
   return true;
 }
 
-/// How far the points of a contact moved on either body, where their number is the same [mm].
+/// How far the points of a contact moved on either body, where their number is the same [mm]; of a
+/// layer its centre of pressure, since where it is pressed most may change over at once.
 double motion(const PoseResult& a, const PoseResult& b, std::size_t contact) {
+  if (a.contacts[contact].layer && b.contacts[contact].layer) {
+    const Eigen::Vector3d &p = a.contacts[contact].resultant_ground,
+                          &q = b.contacts[contact].resultant_ground;
+    return std::max((p - q).norm(), (a.X_BA.inverse() * p - b.X_BA.inverse() * q).norm());
+  }
   const auto& from = a.contacts[contact].points;
   const auto& to = b.contacts[contact].points;
   if (points_of(a, contact) == 0 || from.size() != to.size()) return 0;

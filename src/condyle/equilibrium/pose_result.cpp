@@ -103,6 +103,10 @@ void to_file_frames(const BodyOrigins& origins, PoseResult& pose) {
       point.point_ground += origins.B;
       point.point_moving += origins.A;
     }
+    for (PressurePoint& point : contact.pressures)
+      point.point += point.on_A ? origins.A : origins.B;
+    if (contact.layer)
+      contact.layer->moment += (pose.X_BA.R * origins.A).cross(contact.layer->force);
   }
   for (std::vector<Eigen::Vector3d>& path : pose.paths)
     for (Eigen::Vector3d& corner : path) corner += origins.B;

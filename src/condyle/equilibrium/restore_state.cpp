@@ -33,8 +33,8 @@ EquilibriumState restore_state(const Model& model, const PoseResult& pose) {
   for (const ConditionResult& condition : pose.conditions)
     state.sigma.push_back(condition.multiplier);
   for (std::size_t i = 0; i < pose.contacts.size(); ++i) {
-    if (!pose.contacts[i].closed) continue;
     const ContactPair& pair = model.pairs[i];
+    if (!pose.contacts[i].closed || pair.law) continue;
     for (const ContactPointResult& point : pose.contacts[i].points) {
       state.contacts.push_back(
           {static_cast<int>(i), place_on(*pair.on_B, point.point_ground - model.origins.B),

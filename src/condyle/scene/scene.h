@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "condyle/contact/hertz.h"
+#include "condyle/contact/layer_options.h"
 #include "condyle/elements/force_law.h"
 #include "condyle/elements/kinematic_condition.h"
 #include "condyle/math/rigid_transform.h"
@@ -103,7 +104,7 @@ struct SurfaceDescription {
   Eigen::Matrix3d axes =
       Eigen::Matrix3d::Identity();    ///< ellipsoid: columns are the axes; polynomial: x, y, height
   std::vector<PolynomialTerm> terms;  ///< polynomial: height over the plane through `point`
-  std::optional<ElasticSurface> elastic;  ///< for estimates of contact pressure; absent: rigid
+  std::optional<ElasticSurface> elastic;  ///< absent: rigid
 };
 
 enum class ContactState { kAuto, kClosed, kOpen };
@@ -113,6 +114,7 @@ struct ContactDescription {
   std::array<int, 2> surfaces = {-1, -1};
   ContactState state = ContactState::kAuto;
   std::vector<Eigen::Vector3d> start;  ///< first estimates of contact points, ground frame [mm]
+  std::optional<LayerOptions> layer;   ///< the elastic layers of its surfaces carry; absent: rigid
 };
 
 /// A point fixed to a body.

@@ -65,6 +65,12 @@ const char* word(ContactState state) {
                                           : "open";
 }
 
+const char* word(const ContactDescription& contact) {
+  if (!contact.layer) return word(contact.state);
+  return contact.layer->pressure == PressureLaw::kLinear ? "elastic layers, linear"
+                                                         : "elastic layers, logarithmic";
+}
+
 const char* word(const ForceLaw& law) {
   constexpr std::array<const char*, 5> kWords = {"toe-linear", "quadratic", "polynomial", "table",
                                                  "custom"};
@@ -87,6 +93,13 @@ std::string source_of(const Scene& scene, const SurfaceDescription& surface) {
                      patch.offset > 0 ? fmt::format(", moved {:g} mm out", patch.offset) : "");
 }
 
+std::string elastic_of(const SurfaceDescription& surface) {
+  if (!surface.elastic) return "";
+  const ElasticSurface& elastic = *surface.elastic;
+  return fmt::format(", E = {:g} N/mm^2, nu = {:g}{}", elastic.modulus, elastic.poisson,
+                     elastic.layer > 0 ? fmt::format(", layer of {:g} mm", elastic.layer) : "");
+}
+
 void describe_bodies(const Scene& scene, Out out) {
   for (const BodyDescription& body : scene.bodies) {
     fmt::format_to(out, "body       {}: {}{}\n", body.name, body.fixed ? "fixed" : "moving",
@@ -102,13 +115,13 @@ void describe_bodies(const Scene& scene, Out out) {
 
 void describe_contacts(const Scene& scene, Out out) {
   for (const SurfaceDescription& surface : scene.surfaces) {
-    fmt::format_to(out, "surface    {}: {} on {}{}\n", surface.name, word(surface.kind),
-                   body_name(scene, surface.body), source_of(scene, surface));
+    fmt::format_to(out, "surface    {}: {} on {}{}{}\n", surface.name, word(surface.kind),
+                   body_name(scene, surface.body), source_of(scene, surface), elastic_of(surface));
   }
   for (const ContactDescription& contact : scene.contacts) {
     const auto name = [&](int i) { return scene.surfaces[static_cast<std::size_t>(i)].name; };
     fmt::format_to(out, "contact    {}: {} with {}, {}\n", contact.name, name(contact.surfaces[0]),
-                   name(contact.surfaces[1]), word(contact.state));
+                   name(contact.surfaces[1]), word(contact));
   }
 }
 

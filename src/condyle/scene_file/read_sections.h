@@ -27,6 +27,13 @@ void read_simulation(const Section& root, Scene& scene);
 
 // Shared by them:
 
+/// The keys `law` and what belongs to it, of a contact whose surfaces and state are known; `root`
+/// for messages about its surfaces.
+void read_layers(const Section& root,
+                 const Section& section,
+                 const Scene& scene,
+                 ContactDescription& contact);
+
 /// The keys `mesh` and `mesh_units`, where given.
 [[nodiscard]] std::optional<MeshFile> read_mesh_file(const Section& section, const Scene& scene);
 

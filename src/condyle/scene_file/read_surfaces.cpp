@@ -284,7 +284,7 @@ void check_pair(const Section& section,
                            layer_on_a ? a.name : b.name, layer_on_a ? b.name : a.name));
 }
 
-ContactDescription read_contact(const Section& section, const Scene& scene) {
+ContactDescription read_contact(const Section& root, const Section& section, const Scene& scene) {
   static const Choices<ContactState> states = {{"auto", ContactState::kAuto},
                                                {"closed", ContactState::kClosed},
                                                {"open", ContactState::kOpen}};
@@ -316,6 +316,7 @@ ContactDescription read_contact(const Section& section, const Scene& scene) {
     return scene.surfaces[static_cast<std::size_t>(contact.surfaces[i])];
   };
   check_pair(section, surface(0), surface(1), contact.state);
+  read_layers(root, section, scene, contact);
   if (section.has("start"))
     contact.start = section.vectors("start", "points [[x, y, z], ...] in the ground frame");
   for (Eigen::Vector3d& point : contact.start) point *= scene.length_to_mm;
@@ -332,7 +333,7 @@ void read_surfaces(const Section& root, Scene& scene) {
 
 void read_contacts(const Section& root, Scene& scene) {
   for (const Section& section : root.sections("contact"))
-    scene.contacts.push_back(read_contact(section, scene));
+    scene.contacts.push_back(read_contact(root, section, scene));
 }
 
 }  // namespace condyle

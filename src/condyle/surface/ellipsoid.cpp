@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/surface/exact_charts.h"
 #include "condyle/surface/exact_surface_tools.h"
 #include "condyle/surface/exact_surfaces.h"
 
@@ -11,7 +12,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// The surface φ(x) = xᵀ M x = 1 about the centre, M = A diag(1/a²) Aᵀ; M x is normal to it.
-class Ellipsoid final : public Surface {
+class Ellipsoid final : public ExactSurface {
  public:
   Ellipsoid(const Vector3d& center,
             const Matrix3d& axes,
@@ -60,6 +61,9 @@ class Ellipsoid final : public Surface {
   }
   [[nodiscard]] std::vector<Place> samples(double spacing) const override {
     return ellipsoid_samples(center_, axes_, semi_axes_, spacing);
+  }
+  [[nodiscard]] std::vector<SurfaceChart> charts() const override {
+    return ellipsoid_charts(center_, axes_, semi_axes_);
   }
   [[nodiscard]] Extent extent() const override {
     return {center_, semi_axes_.norm() / std::sqrt(3)};

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "condyle/input_error.h"
+#include "condyle/surface/exact_charts.h"
 
 namespace condyle {
 
@@ -210,6 +211,34 @@ std::vector<Place> cylinder_samples(
     }
   }
   return places;
+}
+
+/// q = (tan ξ, tan η, ±1) on a face, s = q/|q| on the unit sphere, c = A diag(a) s.
+std::vector<SurfaceChart> ellipsoid_charts(const Eigen::Vector3d& center,
+                                           const Eigen::Matrix3d& axes,
+                                           const Eigen::Vector3d& semi_axes) {
+  const double length = semi_axes.maxCoeff(), end = std::numbers::pi / 4 * length;
+  const Eigen::Matrix3d stretch = axes * semi_axes.asDiagonal();
+  std::vector<SurfaceChart> faces;
+  for (const int k : {0, 1, 2})
+    for (const int sign : {1, -1}) {
+      const auto at = [=](double u, double v) {
+        const double x = std::tan(u / length), y = std::tan(v / length);
+        Eigen::Vector3d q, q_u = Eigen::Vector3d::Zero(), q_v = Eigen::Vector3d::Zero();
+        q[k] = sign;
+        q[(k + 1) % 3] = x;
+        q[(k + 2) % 3] = y;
+        q_u[(k + 1) % 3] = (1 + x * x) / length;
+        q_v[(k + 2) % 3] = (1 + y * y) / length;
+        const double size = q.norm();
+        const Eigen::Vector3d s = q / size;
+        const Eigen::Vector3d s_u = (q_u - s.dot(q_u) * s) / size,
+                              s_v = (q_v - s.dot(q_v) * s) / size;
+        return SurfaceChart::At{center + stretch * s, (stretch * s_u).cross(stretch * s_v).norm()};
+      };
+      faces.push_back({-end, end, -end, end, at});
+    }
+  return faces;
 }
 
 }  // namespace condyle

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "condyle/input_error.h"
+#include "condyle/surface/exact_charts.h"
 #include "condyle/surface/exact_surface_tools.h"
 
 namespace condyle {
@@ -23,7 +24,7 @@ Matrix3d umbilic(const Vector3d& n, double kappa) {
   return K;
 }
 
-class Plane final : public Surface {
+class Plane final : public ExactSurface {
  public:
   Plane(const Vector3d& point, const Vector3d& normal, double radius)
       : n_(checked_direction(normal, "plane: normal")),
@@ -55,6 +56,13 @@ class Plane final : public Surface {
       places.push_back(point_ + at.x() * x + at.y() * y);
     return places;
   }
+  [[nodiscard]] std::vector<SurfaceChart> charts() const override {
+    if (std::isinf(radius_)) return {};
+    const Vector3d x = n_.unitOrthogonal(), y = n_.cross(x);
+    return {{-radius_, radius_, -radius_, radius_, [=, point = point_](double u, double v) {
+               return SurfaceChart::At{point + u * x + v * y, 1};
+             }}};
+  }
   [[nodiscard]] Extent extent() const override { return {point_, radius_ / std::numbers::sqrt2}; }
   [[nodiscard]] std::unique_ptr<Surface> translated(const Vector3d& d) const override {
     auto copy = std::make_unique<Plane>(*this);
@@ -70,7 +78,7 @@ class Plane final : public Surface {
 
 /// `sign_` is +1 where the solid is inside, so that sign_ times the direction away from the centre
 /// points out of it.
-class Sphere final : public Surface {
+class Sphere final : public ExactSurface {
  public:
   Sphere(const Vector3d& center, double radius, bool solid_inside)
       : center_(center),
@@ -97,6 +105,9 @@ class Sphere final : public Surface {
   [[nodiscard]] std::vector<Place> samples(double spacing) const override {
     return ellipsoid_samples(center_, Matrix3d::Identity(), Vector3d::Constant(radius_), spacing);
   }
+  [[nodiscard]] std::vector<SurfaceChart> charts() const override {
+    return ellipsoid_charts(center_, Matrix3d::Identity(), Vector3d::Constant(radius_));
+  }
   [[nodiscard]] Extent extent() const override { return {center_, radius_}; }
   [[nodiscard]] std::unique_ptr<Surface> translated(const Vector3d& d) const override {
     auto copy = std::make_unique<Sphere>(*this);
@@ -113,7 +124,7 @@ class Sphere final : public Surface {
   double radius_, sign_;
 };
 
-class Cylinder final : public Surface {
+class Cylinder final : public ExactSurface {
  public:
   Cylinder(
       const Vector3d& point, const Vector3d& axis, double radius, bool solid_inside, double length)
@@ -146,6 +157,16 @@ class Cylinder final : public Surface {
     if (std::isinf(length_)) return {};
     return cylinder_samples(point_, axis_, radius_, length_, spacing);
   }
+  [[nodiscard]] std::vector<SurfaceChart> charts() const override {
+    if (std::isinf(length_)) return {};
+    const double end = std::numbers::pi * radius_;
+    const auto at = [*this](double u, double v) {
+      const double angle = u / radius_;
+      const Vector3d away = std::cos(angle) * sideways_ + std::sin(angle) * axis_.cross(sideways_);
+      return SurfaceChart::At{point_ + v * axis_ + radius_ * away, 1};
+    };
+    return {{-end, end, -length_ / 2, length_ / 2, at}};
+  }
   [[nodiscard]] Extent extent() const override {
     return {point_, std::hypot(radius_, length_ / std::sqrt(12))};
   }
@@ -169,7 +190,7 @@ class Cylinder final : public Surface {
   double radius_, sign_, length_;
 };
 
-class Torus final : public Surface {
+class Torus final : public ExactSurface {
  public:
   Torus(const Vector3d& center, const Vector3d& axis, double major, double minor, bool solid_inside)
       : center_(center),
@@ -208,6 +229,18 @@ class Torus final : public Surface {
   }
   [[nodiscard]] std::vector<Place> samples(double spacing) const override {
     return torus_samples(center_, axis_, major_, minor_, spacing);
+  }
+  [[nodiscard]] std::vector<SurfaceChart> charts() const override {
+    const double round = major_ + minor_, pi = std::numbers::pi;
+    const auto at = [*this, round](double u, double v) {
+      const double angle = u / round, tilt = v / minor_;
+      const Vector3d radial =
+          std::cos(angle) * sideways_ + std::sin(angle) * axis_.cross(sideways_);
+      const double from_axis = major_ + minor_ * std::cos(tilt);
+      return SurfaceChart::At{center_ + from_axis * radial + minor_ * std::sin(tilt) * axis_,
+                              from_axis / round};
+    };
+    return {{-pi * round, pi * round, -pi * minor_, pi * minor_, at}};
   }
   [[nodiscard]] Extent extent() const override { return {center_, std::hypot(major_, minor_)}; }
   [[nodiscard]] std::unique_ptr<Surface> translated(const Vector3d& d) const override {

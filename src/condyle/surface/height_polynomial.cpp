@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "condyle/input_error.h"
+#include "condyle/surface/exact_charts.h"
 #include "condyle/surface/exact_surface_tools.h"
 #include "condyle/surface/exact_surfaces.h"
 
@@ -32,7 +33,7 @@ struct Horner {
   }
 };
 
-class HeightPolynomial final : public Surface {
+class HeightPolynomial final : public ExactSurface {
  public:
   HeightPolynomial(const Vector3d& origin,
                    const Matrix3d& axes,
@@ -94,6 +95,14 @@ class HeightPolynomial final : public Surface {
     for (const Eigen::Vector2d& at : disc_samples(radius_, spacing / steepness(spacing)))
       places.push_back(origin_ + axes_ * Vector3d(at.x(), at.y(), height(at.x(), at.y()).h));
     return places;
+  }
+  [[nodiscard]] std::vector<SurfaceChart> charts() const override {
+    if (std::isinf(radius_)) return {};
+    return {{-radius_, radius_, -radius_, radius_, [*this](double u, double v) {
+               const Height z = height(u, v);
+               return SurfaceChart::At{origin_ + axes_ * Vector3d(u, v, z.h),
+                                       std::hypot(1.0, z.h_x, z.h_y)};
+             }}};
   }
   [[nodiscard]] Extent extent() const override {
     return {seed(origin_), radius_ / std::numbers::sqrt2};
