@@ -46,6 +46,29 @@ void add_trace(const PoseTrace& trace, Json& row) {
   row["residuals"] = std::vector<double>(trace.residuals.begin(), trace.residuals.end());
 }
 
+/// Of contacts that carry by elastic layers; null where there are none.
+Json layers_of(const Scene& scene, const PoseResult& pose) {
+  Json layers;
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    if (!scene.contacts[i].layer || !pose.solved()) continue;
+    const ContactResult& contact = pose.contacts.at(i);
+    Json& row = layers[scene.contacts[i].name];
+    row["force"] = contact.force;
+    if (!contact.layer) continue;
+    const LayerResult& layer = *contact.layer;
+    const Eigen::Vector3d& center = contact.resultant_ground;
+    row["area_mm2"] = layer.area;
+    row["pressure_mean"] = layer.mean_pressure;
+    row["pressure_max"] = layer.peak_pressure;
+    row["depth_mm"] = layer.deepest;
+    row["center_of_pressure"] = std::vector<double>(center.begin(), center.end());
+    row["lost_force"] = layer.lost;
+    row["lateral_ratio"] = layer.lateral;
+    row["error"] = layer.error;
+  }
+  return layers;
+}
+
 Json poses_of(const Run& run, const SweptQuantity& swept, const SweepResult& sweep) {
   Json poses = Json::array();
   for (const PoseResult& pose : sweep.poses) {
@@ -59,6 +82,8 @@ Json poses_of(const Run& run, const SweptQuantity& swept, const SweepResult& swe
                 {"event_seconds", pose.event_seconds}};
     add_trace(pose.trace, row);
     if (run.scene.joint && pose.solved()) row["joint"] = joint_of(pose);
+    if (Json layers = layers_of(run.scene, pose); !layers.is_null())
+      row["layers"] = std::move(layers);
     poses.push_back(std::move(row));
   }
   return poses;

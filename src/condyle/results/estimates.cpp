@@ -36,7 +36,9 @@ Shape with_width(Shape shape, std::size_t width) {
   return shape;
 }
 
+/// Of rigid points: a layer knows its pressures itself.
 bool is_elastic(const Scene& scene, std::size_t contact) {
+  if (scene.contacts.at(contact).layer) return false;
   const auto& surfaces = scene.contacts.at(contact).surfaces;
   return std::any_of(surfaces.begin(), surfaces.end(), [&](int s) {
     return scene.surfaces.at(static_cast<std::size_t>(s)).elastic.has_value();

@@ -8,6 +8,7 @@
 #include "condyle/results/comparison_groups.h"
 #include "condyle/results/estimates.h"
 #include "condyle/results/hdf5_file.h"
+#include "condyle/results/layer_group.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/run_view.h"
 #include "condyle/results/simulation_group.h"
@@ -83,7 +84,7 @@ void read_pose(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
   read_joint_stiffness(joint, poses);
 }
 
-void read_contact(const Hdf5Group& group, std::size_t index, Poses& poses) {
+void read_contact(const Hdf5Group& group, const Scene& scene, std::size_t index, Poses& poses) {
   const std::size_t n = poses.size();
   take(group, "state", {n}, poses,
        [&](PoseResult& p, const double* row) { p.contacts[index].closed = *row == 1; });
@@ -112,6 +113,7 @@ void read_contact(const Hdf5Group& group, std::size_t index, Poses& poses) {
     });
   }
   read_contact_estimates(group, points, poses, index);
+  read_layers(group, scene, poses, index);
 }
 
 void read_elements(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
@@ -123,7 +125,7 @@ void read_elements(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
   }
   const Hdf5Group contacts = sweep.open("contacts"), ligaments = sweep.open("ligaments");
   for (std::size_t i = 0; i < scene.contacts.size(); ++i)
-    read_contact(contacts.open(scene.contacts[i].name), i, poses);
+    read_contact(contacts.open(scene.contacts[i].name), scene, i, poses);
   for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
     const Hdf5Group group = ligaments.open(scene.ligaments[i].name);
     for (const auto& column : kLigamentColumns) {

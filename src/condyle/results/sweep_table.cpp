@@ -17,7 +17,7 @@ double largest_gap(const SweepResult& sweep) {
   for (const PoseResult& pose : sweep.poses) {
     if (!pose.converged()) continue;
     for (const ContactResult& contact : pose.contacts) {
-      if (!contact.closed) continue;
+      if (!contact.closed || contact.layer) continue;  // layers overlap
       for (const ContactPointResult& point : contact.points)
         largest = std::max(largest, std::abs(point.gap));
     }

@@ -8,6 +8,7 @@
 #include "condyle/results/comparison_groups.h"
 #include "condyle/results/estimates.h"
 #include "condyle/results/hdf5_file.h"
+#include "condyle/results/layer_group.h"
 #include "condyle/results/output_file.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/run_view.h"
@@ -183,6 +184,7 @@ void write_contact(const Hdf5Group& group,
   const Hdf5Group points = group.create("points");
   write_points(points, poses, index);
   write_contact_estimates(group, points, scene, poses, index);
+  write_layers(group, scene, poses, index);
 }
 
 void write_ligament(const Hdf5Group& group, const Poses& poses, std::size_t index) {
