@@ -70,9 +70,19 @@ void add_loads(const Subject& subject, const PoseResult& pose, Sums& sums) {
   }
 }
 
+/// Of a layer the force at its centre of pressure, and the moment that is left about it.
+void add_layer(const PoseResult& pose, const ContactResult& contact, Sums& sums) {
+  const Vector3d &at = contact.resultant_ground, &force = contact.layer->force;
+  const Vector3d twist = contact.layer->moment - (at - pose.X_BA.p).cross(force);
+  sums.pull(at, force);
+  sums.twist(twist, twist.norm());
+}
+
 void add_contacts(const PoseResult& pose, Sums& sums) {
   for (const ContactResult& contact : pose.contacts)
-    if (contact.closed)
+    if (contact.layer)
+      add_layer(pose, contact, sums);
+    else if (contact.closed)
       for (const ContactPointResult& point : contact.points)
         sums.pull(point.point_ground, point.force * point.normal_ground);
 }
@@ -158,6 +168,7 @@ void check_contacts(const Subject& subject, const PoseResult& pose, Ledger& ledg
   if (!(scale > 0)) scale = 1;
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const ContactResult& contact = pose.contacts[i];
+    if (scene.contacts[i].layer) continue;  // layer_checks.h
     const std::string element = fmt::format("contact \"{}\"", scene.contacts[i].name);
     const PairOfSides pair = pair_of(subject, i);
     double sum = 0;

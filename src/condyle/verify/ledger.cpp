@@ -34,6 +34,11 @@ constexpr std::array<Kind, kCheckCount> kKinds = {{
     {"overlap of the surfaces", "mm", 1e-6},
     {"meshes inside each other", "mm", 10},
     {"energy under small pushes", "N/mm", 1e-3},
+    {"depths of layers", "mm", 1e-7},
+    {"pressures of layers", "relative", 1e-8},
+    {"sums of pressures", "relative", 1e-8},
+    {"force of layers on another grid", "relative", 0.013},
+    {"depth that layers bear", "mm", 3},
 }};
 
 }  // namespace

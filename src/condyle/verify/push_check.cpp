@@ -11,6 +11,7 @@
 
 #include "condyle/verify/coordinates.h"
 #include "condyle/verify/laws.h"
+#include "condyle/verify/layer_checks.h"
 
 namespace condyle::verification {
 namespace {
@@ -64,7 +65,7 @@ std::vector<PushCheck::Constraint> PushCheck::constraints(const PoseResult& pose
   const Scene& scene = subject_.run.scene;
   std::vector<Constraint> list;
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    if (!pose.contacts[i].closed) continue;
+    if (!pose.contacts[i].closed || pose.contacts[i].layer) continue;
     for (const ContactPointResult& point : pose.contacts[i].points) {
       const Nearest now = nearest(pair_of(subject_, i), X, point.point_moving);
       Constraint c{now.gap, {}};
@@ -81,7 +82,7 @@ std::vector<PushCheck::Constraint> PushCheck::constraints(const PoseResult& pose
   return list;
 }
 
-/// Energy that ligaments gain, less the work of loads, on a short way [N mm].
+/// Energy that ligaments and layers gain, less the work of loads, on a short way [N mm].
 double PushCheck::work(const PoseResult& pose,
                        const RigidTransform& from,
                        const RigidTransform& to) const {
@@ -93,6 +94,7 @@ double PushCheck::work(const PoseResult& pose,
     };
     sum += work_between(ligament.law, length(from), length(to));
   }
+  sum += layer_energy(subject_, pose, to) - layer_energy(subject_, pose, from);
   const Eigen::AngleAxisd turned(Eigen::Matrix3d(to.R * from.R.transpose()));
   const Vector3d theta = turned.angle() * turned.axis();
   const Eigen::Matrix3d half = turn(theta / 2) * from.R;

@@ -9,25 +9,30 @@
 namespace condyle {
 
 enum class Check {
-  kPose,       ///< finite, and R a rotation
-  kJoint,      ///< joint coordinates follow from the pose
-  kSlack,      ///< slack lengths follow from reference strains and the start pose
-  kLength,     ///< of ligaments, from insertions and pose
-  kStrain,     ///< from length and slack length
-  kLaw,        ///< forces of ligaments, from the lengths
-  kCondition,  ///< what is prescribed is met
-  kOnSurface,  ///< points of contact lie on both surfaces
-  kTogether,   ///< the point of the one body is the point of the other; stored gaps are right
-  kNormal,     ///< normals are those of both surfaces, opposite to each other
-  kPush,       ///< contact forces push; open contacts carry nothing
-  kKnown,      ///< points of contact lie on the known part of both surfaces
-  kForces,     ///< sum of forces, relative to the sum of their magnitudes
-  kMoments,    ///< sum of moments about the middle of what acts, likewise
-  kGap,        ///< overlap anywhere on the known parts
-  kMesh,       ///< meshes passed through each other
-  kStability   ///< energy under small pushes
+  kPose,        ///< finite, and R a rotation
+  kJoint,       ///< joint coordinates follow from the pose
+  kSlack,       ///< slack lengths follow from reference strains and the start pose
+  kLength,      ///< of ligaments, from insertions and pose
+  kStrain,      ///< from length and slack length
+  kLaw,         ///< forces of ligaments, from the lengths
+  kCondition,   ///< what is prescribed is met
+  kOnSurface,   ///< points of contact lie on both surfaces
+  kTogether,    ///< the point of the one body is the point of the other; stored gaps are right
+  kNormal,      ///< normals are those of both surfaces, opposite to each other
+  kPush,        ///< contact forces push; open contacts carry nothing
+  kKnown,       ///< points of contact lie on the known part of both surfaces
+  kForces,      ///< sum of forces, relative to the sum of their magnitudes
+  kMoments,     ///< sum of moments about the middle of what acts, likewise
+  kGap,         ///< overlap anywhere on the known parts
+  kMesh,        ///< meshes passed through each other
+  kStability,   ///< energy under small pushes
+  kDepth,       ///< stored depths of layers, from their points and the other surface
+  kPressure,    ///< stored pressures, from the depths
+  kLayerSums,   ///< force and moment of a layer, from its pressures
+  kLayerForce,  ///< force of a layer on a grid of the verifier's own
+  kLayerDepth   ///< depth that layers bear
 };
-inline constexpr int kCheckCount = 17;
+inline constexpr int kCheckCount = 22;
 
 /// One kind of check over the whole run.
 struct CheckSummary {

@@ -8,6 +8,7 @@
 #include "condyle/input_error.h"
 #include "condyle/results/run_view.h"
 #include "condyle/verify/gap_checks.h"
+#include "condyle/verify/layer_checks.h"
 #include "condyle/verify/ledger.h"
 #include "condyle/verify/mesh_checks.h"
 #include "condyle/verify/pose_checks.h"
@@ -51,6 +52,7 @@ void check_pose(const Subject& subject,
   check_contacts(subject, pose, ledger);
   if (!subject.moving()) check_balance(subject, pose, ledger);
   gaps.check(pose, ledger);
+  check_layers(subject, pose, ledger);
   if (meshes != nullptr) meshes->check(pose, ledger);
   if (pushes != nullptr) pushes->check(pose, ledger);
 }
