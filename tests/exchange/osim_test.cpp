@@ -53,6 +53,21 @@ TEST(OsimImport, FindsTheLigamentsOfTheScene) {
   }
 }
 
+// JAM's contact is an elastic foundation, and so is that of the scene.
+TEST(OsimImport, TakesTheLayersOfTheModel) {
+  const Scene scene = parse_scene(imported(kModel, kScene).text, kScene);
+  for (const SurfaceDescription& surface : scene.surfaces) {
+    ASSERT_TRUE(surface.elastic);
+    EXPECT_DOUBLE_EQ(surface.elastic->modulus, 10);
+    EXPECT_DOUBLE_EQ(surface.elastic->poisson, 0.45);
+    EXPECT_DOUBLE_EQ(surface.elastic->layer, 3);
+  }
+  for (const ContactDescription& contact : scene.contacts) {
+    ASSERT_TRUE(contact.layer);
+    EXPECT_EQ(contact.layer->pressure, PressureLaw::kLinear);
+  }
+}
+
 TEST(OsimImport, SweepsLikeTheSceneItStandsFor) {
   Scene scene = parse_scene(imported(kModel, kScene).text, kScene);
   Scene phantom = read_scene(CONDYLE_SOURCE_DIR "/data/phantom/knee.toml");
@@ -61,7 +76,11 @@ TEST(OsimImport, SweepsLikeTheSceneItStandsFor) {
   for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
     ASSERT_EQ(scene.surfaces[i].name, phantom.surfaces[i].name);
     scene.surfaces[i].patch.smoothing = phantom.surfaces[i].patch.smoothing;
+    phantom.surfaces[i].elastic = scene.surfaces[i].elastic;
   }
+  // The scene's contacts are rigid, the model's are layers.
+  for (std::size_t k = 0; k < scene.contacts.size(); ++k)
+    phantom.contacts[k].layer = scene.contacts[k].layer;
   const SweepResult ours = sweep(scene, fit_surfaces(scene));
   const SweepResult theirs = sweep(phantom, fit_surfaces(phantom));
   ASSERT_EQ(theirs.count_converged(), 4);

@@ -13,6 +13,7 @@
 #include "condyle/exchange/csv_run.h"
 #include "condyle/exchange/glb_run.h"
 #include "condyle/exchange/opensim_run.h"
+#include "condyle/exchange/pressure_export.h"
 #include "condyle/exchange/stl_run.h"
 #include "condyle/exchange/vtk_run.h"
 #include "condyle/input_error.h"
@@ -106,6 +107,8 @@ class Exporter {
     for (const std::string& format : formats) {
       if (format == "glb") files.push_back({stem + ".glb", bytes(".glb")});
       if (format == "csv") files.push_back({stem + ".csv", bytes(".csv")});
+      if (format == "csv" && has_layers(run_))
+        files.push_back({stem + "_pressures.csv", csv_of_pressures(run_, shown_)});
       if (format == "opensim" && run_.scene.joint) files.push_back({stem + ".mot", bytes(".mot")});
       if (format == "opensim") files.push_back({stem + ".sto", bytes(".sto")});
       if (format == "vtk") append(files, vtk_of_poses(run_, shown_, shapes(), stem));

@@ -151,7 +151,7 @@ class KneeFinder {
       std::optional<Compartment> compartment = compartment_of(contact.name);
       if (!compartment) compartment = compartment_of(b->name);
       if (!compartment) compartment = compartment_of(a->name);
-      knee_.contacts.push_back({compartment, {*a, {}}, {*b, {}}});
+      knee_.contacts.push_back({compartment, {*a, {}}, {*b, {}}, contact.logarithmic});
     }
     check_contacts();
     knee_.femur.name = body_of(knee_.contacts[0].femur.mesh);

@@ -34,6 +34,7 @@ struct OsimBody {
 struct OsimPair {
   std::optional<Compartment> compartment;
   OsimPlacedMesh femur, tibia;
+  bool logarithmic = false;  ///< pressure law of their layers
 };
 
 struct OsimKnee {

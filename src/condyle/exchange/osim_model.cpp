@@ -246,7 +246,8 @@ class OsimReader {
       read_ligament(node);
     } else if (type == "Smith2018ArticularContactForce") {
       out_.contacts.push_back({node.attribute("name").value(), socket(node, "target_mesh"),
-                               socket(node, "casting_mesh")});
+                               socket(node, "casting_mesh"),
+                               text(node, "elastic_foundation_formulation") == "nonlinear"});
     } else {
       ++out_.other_forces[type];
     }

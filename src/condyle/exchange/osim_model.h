@@ -44,6 +44,7 @@ struct OsimMesh {
 /// Two contact meshes that may touch.
 struct OsimContact {
   std::string name, target, casting;
+  bool logarithmic = false;  ///< elastic_foundation_formulation is "nonlinear"
 };
 
 struct OsimPathPoint {

@@ -8,6 +8,7 @@
 #include <map>
 #include <system_error>
 
+#include "condyle/contact/layer_options.h"
 #include "condyle/exchange/stl_run.h"
 #include "condyle/input_error.h"
 #include "condyle/math/rotation.h"
@@ -204,8 +205,25 @@ class SceneText {
     add_mesh(placed);
     if (!(mesh.modulus > 0)) return;
     line("modulus = {}", number(mesh.modulus));
-    line("poisson = {}", number(std::min(mesh.poisson, 0.499)));
+    const double most = mesh.layer > 0 ? kGreatestLayerPoisson : 0.499;
+    line("poisson = {}", number(std::min(mesh.poisson, most)));
     if (mesh.layer > 0) line("layer = {}", number(mesh.layer));
+    if (mesh.poisson > most)
+      out_.notes.push_back(
+          fmt::format("poissons_ratio = {:g} of {}: taken as {:g}, since nearer to "
+                      "0.5 a confined layer is a rigid one",
+                      mesh.poisson, mesh.name, most));
+  }
+
+  static bool has_layer(const OsimMesh& mesh) { return mesh.modulus > 0 && mesh.layer > 0; }
+
+  /// The model's own law, an elastic foundation, where both layers that it names are known.
+  void add_law(const OsimPair& pair) {
+    const OsimMesh &a = pair.femur.mesh, &b = pair.tibia.mesh;
+    const bool half = (a.modulus > 0 && !has_layer(a)) || (b.modulus > 0 && !has_layer(b));
+    if (half || (!has_layer(a) && !has_layer(b))) return;
+    line("law = \"layer\"");
+    if (pair.logarithmic) line("pressure = \"logarithmic\"");
   }
 
   void add_contacts() {
@@ -216,6 +234,7 @@ class SceneText {
         add_surface(name, "condyle", pair.femur);
         add_surface(name, "plateau", pair.tibia);
         line("\n[[contact]]\nname = \"{0}\"\nsurfaces = [\"{0} condyle\", \"{0} plateau\"]", name);
+        add_law(pair);
       }
     }
   }

@@ -88,6 +88,26 @@ class Columns {
     });
     add("contact", name, "beyond_edge", "mm",
         [&](const PoseResult& p) { return beyond_edge(p.contacts[i]); });
+    if (scene_.contacts[i].layer) add_layer(i);
+  }
+
+  /// NaN, and so no row, where nothing is pressed.
+  void add_layer(std::size_t i) {
+    const auto add_number = [&](const char* component, const char* unit,
+                                double LayerResult::*member) {
+      add("contact", scene_.contacts[i].name, component, unit, [&, member](const PoseResult& p) {
+        const std::optional<LayerResult>& layer = p.contacts[i].layer;
+        return layer ? (*layer).*member : std::numeric_limits<double>::quiet_NaN();
+      });
+    };
+    add_number("area", "mm^2", &LayerResult::area);
+    add_number("pressure_mean", "N/mm^2", &LayerResult::mean_pressure);
+    add_number("pressure_max", "N/mm^2", &LayerResult::peak_pressure);
+    add_number("depth", "mm", &LayerResult::deepest);
+    add_number("energy", "N mm", &LayerResult::energy);
+    add_number("lost_force", "1", &LayerResult::lost);
+    add_number("lateral_ratio", "1", &LayerResult::lateral);
+    add_number("error", "1", &LayerResult::error);
   }
 
   void add_ligament(std::size_t i) {

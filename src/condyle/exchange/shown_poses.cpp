@@ -85,6 +85,7 @@ Vector3d insertion(const Scene& scene, const PoseResult& pose, const Attachment&
 Vector3d force_on_moving_body(const ContactResult& contact) {
   Vector3d sum = Vector3d::Zero();
   if (!contact.closed) return sum;
+  if (contact.layer) return contact.layer->force;
   for (const ContactPointResult& point : contact.points) sum += point.force * point.normal_ground;
   return sum;
 }

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "condyle/exchange/pressure_export.h"
 #include "condyle/exchange/stl_run.h"
 #include "condyle/exchange/vtk_file.h"
 
@@ -48,6 +49,7 @@ class VtkRun {
     add_shapes(shapes, false, "surfaces");
     if (!run_.scene.ligaments.empty()) add_each("ligaments", ligaments_vtp);
     if (!run_.scene.contacts.empty()) add_each("contacts", contacts_vtp);
+    if (has_layers(run_)) add_each("pressures", pressures_vtp);
     return std::move(files_);
   }
 
@@ -120,13 +122,26 @@ std::string ligaments_vtp(const Run& run, const PoseResult& pose) {
   return vtp_bytes(data);
 }
 
+namespace {
+
+/// Where a contact's forces act: its points, or the centre of pressure of a layer.
+std::vector<ContactPointResult> acting_points(const ContactResult& contact) {
+  if (!contact.layer || contact.points.empty()) return contact.points;
+  ContactPointResult at = contact.points.front();
+  at.point_ground = contact.resultant_ground;
+  at.normal_ground = contact.layer->force.normalized();
+  return {at};
+}
+
+}  // namespace
+
 std::string contacts_vtp(const Run& run, const PoseResult& pose) {
   VtkPolyData data;
   VtkArray force{"force_N", 3, {}}, size{"force_size_N", 1, {}}, normal{"normal", 3, {}},
       beyond{"beyond_edge_mm", 1, {}};
   for (std::size_t i = 0; i < run.scene.contacts.size(); ++i) {
     if (!pose.contacts[i].closed) continue;
-    for (const ContactPointResult& point : pose.contacts[i].points) {
+    for (const ContactPointResult& point : acting_points(pose.contacts[i])) {
       data.points.push_back(point.point_ground);
       data.cell_names.push_back(run.scene.contacts[i].name);
       for (int k = 0; k < 3; ++k) {

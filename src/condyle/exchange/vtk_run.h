@@ -13,7 +13,8 @@
 
 namespace condyle {
 
-/// STEM_bones.pvd, STEM_surfaces.pvd, STEM_ligaments.pvd, STEM_contacts.pvd, and what they name in
+/// STEM_bones.pvd, STEM_surfaces.pvd, STEM_ligaments.pvd, STEM_contacts.pvd, of elastic layers
+/// STEM_pressures.pvd, and what they name in
 /// STEM_vtk/. The time of a step is the swept value where that grows all the way, else the time of
 /// shown_poses.
 [[nodiscard]] std::vector<ExportFile> vtk_of_poses(const Run& run,
