@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "condyle/app/commands.h"
@@ -29,6 +30,11 @@ struct CompareCommand {
   CompareOptions options;
 };
 
+bool has_layers(const Scene& scene) {
+  return std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                     [](const ContactDescription& contact) { return contact.layer.has_value(); });
+}
+
 int run_compare(const CompareCommand& command) {
   const Talk& talk = command.talk;
   CommandClock clock;
@@ -51,6 +57,8 @@ int run_compare(const CompareCommand& command) {
               [&](int done, int total) { progress.at(done, total); }));
   run.study = comparison;
   progress.clear();
+  if (has_layers(scene))
+    say(talk, "the reference and the steps to it have rigid contacts, ours elastic layers\n");
   for (const std::string& line : summary_lines(scene, surfaces, ours, *comparison))
     say(talk, "{}\n", line);
   write_run(command.output, run);

@@ -40,6 +40,12 @@ SweepResult plain_sweep(const Scene& scene, const std::vector<FittedSurface>& su
   return sweep(scene, surfaces, options);
 }
 
+/// Wismans' contacts are rigid points, and so are those of the steps that lead to his model.
+Scene with_rigid_contacts(Scene scene) {
+  for (ContactDescription& contact : scene.contacts) contact.layer.reset();
+  return scene;
+}
+
 }  // namespace
 
 const char* name(Variant variant) { return kVariantNames[static_cast<std::size_t>(variant)]; }
@@ -74,7 +80,8 @@ Comparison compare(const Scene& scene,
   Comparison result;
   result.options = options;
   result.heights = fit_heights(scene, surfaces, options.degree);
-  const Scene quadratic = with_quadratic_springs(scene, options.strain);
+  const Scene rigid = with_rigid_contacts(scene);
+  const Scene quadratic = with_quadratic_springs(rigid, options.strain);
   for (const LigamentDescription& ligament : quadratic.ligaments)
     result.springs.push_back(ligament.law);
   const WismansModel model = build_wismans_model(quadratic, result.heights);
@@ -84,9 +91,9 @@ Comparison compare(const Scene& scene,
   const std::array<SweepResult, kVariantCount> sweeps = {
       ours,
       result.reference,
-      counted(plain_sweep(scene, polynomials)),
+      counted(plain_sweep(rigid, polynomials)),
       counted(plain_sweep(quadratic, surfaces)),
-      counted(plain_sweep(with_closed_contacts(scene), surfaces)),
+      counted(plain_sweep(with_closed_contacts(rigid), surfaces)),
       counted(sweep_one_contact_each(quadratic, polynomials, result.reference))};
   for (int v = 0; v < kVariantCount; ++v) result.converged[v] = sweeps[v].count_converged();
   for (const Quantity& quantity : compared_quantities(scene)) {
