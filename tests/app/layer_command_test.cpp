@@ -55,7 +55,7 @@ constexpr const char* kBall30 = "kind = \"sphere\"\ncenter = [0, 0, 0]\nradius =
 
 class LayerCommand : public test::CommandLine {
  protected:
-  [[nodiscard]] Run swept(const std::string& scene, int code = 0) const {
+  [[nodiscard]] condyle::Run swept(const std::string& scene, int code = 0) const {
     write("layer.toml", scene);
     const test::Outcome outcome = run("sweep layer.toml -o layer.h5");
     EXPECT_EQ(outcome.code, code) << outcome.err << outcome.out;
@@ -64,8 +64,8 @@ class LayerCommand : public test::CommandLine {
 };
 
 TEST_F(LayerCommand, ABallOnAPlaneCarriesTheMeanOfBothSides) {
-  const Run run = swept(pressed_scene(kPlane, kBall30, 30, {0.5}));
-  const PoseResult& pose = run.sweep.poses.at(0);
+  const condyle::Run result = swept(pressed_scene(kPlane, kBall30, 30, {0.5}));
+  const PoseResult& pose = result.sweep.poses.at(0);
   ASSERT_TRUE(pose.converged()) << pose.reason;
   const ContactResult& contact = pose.contacts[0];
   ASSERT_TRUE(contact.closed && contact.layer);
@@ -106,26 +106,26 @@ TEST_F(LayerCommand, ClosedFormsOfOtherShapes) {
       {kEndlessPlane, paraboloid, 0, 0.5, 122.4612659},
   };
   for (const Case& c : cases) {
-    const Run run = swept(pressed_scene(c.below, c.above, c.height, {c.depth}));
-    ASSERT_TRUE(run.sweep.poses[0].converged()) << c.above << run.sweep.poses[0].reason;
-    EXPECT_NEAR(run.sweep.poses[0].contacts[0].force, c.force, 5e-4 * c.force) << c.above;
+    const condyle::Run result = swept(pressed_scene(c.below, c.above, c.height, {c.depth}));
+    ASSERT_TRUE(result.sweep.poses[0].converged()) << c.above << result.sweep.poses[0].reason;
+    EXPECT_NEAR(result.sweep.poses[0].contacts[0].force, c.force, 5e-4 * c.force) << c.above;
   }
 }
 
 TEST_F(LayerCommand, TheLogarithmicLawStiffens) {
-  const Run run = swept(
+  const condyle::Run result = swept(
       pressed_scene(kEndlessPlane, kBall30, 30, {0.5, 1.5, 3}, "pressure = \"logarithmic\"\n"));
   const std::vector<double> forces = {153.2739889, 1468.794715, 6581.837915};
   for (std::size_t i = 0; i < forces.size(); ++i)
-    EXPECT_NEAR(run.sweep.poses[i].contacts[0].force, forces[i], 1e-3 * forces[i]);
+    EXPECT_NEAR(result.sweep.poses[i].contacts[0].force, forces[i], 1e-3 * forces[i]);
 }
 
 TEST_F(LayerCommand, TheFieldAddsUpToTheForceAndReadsBack) {
-  const Run run = swept(pressed_scene(kPlane, kBall30, 30, {-1, 0.3, 0.6}));
-  EXPECT_FALSE(run.sweep.poses[0].contacts[0].closed);
-  EXPECT_NEAR(run.sweep.poses[0].contacts[0].points.at(0).gap, 1, 1e-9);
+  const condyle::Run result = swept(pressed_scene(kPlane, kBall30, 30, {-1, 0.3, 0.6}));
+  EXPECT_FALSE(result.sweep.poses[0].contacts[0].closed);
+  EXPECT_NEAR(result.sweep.poses[0].contacts[0].points.at(0).gap, 1, 1e-9);
   for (const std::size_t i : {1, 2}) {
-    const ContactResult& contact = run.sweep.poses[i].contacts[0];
+    const ContactResult& contact = result.sweep.poses[i].contacts[0];
     double force = 0, area = 0;
     for (const PressurePoint& p : contact.pressures) {
       force += 0.5 * p.pressure * p.area;
@@ -138,26 +138,26 @@ TEST_F(LayerCommand, TheFieldAddsUpToTheForceAndReadsBack) {
     EXPECT_NEAR(area, contact.layer->area, 1e-9 * area);
     EXPECT_NEAR(force, contact.layer->mean_pressure * contact.layer->area, 1e-9 * force);
   }
-  ASSERT_EQ(run.sweep.events.size(), 1U);
-  EXPECT_EQ(run.sweep.events[0].kind, EventKind::kClosing);
-  EXPECT_NEAR(run.sweep.events[0].value, 30, 1e-3);
+  ASSERT_EQ(result.sweep.events.size(), 1U);
+  EXPECT_EQ(result.sweep.events[0].kind, EventKind::kClosing);
+  EXPECT_NEAR(result.sweep.events[0].value, 30, 1e-3);
 }
 
 TEST_F(LayerCommand, PressedBeyondWhatItBearsIsAStatusWithThePlace) {
-  const Run run = swept(pressed_scene(kEndlessPlane, kBall30, 30, {1, 3.5}), 2);
-  EXPECT_TRUE(run.sweep.poses[0].converged());
-  EXPECT_EQ(run.sweep.poses[1].status, PoseStatus::kOverlap);
-  EXPECT_EQ(run.sweep.poses[1].reason.substr(0, 42),
-            "contact \"pad\" is pressed 3.50 mm deep at [0");
+  const condyle::Run result = swept(pressed_scene(kEndlessPlane, kBall30, 30, {1, 3.5}), 2);
+  EXPECT_TRUE(result.sweep.poses[0].converged());
+  EXPECT_EQ(result.sweep.poses[1].status, PoseStatus::kOverlap);
+  EXPECT_EQ(result.sweep.poses[1].reason.substr(0, 42),
+            "contact \"pad\" is pressed 3.50 mm deep at [");
 }
 
 TEST_F(LayerCommand, ResumesWithTheSameNumbers) {
   const std::string scene = pressed_scene(kPlane, kBall30, 30, {0.2, 0.4, 0.6});
-  const Run first = swept(scene);
+  const condyle::Run first = swept(scene);
   const test::Outcome outcome = run("sweep layer.toml -o layer.h5 --resume");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("3 poses taken over, 0 computed"), std::string::npos) << outcome.out;
-  const Run again = read_run(at("layer.h5"));
+  const condyle::Run again = read_run(at("layer.h5"));
   for (std::size_t i = 0; i < 3; ++i) {
     const ContactResult &a = first.sweep.poses[i].contacts[0],
                         &b = again.sweep.poses[i].contacts[0];
