@@ -29,13 +29,14 @@ int most_pulling(const Linearization& at) {
   return worst;
 }
 
-/// Has Newton led a contact to a place where the solids interpenetrate beside it?
-bool lies_off_minimum(const Linearization& at) {
+/// The contact that Newton has led to a place where the solids interpenetrate beside it; -1 where
+/// none is.
+int off_minimum(const Linearization& at) {
   for (std::size_t k = 0; k < at.contacts().size(); ++k) {
     const bool automatic = at.pair(k).mode == ContactMode::kAuto;
-    if (automatic && at.contacts()[k].relative_curvature[0] < -kFlat) return true;
+    if (automatic && at.contacts()[k].relative_curvature[0] < -kFlat) return static_cast<int>(k);
   }
-  return false;
+  return -1;
 }
 
 /// Is a minimum of the gap one of the state's contacts, but for what Newton leaves?
@@ -68,7 +69,8 @@ struct Overlaps {
 }  // namespace
 
 void ContactChanges::apply(EquilibriumState& state) const {
-  if (opens >= 0) state.contacts.erase(state.contacts.begin() + opens);
+  const int leaves = opens >= 0 ? opens : gives_way;
+  if (leaves >= 0) state.contacts.erase(state.contacts.begin() + leaves);
   state.contacts.insert(state.contacts.end(), closes.begin(), closes.end());
 }
 
@@ -86,9 +88,20 @@ const ContactChanges& ContactRules::changes(const Linearization& at) {
   changes_.deepest = 0;
   changes_.rims = changes_.too_many = false;
   changes_.searches = 0;
-  changes_.off_minimum = lies_off_minimum(at);
+  const int off = off_minimum(at);
+  changes_.off_minimum = off >= 0;
+  changes_.gives_way = -1;
   changes_.opens = most_pulling(at);
-  if (changes_.opens < 0) find_overlaps(at);
+  if (changes_.opens >= 0) return changes_;
+  find_overlaps(at);
+  // A point over which the bodies would rock: what it splits into takes its place.
+  const bool splits =
+      off >= 0 &&
+      std::any_of(changes_.closes.begin(), changes_.closes.end(),
+                  [&](const ClosedContact& contact) {
+                    return contact.pair == at.state.contacts[static_cast<std::size_t>(off)].pair;
+                  });
+  if (splits) changes_.gives_way = off;
   return changes_;
 }
 

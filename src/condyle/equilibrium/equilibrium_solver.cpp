@@ -234,7 +234,7 @@ bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
     }
     if (found.rims) note_rim(state, found, attempt);
     found.apply(state);
-    attempt.trace.openings += found.opens >= 0 ? 1 : 0;
+    attempt.trace.openings += found.opens >= 0 || found.gives_way >= 0 ? 1 : 0;
     attempt.trace.closings += static_cast<int>(found.closes.size());
   }
   return false;
