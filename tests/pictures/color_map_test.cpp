@@ -22,6 +22,13 @@ TEST(ColorMap, GetsLighterAllTheWaySoThatItReadsInGrey) {
   }
 }
 
+TEST(ColorMap, OfPressureGetsDarkerAllTheWay) {
+  for (int i = 0; i < 50; ++i)
+    EXPECT_GT(lightness(map_color(ColorMap::kPressure, i / 50.0)),
+              lightness(map_color(ColorMap::kPressure, (i + 1) / 50.0)))
+        << i;
+}
+
 TEST(ColorMap, OfBothSignsIsLightestInTheMiddleAndBlueBelow) {
   for (int i = 0; i < 25; ++i) {
     EXPECT_LT(lightness(map_color(ColorMap::kDiverging, i / 50.0)),

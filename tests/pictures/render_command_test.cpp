@@ -58,6 +58,8 @@ TEST_F(PictureCommands, ASinglePictureMayGoIntoAFile) {
 
 TEST_F(PictureCommands, SayWhatIsWrong) {
   expect_refusal(run("render run.h5 -o out --hertz"), "holds no estimates of contact pressure");
+  expect_refusal(run("render run.h5 -o out --pressure"), "holds no pressures");
+  expect_refusal(run("render run.h5 -o out --pressure --proximity"), "--proximity");
   expect_refusal(run("render run.h5 -o out --view front"), "condyles, exploded");
   expect_refusal(run("render run.h5 -o out --strip --movie"), "--strip");
   expect_refusal(run("plot run.h5 missing.h5 -o out"), "missing.h5");

@@ -285,7 +285,7 @@ TEST(Views, TheLegendNamesTheOverlapWhereThereIsSome) {
   run.scene.contacts[0].surfaces = {0, 1};
   for (PoseResult& pose : run.sweep.poses) pose.contacts.resize(1);
   PictureOptions options;
-  options.proximity = true;
+  options.colors = SurfaceColors::kGap;
   const Frame legend = {1090, 700, 1195, 760};
   EXPECT_EQ(count_in(draw_knee(run, View::kPlateau, 0, options), legend, is_flat_alarm), 0);
   run.scene.surfaces[0].point.y() = -2.3;  // the condyles 0.3 mm below the plateau

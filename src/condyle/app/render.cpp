@@ -19,6 +19,7 @@
 #include "condyle/pictures/movie.h"
 #include "condyle/pictures/picture_folder.h"
 #include "condyle/pictures/png_file.h"
+#include "condyle/pictures/pressure_map.h"
 #include "condyle/pictures/strip.h"
 #include "condyle/results/output_file.h"
 #include "condyle/results/run_view.h"
@@ -32,7 +33,7 @@ struct RenderCommand {
   std::vector<double> at;  // degrees, mm, s or a factor, as swept
   std::vector<std::string> views = {"anterior", "medial", "plateau"};
   std::string size;
-  bool proximity = false, hertz = false, strip = false, movie = false;
+  bool proximity = false, pressure = false, hertz = false, strip = false, movie = false;
   int frames_per_second = 10;
 };
 
@@ -233,7 +234,8 @@ PictureOptions options_of(const RenderCommand& command) {
   PictureOptions options;
   if (command.movie) options.width = 800, options.height = 600;
   if (!command.size.empty()) options = parse_size(command.size);
-  options.proximity = command.proximity;
+  if (command.proximity) options.colors = SurfaceColors::kGap;
+  if (command.pressure) options.colors = SurfaceColors::kPressure;
   options.hertz = command.hertz;
   return options;
 }
@@ -249,6 +251,9 @@ int run_render(const RenderCommand& command) {
         "--hertz: " + command.run +
         " holds no estimates of contact pressure, expected a scene with a surface that "
         "has a modulus");
+  if (command.pressure && !(greatest_pressure(run) > 0))
+    throw InputError("--pressure: " + command.run +
+                     " holds no pressures, expected a scene with a [[contact]] of law = \"layer\"");
   const SweptQuantity swept = swept_quantity(run);
   std::vector<std::size_t> poses =
       command.movie ? movie_poses(command, run, swept) : chosen_poses(command, run, swept);
@@ -286,8 +291,10 @@ void setup_render(CLI::App& program, int& status) {
       ->allow_extra_args(false)
       ->capture_default_str();
   command->add_option("--size", options->size, "width and height in pixels, else 1200x900");
-  command->add_flag("--proximity", options->proximity,
-                    "gap between the articular surfaces in colours");
+  CLI::Option* proximity = command->add_flag("--proximity", options->proximity,
+                                             "gap between the articular surfaces in colours");
+  command->add_flag("--pressure", options->pressure, "pressure of elastic layers in colours")
+      ->excludes(proximity);
   command->add_flag("--hertz", options->hertz, "ellipses of contact pressure, to scale");
   CLI::Option* strip = command->add_flag("--strip", options->strip, "all values side by side");
   command->add_flag("--movie", options->movie, "a moving picture over all poses (or those of --at)")

@@ -104,6 +104,8 @@ std::string view_words(const Scenery& scenery) {
 std::string in_words(const Scenery& scenery, const ContactMark& mark) {
   std::string words = newtons(mark.force);
   if (scenery.hertz && mark.hertz) words += fmt::format(", {:.1f} MPa", mark.hertz->peak_pressure);
+  if (scenery.colors == SurfaceColors::kPressure && mark.peak_pressure > 0)
+    words += fmt::format(", {:.1f} MPa", mark.peak_pressure);
   if (mark.beyond > 0) words += fmt::format(", {:.1f} mm beyond the edge", mark.beyond);
   return words;
 }
@@ -133,7 +135,8 @@ std::array<std::string, 2> in_two_lines(const std::string& text) {
 std::string caption(const Scenery& scenery, bool with_value) {
   const SweptQuantity swept = swept_quantity(scenery.run);
   std::string text = view_words(scenery);
-  if (scenery.proximity) text += "  ·  gap between the surfaces";
+  if (scenery.colors == SurfaceColors::kGap) text += "  ·  gap between the surfaces";
+  if (scenery.colors == SurfaceColors::kPressure) text += "  ·  pressure of the layers";
   if (!with_value) return text;
   if (scenery.run.scene.joint)
     text +=

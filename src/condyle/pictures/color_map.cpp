@@ -38,6 +38,16 @@ constexpr std::array<Rgb, 9> kYlGnBu = {{{8, 29, 88},
                                          {237, 248, 177},
                                          {255, 255, 217}}};
 
+constexpr std::array<Rgb, 9> kPuRd = {{{247, 244, 249},
+                                       {231, 225, 239},
+                                       {212, 185, 218},
+                                       {201, 148, 199},
+                                       {223, 101, 176},
+                                       {231, 41, 138},
+                                       {206, 18, 86},
+                                       {152, 0, 67},
+                                       {103, 0, 31}}};
+
 constexpr std::array<Rgb, 11> kRdBu = {{{5, 48, 97},
                                         {33, 102, 172},
                                         {67, 147, 195},
@@ -73,6 +83,8 @@ Rgb map_color(ColorMap map, double t) {
       return interpolate(kViridis, 0.95 * s);
     case ColorMap::kGap:
       return interpolate(kYlGnBu, s);
+    case ColorMap::kPressure:
+      return interpolate(kPuRd, 0.2 + 0.8 * s);
     case ColorMap::kDiverging:
       return interpolate(kRdBu, s);
   }

@@ -50,6 +50,7 @@ std::vector<ContactMark> contact_marks(const Scene& scene, const PoseResult& pos
       marks.push_back({X_PB * point.point_ground,
                        tibia_moves(scene) ? Vector3d(-out_of_fixed) : out_of_fixed, point.force,
                        beyond_edge(point), point.hertz});
+      if (contact.layer) marks.back().peak_pressure = contact.layer->peak_pressure;
       if (point.hertz) marks.back().hertz->major_axis = X_PB.R * point.hertz->major_axis;
     }
   }

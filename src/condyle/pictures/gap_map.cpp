@@ -58,17 +58,25 @@ GapMap::Gap GapMap::gap(std::size_t surface,
     return X_P[static_cast<std::size_t>(run_.scene.surfaces[s].body)];
   };
   Gap least;
-  for (const ContactDescription& contact : run_.scene.contacts) {
+  for (std::size_t c = 0; c < run_.scene.contacts.size(); ++c) {
+    const ContactDescription& contact = run_.scene.contacts[c];
     const auto a = static_cast<std::size_t>(contact.surfaces[0]),
                b = static_cast<std::size_t>(contact.surfaces[1]);
     if (surface != a && surface != b) continue;
     const std::size_t other = surface == a ? b : a;
     if (other >= surfaces_.size() || !surfaces_[other]) continue;
     const RigidTransform X = pose_of(other).inverse() * pose_of(surface);
-    const Gap here = distance_to(*surfaces_[other], X * p, X.R * n);
+    Gap here = distance_to(*surfaces_[other], X * p, X.R * n);
+    here.contact = here.inside >= 0 ? static_cast<int>(c) : -1;
     if (here.inside >= 0 && (least.inside < 0 || here.width < least.width)) least = here;
   }
   return least;
+}
+
+Vector3d GapMap::normal(std::size_t surface, const ShadedVertex& vertex) const {
+  if (run_.scene.surfaces[surface].kind == SurfaceKind::kPatch) return vertex.normal.cast<double>();
+  const Surface& exact = *surfaces_[surface];
+  return exact.evaluate_frame(exact.place_of(vertex.position.cast<double>())).n;
 }
 
 double GapMap::paint(ShadedMesh& mesh,
@@ -76,12 +84,9 @@ double GapMap::paint(ShadedMesh& mesh,
                      const std::vector<RigidTransform>& X_P,
                      const Paint& beyond) const {
   double deepest = 0;
-  const bool exact = run_.scene.surfaces[surface].kind != SurfaceKind::kPatch;
   for (ShadedVertex& vertex : mesh.vertices) {
     const Vector3d p = vertex.position.cast<double>();
-    Vector3d n = vertex.normal.cast<double>();
-    if (exact) n = surfaces_[surface]->evaluate_frame(surfaces_[surface]->place_of(p)).n;
-    const Gap here = gap(surface, p, n, X_P);
+    const Gap here = gap(surface, p, normal(surface, vertex), X_P);
     const double share = std::clamp(here.inside / kFade, 0.0, 1.0);
     vertex.color = bytes({mixed(beyond.color, gap_color(here.width), share), beyond.through});
     if (share > 0 && here.width < -kLeastOverlap) deepest = std::max(deepest, -here.width);

@@ -25,7 +25,10 @@ class GapMap {
   struct Gap {
     double width = 0;    ///< negative where the surfaces overlap [mm]
     double inside = -1;  ///< of the opposite point to the edge of what is known; < 0: nothing known
+    int contact = -1;    ///< of the scene, that pairs the surfaces
   };
+  /// Of a drawn vertex of a surface: exact surfaces have that of the surface itself.
+  [[nodiscard]] Eigen::Vector3d normal(std::size_t surface, const ShadedVertex& vertex) const;
   /// From the point p with the unit normal n of a surface of the scene, in the frame of its body.
   [[nodiscard]] Gap gap(std::size_t surface,
                         const Eigen::Vector3d& p,

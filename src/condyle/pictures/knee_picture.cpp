@@ -14,6 +14,7 @@
 #include "condyle/pictures/framing.h"
 #include "condyle/pictures/gap_map.h"
 #include "condyle/pictures/knee_shapes.h"
+#include "condyle/pictures/pressure_map.h"
 #include "condyle/pictures/renderer.h"
 #include "condyle/pictures/seen_insertions.h"
 #include "condyle/results/run_view.h"
@@ -23,10 +24,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kFramePoses = 40;                   // about as many decide the frame
-constexpr double kPlainSpacing = 1.2, kGapSpacing = 0.7;  // between vertices of patches [mm]
-constexpr double kKneeRadius = 25;                        // what is smaller has smaller marks [mm]
-constexpr double kContactDot = 1.5, kSmallDot = 0.7;      // [mm]
+constexpr std::size_t kFramePoses = 40;                     // about as many decide the frame
+constexpr double kPlainSpacing = 1.2, kColorSpacing = 0.7;  // between vertices of patches [mm]
+constexpr double kOutline = 0.16;                           // radius of its line [mm]
+constexpr double kKneeRadius = 25;                    // what is smaller has smaller marks [mm]
+constexpr double kContactDot = 1.5, kSmallDot = 0.7;  // [mm]
 
 struct KeptShape {
   int body;
@@ -52,6 +54,8 @@ struct KneePictures::State {
   std::vector<KeptShape> shapes;              // of body_meshes
   std::vector<std::vector<Vector3d>> joints;  // of each body, what must be in a picture
   std::optional<GapMap> gaps;
+  std::optional<PressureMap> pressures;
+  std::array<int, 2> outlines = {-1, -1};  // of the areas of pressure, on tibia and femur
   std::array<int, 2> path = {-1, -1}, reference_path = {-1, -1};  // on tibia and femur
   int ligaments = -1, contacts = -1, ellipses = -1, arrows = -1, crosses = -1;
   std::array<std::optional<Staging>, kViewCount> stagings;
@@ -69,7 +73,9 @@ struct KneePictures::State {
                           std::vector<Vector3d>& points) const;
   [[nodiscard]] Camera frame_all(View view);
   void fill_meshes(Scenery& scenery);
+  [[nodiscard]] bool is_colored(std::size_t shape, const Scenery& scenery) const;
   [[nodiscard]] double paint_gaps(const Scenery& scenery);
+  void paint_pressures(const Scenery& scenery);
   [[nodiscard]] std::vector<Item> items(Scenery& scenery);
 };
 
@@ -78,7 +84,8 @@ KneePictures::State::State(const Run& r, const PictureOptions& o)
       options(o),
       page(o.panel ? panel_layout(o.width, o.height) : page_layout(o.width, o.height)),
       renderer(o.width, o.height),
-      body_meshes(body_shapes(r, o.proximity ? kGapSpacing : kPlainSpacing)) {
+      body_meshes(
+          body_shapes(r, o.colors == SurfaceColors::kPlain ? kPlainSpacing : kColorSpacing)) {
   for (const BodyShape& shape : body_meshes) {
     shapes.push_back(
         {shape.body, {renderer.add(shape.mesh), {}, shape.layer, shape.gloss, shape.closed}});
@@ -86,10 +93,12 @@ KneePictures::State::State(const Run& r, const PictureOptions& o)
   joints = joint_points(run, body_meshes);
   const double radius = joint_radius(joints);
   scales = picture_scales(run, radius > 0 ? std::min(1.0, radius / kKneeRadius) : 1);
-  if (options.proximity) gaps.emplace(run);
+  if (options.colors == SurfaceColors::kGap) gaps.emplace(run);
+  if (options.colors == SurfaceColors::kPressure) pressures.emplace(run);
   for (std::size_t i = 0; i < 2; ++i) {
     path[i] = renderer.add(contact_paths(run, bodies()[i], scales));
     reference_path[i] = renderer.add(reference_paths(run, bodies()[i], scales));
+    outlines[i] = renderer.add({});
   }
   for (int* id : {&ligaments, &contacts, &ellipses, &arrows, &crosses}) *id = renderer.add({});
 }
@@ -114,7 +123,7 @@ Scenery KneePictures::State::scenery(View view, const PoseResult& pose) {
                   camera(view),
                   scales,
                   stage,
-                  options.proximity,
+                  options.colors,
                   options.hertz,
                   staged_poses(run.scene, stage, pose.X_BA),
                   staged_marks(run.scene, stage, pose)};
@@ -158,18 +167,35 @@ Camera KneePictures::State::frame_all(View view) {
   return fit_camera(view_rotation(view, anatomy_of(run.scene)), points, page.joint());
 }
 
+bool KneePictures::State::is_colored(std::size_t shape, const Scenery& scenery) const {
+  return body_meshes[shape].surface >= 0 && scenery.staging.shows(run.scene, shapes[shape].body);
+}
+
 /// The deepest overlap [mm].
 double KneePictures::State::paint_gaps(const Scenery& scenery) {
   double deepest = 0;
   const auto X_P = body_poses(run.scene, scenery.pose.X_BA);  // as they stand, not lifted
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (body_meshes[i].surface < 0 || !scenery.staging.shows(run.scene, shapes[i].body)) continue;
+    if (!is_colored(i, scenery)) continue;
     const double overlap = gaps->paint(
         body_meshes[i].mesh, static_cast<std::size_t>(body_meshes[i].surface), X_P, kCartilage);
     deepest = std::max(deepest, overlap);
     renderer.replace(shapes[i].item.mesh, body_meshes[i].mesh);
   }
   return deepest;
+}
+
+void KneePictures::State::paint_pressures(const Scenery& scenery) {
+  const auto X_P = body_poses(run.scene, scenery.pose.X_BA);
+  std::array<ShadedMesh, 2> lines;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (!is_colored(i, scenery)) continue;
+    append(lines[shapes[i].body == bodies()[0] ? 0 : 1],
+           pressures->paint(body_meshes[i].mesh, static_cast<std::size_t>(body_meshes[i].surface),
+                            X_P, kCartilage, kOutline * scales.size));
+    renderer.replace(shapes[i].item.mesh, body_meshes[i].mesh);
+  }
+  for (std::size_t i = 0; i < 2; ++i) renderer.replace(outlines[i], lines[i]);
 }
 
 void KneePictures::State::fill_meshes(Scenery& scenery) {
@@ -192,6 +218,10 @@ void KneePictures::State::fill_meshes(Scenery& scenery) {
                    shows_arrows(scenery) ? force_arrows(scenery.marks, scales) : ShadedMesh{});
   renderer.replace(crosses, edge_crosses(scenery.marks, scenery.camera.R_VP, scales));
   if (gaps) scenery.overlap = paint_gaps(scenery);
+  if (pressures) {
+    paint_pressures(scenery);
+    scenery.pressure_top = pressures->top();
+  }
 }
 
 std::vector<Item> KneePictures::State::items(Scenery& scenery) {
@@ -206,7 +236,7 @@ std::vector<Item> KneePictures::State::items(Scenery& scenery) {
     const bool shown =
         i == 0 ? scenery.staging.tibia : !scenery.staging.tibia || scenery.staging.apart();
     if (!shown || bodies()[i] < 0) continue;
-    for (const int mesh : {path[i], reference_path[i]})
+    for (const int mesh : {path[i], reference_path[i], outlines[i]})
       items.push_back(
           {mesh, scenery.X_P[static_cast<std::size_t>(bodies()[i])], Layer::kSolid, 0.12, true});
   }

@@ -78,6 +78,7 @@ struct ContactMark {
   double force = 0;                         ///< on the femur along toward_femur [N]
   double beyond = 0;                        ///< the edge of what is known of its surfaces [mm]
   std::optional<HertzEstimate> hertz = {};  ///< its major axis in P
+  double peak_pressure = 0;                 ///< of elastic layers [N/mm²]
 };
 [[nodiscard]] std::vector<ContactMark> contact_marks(const Scene& scene, const PoseResult& pose);
 

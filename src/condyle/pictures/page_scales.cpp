@@ -69,7 +69,10 @@ void draw_bars(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
     top = place.bottom + 120 * pen.s;
   }
   const Frame lower{left, top, right, top + kBarHeight * pen.s};
-  if (scenery.proximity) return draw_gap_bar(pen, scenery.overlap, lower);
+  if (scenery.colors == SurfaceColors::kGap) return draw_gap_bar(pen, scenery.overlap, lower);
+  if (scenery.colors == SurfaceColors::kPressure)
+    return draw_color_bar(pen, {ColorMap::kPressure, "Pressure", "[MPa]", 0, scenery.pressure_top},
+                          lower);
   if (scenery.run.scene.contacts.empty() || !(scales.sweep_high > scales.sweep_low)) return;
   draw_color_bar(
       pen,
@@ -182,7 +185,7 @@ void draw_keys(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
     pen.canvas.disc({left - 10 * pen.s, y}, 5.8 * pen.s, kHertzColor);
     y -= 24 * pen.s;
   }
-  if (!scenery.run.comparison() || scenery.proximity) return;
+  if (!scenery.run.comparison() || scenery.colors == SurfaceColors::kGap) return;
   const double left = words("contact path of Wismans' model");
   pen.canvas.line({left - 34 * pen.s, y}, {left, y}, 3 * pen.s, kReferenceColor);
   pen.canvas.disc({left - 17 * pen.s, y}, 3.4 * pen.s, kReferenceColor);

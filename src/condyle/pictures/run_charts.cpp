@@ -167,6 +167,26 @@ Chart contact_place_chart(const Run& run) {
   return chart;
 }
 
+Chart contact_pressure_chart(const Run& run) {
+  Chart chart = chart_of(run, "pressure of the layers");
+  Panel pressure{"Greatest pressure [MPa]", {}, true}, area{"Area [mm²]", {}, true};
+  const auto add = [&](Panel& panel, std::size_t c, double LayerResult::*what) {
+    panel.curves.push_back(curve_of(run, run.scene.contacts[c].name, [=](const PoseResult& pose) {
+      if (c >= pose.contacts.size()) return kUnknown;
+      const ContactResult& contact = pose.contacts[c];
+      return contact.layer ? (*contact.layer).*what : 0;
+    }));
+  };
+  for (std::size_t c = 0; c < run.scene.contacts.size(); ++c) {
+    if (!run.scene.contacts[c].layer) continue;
+    add(pressure, c, &LayerResult::peak_pressure);
+    add(area, c, &LayerResult::area);
+  }
+  keep(chart, pressure);
+  keep(chart, area);
+  return chart;
+}
+
 Chart ligament_force_chart(const Run& run) {
   Chart chart = chart_of(run, "ligament forces");
   Panel panel{"Ligament force [N]", {}, true};
@@ -244,6 +264,7 @@ std::vector<NamedChart> run_charts(const Run& run) {
   return {{"joint_coordinates", joint_coordinate_chart(run)},
           {"contact_forces", contact_force_chart(run)},
           {"contact_places", contact_place_chart(run)},
+          {"contact_pressures", contact_pressure_chart(run)},
           {"ligament_forces", ligament_force_chart(run)},
           {"ligament_strains", ligament_strain_chart(run)},
           {"flexion_moment", flexion_moment_chart(run)},

@@ -25,6 +25,8 @@ struct NamedChart {
 /// Where the resultant of each contact acts, along the tibia's anatomical axes from its origin; not
 /// joined where the contact jumped (results/contact_path.h).
 [[nodiscard]] Chart contact_place_chart(const Run& run);
+/// Greatest pressure and area of each contact of elastic layers.
+[[nodiscard]] Chart contact_pressure_chart(const Run& run);
 /// Strands of one ligament are summed.
 [[nodiscard]] Chart ligament_force_chart(const Run& run);
 /// Of the strands of one ligament the greatest strain; ligaments without a slack length have none.

@@ -26,6 +26,13 @@ struct PageLayout {
 /// A knee without words around it, one of several on a page.
 [[nodiscard]] PageLayout panel_layout(int width, int height);
 
+/// What the colours of the articular surfaces tell.
+enum class SurfaceColors {
+  kPlain,
+  kGap,      ///< the gap between them (gap_map.h), in place of the contact's path
+  kPressure  ///< the pressure of elastic layers (pressure_map.h)
+};
+
 /// What a picture shows.
 struct Scenery {
   const Run& run;
@@ -34,11 +41,13 @@ struct Scenery {
   const Camera& camera;
   const PictureScales& scales;
   const Staging& staging;
-  bool proximity = false, hertz = false;
+  SurfaceColors colors = SurfaceColors::kPlain;
+  bool hertz = false;
   std::vector<RigidTransform> X_P;      ///< of the bodies as the view shows them
   std::vector<ContactMark> marks = {};  ///< on the bodies that are shown
   std::vector<bool> seen = {};          ///< per ligament: of a view of one body
   double overlap = 0;                   ///< deepest of the gaps that are painted [mm]
+  double pressure_top = 0;              ///< end of the colours of pressure [N/mm²]
 };
 
 /// Are force arrows drawn in this picture?

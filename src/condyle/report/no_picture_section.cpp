@@ -1,5 +1,6 @@
 #include "condyle/report/html.h"
 #include "condyle/report/sections.h"
+#include "condyle/report/viewer_pressures.h"
 
 namespace condyle {
 
@@ -10,5 +11,11 @@ std::string picture_section(const Run& run) {
 }
 
 std::string plot_section(const Run&) { return ""; }
+
+ViewerPressures viewer_pressures(const Run&,
+                                 const std::vector<RunShape>&,
+                                 const std::vector<ShownPose>&) {
+  return {};
+}
 
 }  // namespace condyle

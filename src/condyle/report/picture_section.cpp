@@ -12,6 +12,7 @@
 #include "condyle/pictures/knee_picture.h"
 #include "condyle/pictures/plot_run.h"
 #include "condyle/pictures/png_file.h"
+#include "condyle/pictures/pressure_map.h"
 #include "condyle/pictures/strip.h"
 #include "condyle/report/html.h"
 #include "condyle/report/sections.h"
@@ -106,6 +107,21 @@ std::string single(const Run& run, KneePictures& pictures, View view, std::size_
       "picture");
 }
 
+/// Pressure on the plateau and on the condyles, where layers carry.
+std::string pressures(const Run& run, const std::vector<std::size_t>& poses) {
+  if (!(greatest_pressure(run) > 0)) return "";
+  std::string body;
+  for (const View view : {View::kPlateau, View::kCondyles}) {
+    PictureOptions options = strip_size(view, poses.size());
+    options.colors = SurfaceColors::kPressure;
+    body +=
+        figure(draw_strip(run, view, poses, options),
+               fmt::format("{} view, pressure of the layers: {}", name(view), angles(run, poses)),
+               "strip");
+  }
+  return body;
+}
+
 /// The plateau and the condyles side by side.
 std::string pair_of(const Run& run, KneePictures& pictures, std::size_t pose) {
   std::string body = "<div class=\"pair\">\n";
@@ -151,6 +167,7 @@ std::string picture_section(const Run& run) {
   options.height = 750;
   KneePictures pictures(run, options);
   body += pair_of(run, pictures, poses[poses.size() / 2]);
+  body += pressures(run, poses);
   if (const auto left = farthest_left_patch(run.sweep)) {
     body += "<p>A contact beyond the edge of the known surface: this pose is no result.</p>\n" +
             pair_of(run, pictures, *left);

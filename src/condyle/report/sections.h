@@ -15,6 +15,7 @@ namespace condyle {
 [[nodiscard]] std::string status_section(const Run& run);
 [[nodiscard]] std::string pose_section(const Run& run);
 [[nodiscard]] std::string contact_section(const Run& run);
+[[nodiscard]] std::string layer_section(const Run& run);  ///< of elastic layers
 [[nodiscard]] std::string ligament_section(const Run& run);
 [[nodiscard]] std::string event_section(const Run& run);
 [[nodiscard]] std::string solver_section(const Run& run);

@@ -9,6 +9,7 @@
 #include "condyle/report/embedded.h"
 #include "condyle/report/html.h"
 #include "condyle/report/sections.h"
+#include "condyle/report/viewer_pressures.h"
 #include "condyle/results/digest.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/strain_scale.h"
@@ -31,13 +32,14 @@ constexpr const char* kMarkup = R"(<p id="viewer-message">The 3-D view needs scr
 <div class="views" role="group" aria-label="views"></div>
 <div class="toggles" role="group" aria-label="bodies"></div>
 <div class="legend"><span>ligament strain (slack ones grey)</span><div class="scale"></div><div class="marks"></div></div>
+<div class="legend pressures" hidden><span>pressure of the layers</span><div class="scale"></div><div class="marks"></div></div>
 </div>
 )";
 
 class ViewerData {
  public:
-  ViewerData(const Run& run, const std::string& file)
-      : run_(run), scene_(run.scene), shown_(shown_poses(run, file)) {}
+  ViewerData(const Run& run, const std::string& file, const ShapeOptions& shapes)
+      : run_(run), scene_(run.scene), shown_(shown_poses(run, file)), shapes_(shapes) {}
 
   [[nodiscard]] std::string text() const {
     Json json = {{"title", scene_.title}};
@@ -54,6 +56,7 @@ class ViewerData {
     json["missing"] = missing();
     add_scene(json);
     add_elements(json);
+    add_pressures(json);
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
 
@@ -132,9 +135,19 @@ class ViewerData {
     json["greatest_strain"] = strain.greatest;
   }
 
+  void add_pressures(Json& json) const {
+    const ViewerPressures pressures = viewer_pressures(run_, run_shapes(run_, shapes_), shown_);
+    if (!(pressures.top > 0)) return;
+    json["pressure"]["top"] = pressures.top;
+    for (const ViewerPressures::OfSurface& surface : pressures.surfaces)
+      json["pressure"]["surfaces"].push_back(
+          {{"name", surface.name}, {"levels", base64(surface.levels)}});
+  }
+
   const Run& run_;
   const Scene& scene_;
   std::vector<ShownPose> shown_;
+  ShapeOptions shapes_;
 };
 
 }  // namespace
@@ -150,7 +163,7 @@ std::string viewer_section(const Run& run, const std::string& file) {
   const std::string model = base64(glb_of_run(run, file, options));
   std::string body = kMarkup;
   body += "<script type=\"application/json\" id=\"viewer-data\">" +
-          script_safe(ViewerData(run, file).text()) + "</script>\n";
+          script_safe(ViewerData(run, file, options).text()) + "</script>\n";
   body += "<script type=\"text/plain\" id=\"viewer-model\">" + model + "</script>\n";
   body += "<script>" + std::string(viewer_script()) + "</script>\n";
   return section("view", "In three dimensions", body);

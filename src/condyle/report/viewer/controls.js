@@ -1,6 +1,6 @@
 // Slider, play button, views, what is shown, and the words beside the knee.
 
-import { cssGradient } from './colors.js';
+import { colorAt, cssGradient, pressureColorAt } from './colors.js';
 
 const SECONDS = 6;  // of playing from end to end
 
@@ -55,21 +55,32 @@ function addToggles(bar, scene, data) {
   return toggles;
 }
 
+function addMarks(marks, most, unit) {
+  for (const part of [0, 0.5, 1]) {
+    const mark = document.createElement('span');
+    mark.textContent = `${(most * part).toFixed(most < 4 ? 1 : 0)} ${unit}`;
+    marks.append(mark);
+  }
+}
+
+function addPressureLegend(place, data) {
+  if (!data.pressure) return;
+  place.hidden = false;
+  place.querySelector('.scale').style.background = cssGradient(pressureColorAt);
+  addMarks(place.querySelector('.marks'), data.pressure.top, 'MPa');
+}
+
 function addLegend(place, data) {
   if (data.ligaments.length === 0) {
     place.hidden = true;
     return;
   }
-  place.querySelector('.scale').style.background = cssGradient();
+  place.querySelector('.scale').style.background = cssGradient(colorAt);
   const most = 100 * data.strain_top;
   const above = data.greatest_strain > data.strain_top * (1 + 1e-6);
   place.classList.toggle('above', above);  // an arrow at the end of the scale
   const marks = place.querySelector('.marks');
-  for (const part of [0, 0.5, 1]) {
-    const mark = document.createElement('span');
-    mark.textContent = `${(most * part).toFixed(most < 4 ? 1 : 0)} %`;
-    marks.append(mark);
-  }
+  addMarks(marks, most, '%');
   if (above) place.querySelector('span').textContent += `, some up to ${(100 * data.greatest_strain).toFixed(0)} %`;
 }
 
@@ -140,6 +151,7 @@ export function createControls(place, scene, data) {
   const toggles = addToggles(place.querySelector('.toggles'), scene, data);
   addViews(place.querySelector('.views'), scene, data, toggles);
   addLegend(place.querySelector('.legend'), data);
+  addPressureLegend(place.querySelector('.pressures'), data);
   place.hidden = false;
   scene.resize();
   scene.look(data.side === null ? [0.3, 0.2, 1] : [data.side === 'left' ? -0.45 : 0.45, 0.15, 1]);

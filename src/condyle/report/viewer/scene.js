@@ -1,12 +1,12 @@
 // The knee in three.js: camera, light, and the poses of the run on a time line.
 
 import {
-  AmbientLight, AnimationMixer, Box3, Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene,
+  AmbientLight, AnimationMixer, Box3, BufferAttribute, Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene,
   SRGBColorSpace, Vector3, WebGLRenderer,
 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { colorAt, SLACK } from './colors.js';
+import { colorAt, pressureColorAt, SLACK } from './colors.js';
 
 const nameOf = (node) => node.userData.name ?? node.name;
 
@@ -84,6 +84,27 @@ function between(list, at) {
   return a + (b - a) * (at - i);
 }
 
+/// The articular surfaces whose vertices have a pressure at each pose (bytes, 0: not pressed), as what colours them.
+function pressureMaps(meshes, data) {
+  const shade = new Color();
+  return (data.pressure?.surfaces ?? []).flatMap((surface) => {
+    const mesh = meshes.cartilage.find((m) => [nameOf(m), nameOf(m.parent)].includes(surface.name));
+    if (!mesh) return [];
+    const levels = Uint8Array.from(atob(surface.levels), (c) => c.charCodeAt(0));
+    const count = mesh.geometry.attributes.position.count;
+    const plain = mesh.material.color.clone(), colors = new BufferAttribute(new Float32Array(3 * count), 3);
+    mesh.geometry.setAttribute('color', colors);
+    mesh.material.color.set(0xffffff);
+    mesh.material.vertexColors = true;
+    const table = Array.from({ length: 256 }, (_, level) =>
+      level === 0 ? plain : shade.setRGB(...pressureColorAt((level - 1) / 254), SRGBColorSpace).clone());
+    return [(pose) => {
+      for (let i = 0; i < count; ++i) table[levels[pose * count + i]].toArray(colors.array, 3 * i);
+      colors.needsUpdate = true;
+    }];
+  });
+}
+
 export async function createScene(canvas, model, data) {
   const renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
   const scene = new Scene();
@@ -99,6 +120,7 @@ export async function createScene(canvas, model, data) {
     action.paused = false;
   }
   const meshes = sortMeshes(gltf.scene, data);
+  const pressures = pressureMaps(meshes, data);
   const orbit = new OrbitControls(camera, canvas);
   orbit.enableDamping = false;
   const first = data.times[0], end = data.times[data.times.length - 1];
@@ -121,6 +143,7 @@ export async function createScene(canvas, model, data) {
       mesh.material.transparent = !taut;
       mesh.material.opacity = taut ? 1 : 0.55;
     }
+    for (const paint of pressures) paint(Math.round(at));
     gltf.scene.updateMatrixWorld(true);
     draw();
     for (const listener of api.listeners) listener(at);
