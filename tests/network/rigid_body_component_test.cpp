@@ -132,7 +132,7 @@ TEST(RigidBodyComponent, EitherTerminalTreeGivesTheSameMotion) {
   EdgeVariables y_new(6, 3), x(6, 3);  // through of the tree from A_0, across of the star
   for (int j = 0; j < 3; ++j) {
     y_new.col(j) = random_six(random, 100, 1000);
-    x.col(j) = twist_at_port(x_0, arms[j]);
+    x.col(j) = carrier(arms[j]).transpose() * x_0;
   }
   const EdgeVariables y = y_new * T, x_new = x * T.transpose();
   Vector6 sum = Vector6::Zero();

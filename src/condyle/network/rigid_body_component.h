@@ -27,15 +27,10 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 /// the twist of the reference port to port j.
 [[nodiscard]] Matrix6 carrier(const Eigen::Vector3d& arm);
 
-/// K_j y and K_jᵀ x without the matrix.
+/// K_j y without the matrix.
 [[nodiscard]] inline Vector6 wrench_at_reference(const Vector6& y, const Eigen::Vector3d& arm) {
   Vector6 moved = y;
   moved.tail<3>() += arm.cross(y.head<3>());
-  return moved;
-}
-[[nodiscard]] inline Vector6 twist_at_port(const Vector6& x_0, const Eigen::Vector3d& arm) {
-  Vector6 moved = x_0;
-  moved.head<3>() += x_0.tail<3>().cross(arm);
   return moved;
 }
 
