@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/pictures/knee_shapes.h"
 #include "condyle/pictures/pressure_map.h"
 
 namespace condyle {
