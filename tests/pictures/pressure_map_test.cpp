@@ -47,7 +47,7 @@ Run ball_in_plane(double greatest = 0) {
 const std::vector<RigidTransform> kAsModelled(2);
 
 TEST(PressureMap, IsTheLawAtTheDepthOfThePoint) {
-  const Run run = ball_in_plane();
+  const auto run = ball_in_plane();
   const PressureMap map(run);
   for (const double r : {0.0, 2.0, 5.0}) {
     const double depth = kRadius - std::hypot(r, kRadius - kDepth);
@@ -60,14 +60,14 @@ TEST(PressureMap, IsTheLawAtTheDepthOfThePoint) {
 }
 
 TEST(PressureMap, ARigidContactHasNone) {
-  Run run = ball_in_plane();
+  auto run = ball_in_plane();
   run.scene.contacts[0].layer.reset();
   EXPECT_FALSE(PressureMap(run).pressure(1, {0, 0, 0}, {0, 1, 0}, kAsModelled));
 }
 
 TEST(PressureMap, OneScaleForAllPosesEndsAtARoundNumber) {
   EXPECT_EQ(greatest_pressure(ball_in_plane(3.2)), 3.2);
-  const Run run = ball_in_plane(3.2);
+  const auto run = ball_in_plane(3.2);
   EXPECT_GE(PressureMap(run).top(), 3.2);
   EXPECT_LE(PressureMap(run).top(), 6.4);
 }
@@ -91,7 +91,7 @@ ShadedMesh grid(double reach, int n) {
 }
 
 TEST(PressureMap, OutlinesTheAreaAndColoursWhatIsPressed) {
-  const Run run = ball_in_plane(3.2);
+  const auto run = ball_in_plane(3.2);
   ShadedMesh mesh = grid(12, 60);
   const double line = 0.05;
   const ShadedMesh outline = PressureMap(run).paint(mesh, 1, kAsModelled, kCartilage, line);

@@ -209,8 +209,8 @@ void KneePictures::State::fill_meshes(Scenery& scenery) {
                           : ligament_tubes(run, scenery.pose, scenery.X_P, scales);
   }
   renderer.replace(ligaments, lines);
-  ShadedMesh dots =
-      contact_points(scenery.marks, scales.size * (options.hertz ? kSmallDot : kContactDot));
+  const bool areas = options.hertz || options.colors == SurfaceColors::kPressure;
+  ShadedMesh dots = contact_points(scenery.marks, scales.size * (areas ? kSmallDot : kContactDot));
   if (!stage.apart()) append(dots, contact_lines(run.scene, scenery.pose, scales));
   renderer.replace(contacts, dots);
   renderer.replace(ellipses, options.hertz ? hertz_ellipses(scenery.marks) : ShadedMesh{});
