@@ -39,6 +39,10 @@ class ContactPotential {
   /// not find at once. Allocates nothing.
   virtual void soften(double /*factor*/) {}
 
+  /// The factor, at most 1, that leaves it so stiff that a force [N] makes it give way by about
+  /// L/60 on an area of (L/3)², L [mm] being the size of the joint.
+  [[nodiscard]] virtual double softest(double /*force*/, double /*L*/) const { return 1; }
+
   /// Adds the wrench on A with its exact derivatives to `wrench`; returns the sum of the forces'
   /// magnitudes [N]. Finite at every pose. Allocates nothing once it was asked.
   virtual double add_to(const RigidTransform& X_BA, Wrench& wrench) = 0;

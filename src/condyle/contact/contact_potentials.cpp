@@ -1,5 +1,6 @@
 #include "condyle/contact/contact_potentials.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace condyle {
@@ -31,6 +32,12 @@ void ContactPotentials::prepare(const RigidTransform& X_BA) {
 
 void ContactPotentials::soften(double factor) {
   for (const Entry& entry : entries_) entry.potential->soften(factor);
+}
+
+double ContactPotentials::softest(double force, double L) const {
+  double factor = 1;
+  for (const Entry& entry : entries_) factor = std::min(factor, entry.potential->softest(force, L));
+  return factor;
 }
 
 bool ContactPotentials::accept(const RigidTransform& X_BA) {

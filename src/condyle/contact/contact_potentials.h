@@ -23,6 +23,7 @@ class ContactPotentials {
   void reset();
   void prepare(const RigidTransform& X_BA);
   void soften(double factor);
+  [[nodiscard]] double softest(double force, double L) const;
   [[nodiscard]] bool accept(const RigidTransform& X_BA);
   double add_to(const RigidTransform& X_BA, Wrench& wrench);
   [[nodiscard]] double energy(const RigidTransform& X_BA);

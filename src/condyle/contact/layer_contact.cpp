@@ -109,14 +109,27 @@ class LayerContact final : public ContactPotential {
       if (sides) sides->reset();
   }
 
-  void prepare(const RigidTransform&) override { level_ = 0; }
+  /// The coarsest lattice, or where it would hardly see a small area the one that does.
+  void prepare(const RigidTransform& X_BA) override {
+    constexpr int kFewest = 16;  // points
+    for (level_ = 0; level_ + 1 < kLevels; ++level_) {
+      const int points = sides(false).sums(X_BA, law_).points;
+      if (points == 0 || points >= kFewest) break;
+    }
+  }
 
   void soften(double factor) override { factor_ = factor; }
+
+  [[nodiscard]] double softest(double force, double L) const override {
+    constexpr double kLeast = 1e-6;
+    if (!(force > 0)) return 1;
+    return std::clamp(540 * force / (L * L * L * law_.stiffness()), kLeast, 1.0);
+  }
 
   bool accepts(const RigidTransform& X_BA) override {
     error_ = lattice_error(X_BA);
     if (error_ <= options_.tolerance || level_ + 1 == kLevels) return true;
-    ++level_;
+    level_ = finer(level_, error_);
     return false;
   }
 
@@ -149,6 +162,13 @@ class LayerContact final : public ContactPotential {
   [[nodiscard]] std::string place(const Vector3d& x) const {
     const Vector3d at = x + origin_;
     return fmt::format("[{:.1f}, {:.1f}, {:.1f}] mm of the fixed body", at.x(), at.y(), at.z());
+  }
+  /// The coarsest lattice that should do: errors of the force fall as the width of cells to 5/2.
+  [[nodiscard]] std::size_t finer(std::size_t level, double error) const {
+    const double wanted = kCells[level] * std::pow(error / options_.tolerance, 0.4);
+    do ++level;
+    while (level + 1 < kLevels && kCells[level] < wanted);
+    return level;
   }
   [[nodiscard]] std::optional<Objection> objection(const LayerSums& sums) const;
 

@@ -34,26 +34,22 @@ LayerSide::LayerSide(const LayerLattice& points, bool of_A, const Surface& into)
       of_A_(of_A),
       into_(into),
       blocks_(points.blocks.size()),
-      places_(points.x.size(), Place::Zero()),
-      known_(points.x.size(), 0) {}
+      seen_(points.x.size()) {}
 
 void LayerSide::reset() {
   std::fill(blocks_.begin(), blocks_.end(), Seen());
-  std::fill(known_.begin(), known_.end(), char{0});
+  std::fill(seen_.begin(), seen_.end(), Seen());
 }
 
-/// φ changes by no more than the way of a point, so a block whose centre is farther off than its
-/// radius stays out until it has moved by the rest.
+/// May a block hold points that are pressed?
 bool LayerSide::is_near(std::size_t block, const RigidTransform& X) {
   Seen& seen = blocks_[block];
   const Vector3d center = X * points_.blocks[block].center;
   const double radius = points_.blocks[block].radius;
-  if (seen.known && seen.phi - (center - seen.center).norm() > radius) return false;
+  if (seen.is_clear(center, radius)) return false;
   seen.place = into_.closest(center, seen.known ? seen.place : into_.seed(center));
-  seen.known = true;
-  seen.center = center;
   const SurfacePoint at = into_.evaluate_frame(seen.place);
-  seen.phi = at.n.dot(center - at.c);
+  seen = {seen.place, center, at.n.dot(center - at.c), true};
   return !(seen.phi > radius);
 }
 
@@ -62,11 +58,12 @@ bool LayerSide::press(std::size_t point,
                       const RigidTransform& X,
                       Pressed& pressed) {
   const Vector3d p = X * points_.x[point];
-  Place& place = places_[point];
-  place = into_.closest(p, known_[point] != 0 ? place : block.place);
-  known_[point] = 1;
+  Seen& seen = seen_[point];
+  if (seen.is_clear(p, 0)) return false;
+  const Place place = into_.closest(p, seen.known ? seen.place : block.place);
   const SurfacePoint at = into_.evaluate(place);
-  pressed = {point, at.n.dot(p - at.c), at.n, at.K, place};
+  seen = {place, p, at.n.dot(p - at.c), true};
+  pressed = {point, seen.phi, at.n, at.K, place};
   return pressed.phi < 0 && at.n.dot(X.R * points_.n[point]) < kOpposed;
 }
 

@@ -71,12 +71,18 @@ class LayerSide {
 
  private:
   struct Pressed;
-  /// A block and where its centre was when the other surface was last asked for it.
+  /// A point, of the lattice or the centre of a block, where the other surface was last asked for it.
   struct Seen {
     Place place = Place::Zero();
-    Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< in the other body's frame [mm]
-    double phi = -std::numeric_limits<double>::infinity();
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< in the other body's frame [mm]
+    double phi = 0;                                ///< [mm]
     bool known = false;
+
+    /// φ changes by no more than the way of a point: farther off than `radius` it stays so until it
+    /// has moved by the rest.
+    [[nodiscard]] bool is_clear(const Eigen::Vector3d& now, double radius) const {
+      return known && phi > radius && (now - at).squaredNorm() < (phi - radius) * (phi - radius);
+    }
   };
   [[nodiscard]] bool is_near(std::size_t block, const RigidTransform& X);
   bool press(std::size_t point, const Seen& block, const RigidTransform& X, Pressed& pressed);
@@ -86,9 +92,7 @@ class LayerSide {
   const LayerLattice& points_;
   bool of_A_;
   const Surface& into_;
-  std::vector<Seen> blocks_;
-  std::vector<Place> places_;
-  std::vector<char> known_;
+  std::vector<Seen> blocks_, seen_;
 };
 
 }  // namespace condyle

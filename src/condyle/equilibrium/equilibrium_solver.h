@@ -116,7 +116,7 @@ class EquilibriumSolver {
   bool solve_first(EquilibriumState& state, const Drive& target, Attempt& attempt);
   bool advance(EquilibriumState& state, const Drive& from, const Drive& to, Attempt& attempt);
   bool descend(EquilibriumState& state, Attempt& attempt);
-  bool descend_or_stiffen(EquilibriumState& state, Attempt& attempt);
+  bool descend_softly(EquilibriumState& state, Attempt& attempt);
   bool stiffen(double softest, EquilibriumState& state, Attempt& attempt);
   [[nodiscard]] bool tried_from(const RigidTransform& X, const Attempt& attempt) const;
   [[nodiscard]] bool leads_nowhere(const RigidTransform& X, Attempt& attempt) const;

@@ -51,14 +51,18 @@ bool EquilibriumSolver::stiffen(double softest, EquilibriumState& state, Attempt
   return solved;
 }
 
-/// The descent; where stiff laws throw overlapping bodies apart, by softer ones.
-bool EquilibriumSolver::descend_or_stiffen(EquilibriumState& state, Attempt& attempt) {
-  if (newton_.system().potentials().empty()) return descend(state, attempt);
+/// The descent, by softer laws first where they are stiff: those throw bodies that overlap apart.
+bool EquilibriumSolver::descend_softly(EquilibriumState& state, Attempt& attempt) {
+  constexpr double kStiff = 1.0 / 4;
+  NewtonSystem& system = newton_.system();
+  if (system.potentials().empty()) return descend(state, attempt);
+  system.assemble(state, drive_);
+  const double softest = system.potentials().softest(system.pull(), model_->length);
+  if (softest > kStiff) return descend(state, attempt);
   const EquilibriumState start = state;
-  if (descend(state, attempt)) return true;
-  for (const double softest : {1.0 / 16, 1.0 / 256, 1.0 / 4096, 1.0 / 65536})
-    if (stiffen(softest, state = start, attempt)) return true;
-  return false;
+  const double steps = std::ceil(std::log(1 / softest) / std::log(4.0));
+  if (stiffen(std::pow(4, -steps), state, attempt)) return true;
+  return descend(state = start, attempt);
 }
 
 /// From a solved state to another drive in parts: halved where a part fails, doubled where it
@@ -77,7 +81,7 @@ bool EquilibriumSolver::advance(EquilibriumState& state,
     bool solved = settle(trial, attempt);
     if (!solved && part <= kDescend) {
       trial = state;
-      solved = descend(trial, attempt);
+      solved = descend_softly(trial, attempt);
       if (solved) attempt.trace.route = PoseRoute::kPartsDescents;
     }
     on_the_way_ = false;
@@ -116,7 +120,7 @@ bool EquilibriumSolver::find_first(EquilibriumState& state, Attempt& attempt) {
   attempt.begin(PoseRoute::kNewton, PoseOrigin::kStart);
   if (settle_at_estimates(state, attempt)) return true;
   attempt.begin(PoseRoute::kDescent, PoseOrigin::kStart);
-  return descend_or_stiffen(state, attempt);
+  return descend_softly(state, attempt);
 }
 
 /// The first pose: where the start is far from what the conditions prescribe, the equilibrium at
@@ -144,7 +148,7 @@ bool EquilibriumSolver::solve_first(EquilibriumState& state,
   drive_ = target;
   if (arrived) return true;
   attempt.begin(PoseRoute::kDescent, PoseOrigin::kStart);
-  return descend(state = state_, attempt);
+  return descend_softly(state = state_, attempt);
 }
 
 /// Newton from where the poses before point to, or from the last one; else the descent; else the
@@ -163,7 +167,7 @@ bool EquilibriumSolver::solve_from_last(EquilibriumState& state,
   // On a branch that leaves the known surfaces nothing else is found by going on.
   if (attempt.off && patience == Patience::kNone) return false;
   attempt.begin(PoseRoute::kDescent, PoseOrigin::kLastPose);
-  if (descend(state = state_, attempt)) return true;
+  if (descend_softly(state = state_, attempt)) return true;
   if (attempt.off || patience == Patience::kNone) return false;
   attempt.begin(PoseRoute::kParts, PoseOrigin::kLastPose);
   const bool arrived = advance(state = state_, solved_, target_, attempt);
@@ -177,7 +181,7 @@ bool EquilibriumSolver::descend_from(const RigidTransform& X,
   state.X = carried(*model_, drive_, X);
   state.contacts.clear();
   state.sigma.assign(model_->conditions.size(), 0);
-  return descend_or_stiffen(state, attempt);
+  return descend_softly(state, attempt);
 }
 
 /// The descent from the scene's start pose and from the last pose, both carried to the values asked

@@ -67,6 +67,7 @@ bool NewtonSystem::assemble(const EquilibriumState& state, const Drive& drive) {
   for (std::size_t i = 0; i < parameters_.loads.size(); ++i)
     add_load(parameters_.loads[i], drive.scales[i], state.X, wrench_);
   force_scale_ += (wrench_.f - f_elements).norm() + (wrench_.m - m_elements).norm() / model_.length;
+  pull_ = force_scale_;
   if (!potentials_.empty()) force_scale_ += potentials_.add_to(state.X, wrench_);
 
   contacts_.clear();

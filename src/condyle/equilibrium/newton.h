@@ -101,6 +101,9 @@ class NewtonSystem {
   void move(EquilibriumState& state, const double* step) const;
 
   [[nodiscard]] const Model& model() const { return model_; }
+  /// Sum of the magnitudes of what pulls and loads, without contacts and conditions, where it was
+  /// assembled last [N].
+  [[nodiscard]] double pull() const { return pull_; }
   [[nodiscard]] ContactPotentials& potentials() { return potentials_; }
   [[nodiscard]] const ContactPotentials& potentials() const { return potentials_; }
   [[nodiscard]] const Wrench& wrench() const { return wrench_; }
@@ -118,6 +121,7 @@ class NewtonSystem {
   Parameters parameters_;
   LineElementBlock elements_;
   ContactPotentials potentials_;
+  double pull_ = 0;
   RigidTransform X_;
   Wrench wrench_;
   std::vector<ContactLinearization> contacts_;

@@ -1,0 +1,128 @@
+/// Scenes with elastic layers as build_model takes them: the phantom on layers told in other frames,
+/// beside a rigid contact, with stiff layers, and a ball whose depth is known.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "condyle/equilibrium/build_model.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
+#include "support/allocation_count.h"
+#include "support/moved_scene.h"
+
+namespace condyle {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+
+Scene layered_phantom(double modulus = 10) {
+  Scene scene = read_scene(CONDYLE_SOURCE_DIR "/data/phantom/knee.toml");
+  for (SurfaceDescription& surface : scene.surfaces)
+    surface.elastic = ElasticSurface{modulus, 0.45, 3};
+  for (ContactDescription& contact : scene.contacts) contact.layer = LayerOptions{};
+  scene.sweep->values = {0, 30 * kDegree, 60 * kDegree, 90 * kDegree};
+  return scene;
+}
+
+const std::vector<FittedSurface>& fitted() {
+  static const std::vector<FittedSurface> surfaces = fit_surfaces(layered_phantom());
+  return surfaces;
+}
+
+void expect_all_converged(const SweepResult& result) {
+  for (const PoseResult& pose : result.poses)
+    EXPECT_TRUE(pose.converged()) << pose.value / kDegree << ": " << pose.reason;
+}
+
+TEST(LayerScene, IsTheSameKneeInOtherFrames) {
+  const Scene scene = layered_phantom();
+  const SweepResult expected = sweep(scene, fitted());
+  expect_all_converged(expected);
+  const test::Move move{{exp_rotation({0.4, -0.3, 1.1}), {300, -200, 80}},
+                        {exp_rotation({-0.7, 0.2, 0.5}), {-90, 500, 40}}};
+  const test::MovedScene moved(scene, move);
+  const SweepResult actual = sweep(moved.scene(), moved.surfaces(fitted()));
+  for (std::size_t i = 0; i < expected.poses.size(); ++i) {
+    const PoseResult &e = expected.poses[i], &a = actual.poses[i];
+    ASSERT_TRUE(a.converged()) << a.reason;
+    EXPECT_LT((moved.back(a).X_BA.p - e.X_BA.p).norm(), 1e-7);
+    for (std::size_t c = 0; c < e.contacts.size(); ++c) {
+      ASSERT_TRUE(e.contacts[c].layer && a.contacts[c].layer);
+      const LayerResult &le = *e.contacts[c].layer, &la = *a.contacts[c].layer;
+      EXPECT_NEAR(a.contacts[c].force, e.contacts[c].force, 1e-6);
+      EXPECT_NEAR(la.area, le.area, 1e-6);
+      EXPECT_NEAR(la.energy, le.energy, 1e-6);
+      EXPECT_NEAR(la.peak_pressure, le.peak_pressure, 1e-7);
+      EXPECT_LT((move.B.R.transpose() * la.force - le.force).norm(), 1e-6);
+      ASSERT_EQ(a.contacts[c].pressures.size(), e.contacts[c].pressures.size());
+      // The moment about the moving body's origin, brought to the centre of pressure.
+      const auto about_center = [](const PoseResult& pose, std::size_t k) {
+        const ContactResult& contact = pose.contacts[k];
+        return Eigen::Vector3d(
+            contact.layer->moment -
+            (contact.resultant_ground - pose.X_BA.p).cross(contact.layer->force));
+      };
+      EXPECT_LT((move.B.R.transpose() * about_center(a, c) - about_center(e, c)).norm(), 1e-4);
+      const PressurePoint &pe = e.contacts[c].pressures.back(),
+                          &pa = a.contacts[c].pressures.back();
+      const RigidTransform& X = pe.on_A ? move.A : move.B;
+      EXPECT_LT((pa.point - X * pe.point).norm(), 1e-9);
+    }
+  }
+}
+
+TEST(LayerScene, StandsBesideARigidContact) {
+  Scene scene = layered_phantom();
+  scene.contacts[1].layer.reset();
+  const SweepResult mixed = sweep(scene, fitted());
+  expect_all_converged(mixed);
+  for (const PoseResult& pose : mixed.poses) {
+    EXPECT_TRUE(pose.contacts[0].layer);
+    EXPECT_FALSE(pose.contacts[1].layer);
+    EXPECT_LT(std::abs(pose.contacts[1].points.at(0).gap), 1e-9);
+  }
+}
+
+// At a fixed load depths go with E^-1/2: from 1,000 to 100,000 N/mm² to a tenth.
+TEST(LayerScene, StiffLayersAreFoundFromAStartThatOverlaps) {
+  std::vector<double> depths;
+  for (const double modulus : {1e3, 1e5}) {
+    Scene scene = layered_phantom(modulus);
+    scene.sweep->values = {0};
+    const int moving = scene.moving_body();
+    BodyDescription& body = scene.bodies[static_cast<std::size_t>(moving)];
+    body.start_translation += 1.5 * scene.joint->femur.proximal;
+    const SweepResult result = sweep(scene, fitted());
+    ASSERT_TRUE(result.poses[0].converged()) << modulus << ": " << result.poses[0].reason;
+    depths.push_back(result.poses[0].contacts[0].layer.value().deepest);
+  }
+  EXPECT_NEAR(depths[1] / depths[0], 0.1, 0.02);
+}
+
+TEST(LayerScene, AllocatesNothingOnAWayThatItKnows) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "allocations are not counted here";
+  const Scene scene = layered_phantom();
+  EquilibriumSolver solver(build_model(scene, fitted()));
+  const Drive still = drive_of(solver.model());
+  PoseResult pose;
+  std::vector<Drive> drives;
+  for (const double flexion : {20.0, 21.0, 22.0, 21.0, 20.0})
+    drives.push_back(condition_value(0).with(still, flexion * kDegree));
+  const auto there_and_back = [&] {
+    for (const Drive& drive : drives) {
+      solver.solve(drive, pose, Patience::kAll);
+      EXPECT_TRUE(pose.converged()) << pose.reason;
+    }
+  };
+  there_and_back();
+  there_and_back();
+  const test::AllocationCount count;
+  there_and_back();
+  EXPECT_EQ(count.since_start(), 0);
+}
+
+}  // namespace
+}  // namespace condyle
