@@ -130,21 +130,18 @@ INSTANTIATE_TEST_SUITE_P(Knees,
                                          Knee{"clouthier2019_ssm", ""},
                                          Knee{"oai_pymskt", ""}));
 
-// Closed slabs with the staircase of voxels: all 75 poses are wanted, with smoothing = "auto" 20,
-// 23 and 21 of 25 were met under 50, 100 and 300 N. In early flexion a contact slides over the
-// steps to the rim of the medial plateau; the scene's own 3 mm on the plateaus keep all 75
-// (SpecimenFits above).
-TEST(SpecimenSweeps, OfAStaircaseOfVoxelsConvergeBeyondEarlyFlexionWithoutBeingToldTheSmoothing) {
+// Closed slabs with the staircase of voxels. With smoothing chosen for position 20, 23 and 21 of 25
+// poses were met under 50, 100 and 300 N: in early flexion a contact slid over the steps to the rim
+// of the medial plateau. Chosen for normals it leaves no steps to slide over.
+TEST(SpecimenSweeps, OfAStaircaseOfVoxelsConvergeWithoutBeingToldTheSmoothing) {
   if (!fs::exists(kSpecimens / "oai_pymskt")) GTEST_SKIP() << "no specimens here";
   Scene scene = specimen("oai_pymskt", 100);
   for (SurfaceDescription& surface : scene.surfaces) surface.patch.smoothing.reset();
   const auto surfaces = fit_surfaces(scene);
   for (const double force : {50.0, 100.0, 300.0}) {
     scene.loads[0].vector = force * scene.loads[0].vector.normalized();
-    for (const PoseResult& pose : sweep(scene, surfaces, without_events()).poses) {
-      if (pose.value < 24 * kDegree) continue;
+    for (const PoseResult& pose : sweep(scene, surfaces, without_events()).poses)
       EXPECT_TRUE(pose.converged()) << force << " N, " << pose.value / kDegree << " degrees";
-    }
   }
 }
 

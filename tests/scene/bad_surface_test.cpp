@@ -115,7 +115,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "27: [[surface]] \"ball\": fit.control_points = 3, expected a whole number from 4 "
                 "to 500"},
         Mistake{kSphere, kPatch + "\nfit = { smoothing = \"none\" }",
-                "27: [[surface]] \"ball\": fit.smoothing = \"none\", expected \"auto\" or a "
+                "27: [[surface]] \"ball\": fit.smoothing = \"none\", expected \"auto\", "
+                "\"position\" or a "
                 "smoothing length >= 0"},
         Mistake{kSphere, kPatch + "\nmesh_units = \"km\"",
                 "27: [[surface]] \"ball\": mesh_units = \"km\", expected \"mm\", \"cm\" or \"m\"; "

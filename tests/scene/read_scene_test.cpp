@@ -115,7 +115,14 @@ TEST(ReadScene, AcceptsTheKeysOfTheContractOnAPatch) {
   EXPECT_EQ(description.compartment, Compartment::kMedial);
   EXPECT_FALSE(description.control_points.has_value());
   EXPECT_FALSE(description.smoothing.has_value());
+  EXPECT_FALSE(description.smooth_for_position);
   EXPECT_DOUBLE_EQ(description.mesh->to_mm, 1000);
+  const std::string position =
+      "kind = \"patch\"\ncompartment = \"medial\"\nmesh = "
+      "\"cartilage.stl\"\nfit = { smoothing = \"position\" }";
+  EXPECT_TRUE(parse_scene(small_scene_with(sphere, position), "knee.toml")
+                  .surfaces[0]
+                  .patch.smooth_for_position);
 }
 
 TEST(Describe, SaysWhatTheSceneHolds) {

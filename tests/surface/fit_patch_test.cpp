@@ -130,7 +130,7 @@ TEST(FitPatch, KnowsHowFarTheEdgeOfTheDataIs) {
   for (const int cells : {15, 60}) {  // edges of 2 and 0.5 mm
     const PatchFit fit = fit_patch(disc(cells, 0));
     const Patch patch(fit.patch);
-    const double edge = 30.0 / cells, rim = kUncertainRim * fit.smoothing_length;
+    const double edge = 30.0 / cells, rim = fit.rim;
     EXPECT_NEAR(patch.edge_distance({0, 0, 0}) + rim, 12.3, edge + 0.3);
     EXPECT_NEAR(patch.edge_distance({9, 0, 0}) + rim, 3.3, edge + 0.3);
     EXPECT_LT(patch.edge_distance({9.6, 9.6, 0}) + rim,

@@ -15,6 +15,7 @@
 #include "condyle/surface/fit_patch.h"
 #include "condyle/surface/patch.h"
 #include "phantom/phantom_shape.h"
+#include "phantom/split_triangles.h"
 
 namespace condyle {
 namespace {
@@ -65,6 +66,11 @@ KneeFiles phantom_files() {
   return {.femur = kMeshes / "femur.stl", .tibia = kMeshes / "tibia.stl"};
 }
 
+/// The margin of the data that does not count as known, of a length chosen for normals [mm].
+double rim_of(const FittedSurface& fitted) {
+  return kUncertainRim * kNormalsEdge.least * fitted.report->smoothing_length;
+}
+
 std::string complaint(const Scene& scene) {
   try {
     (void)fit_surfaces(scene);
@@ -99,10 +105,41 @@ TEST(FitSurfaces, FindsTheExactPhantomUnderItsRoughness) {
     const FitReport& report = *fitted[i].report;
     EXPECT_EQ(report.surface, scene.surfaces[i].name);
     // The roughness of the mesh is 0.2 mm; at the rims, and on the crest of the eminence with its
-    // radius of 2.3 mm, a patch this smooth leaves more.
-    EXPECT_LE(report.rms, 0.24);
+    // radius of 2.3 mm, a patch this smooth (4 to 5 mm in the middle) leaves more.
+    EXPECT_LE(report.rms, 0.27);
     EXPECT_LE(report.rms, report.max);
     EXPECT_GT(report.smoothing_length, 1);
+  }
+}
+
+// What every version before chose: in sixteen ratios from 1 to 6 mm.
+TEST(FitSurfaces, ChooseForPositionsAsTheyDid) {
+  Scene scene = knee(phantom_files());
+  for (SurfaceDescription& surface : scene.surfaces) surface.patch.smooth_for_position = true;
+  const std::vector<FittedSurface> fitted = fit_surfaces(scene);
+  const double expected[] = {2.4495, 1.9580, 2.1900, 2.4495};  // [mm]
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(fitted[i].report->smoothing_length, expected[i], 1e-4) << scene.surfaces[i].name;
+}
+
+// Each triangle cut into sixteen is the same shape: the same lengths, the same patches, also from
+// coordinates rounded to single precision as a binary STL holds them.
+TEST(FitSurfaces, DoNotDependOnHowAShapeIsCutIntoTriangles) {
+  const Scene scene = knee(phantom_files());
+  const std::vector<FittedSurface> plain = fit_surfaces(scene);
+  const std::vector<FittedSurface> split = fit_surfaces(scene, {}, [](const MeshFile& file) {
+    TriangleMesh mesh = phantom::split_triangles(load_mesh(file.path, file.to_mm), 2);
+    for (Vector3d& p : mesh.vertices) p = p.cast<float>().cast<double>();
+    return mesh;
+  });
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(plain[i].report->smoothing_length, split[i].report->smoothing_length, 1e-3);
+    for (const Place& place : plain[i].surface->samples(2)) {
+      if (plain[i].surface->edge_distance(place) < 1) continue;
+      const Vector3d c = plain[i].surface->evaluate(place).c;
+      const Surface& other = *split[i].surface;
+      EXPECT_LT((other.evaluate(other.closest(c, place)).c - c).norm(), 0.01);
+    }
   }
 }
 
@@ -116,7 +153,7 @@ TEST(FitSurfaces, CoversTheContactZonesOfThePhantom) {
       const Vector3d p(-25 * std::sin(angle), -25 * std::cos(angle), z);
       const Surface& surface = *fitted[i].surface;
       // Two millimetres to the last data; what is known ends before that.
-      const double rim = kUncertainRim * fitted[i].report->smoothing_length;
+      const double rim = rim_of(fitted[i]);
       EXPECT_GT(surface.edge_distance(surface.closest(p, surface.seed(p))) + rim, 2)
           << "at " << degrees << " degrees";
       EXPECT_GT(surface.edge_distance(surface.closest(p, surface.seed(p))), 0.5);
@@ -260,6 +297,13 @@ void expect_core(const Scene& scene, const Limits& limits) {
   }
 }
 
+/// With the smoothing chosen for position and for normals, which is twice as long.
+void expect_core(Scene scene, const Limits& for_position, const Limits& for_normals) {
+  expect_core(scene, for_normals);
+  for (SurfaceDescription& surface : scene.surfaces) surface.patch.smooth_for_position = true;
+  expect_core(scene, for_position);
+}
+
 // A living knee: what is wanted of its fit was measured with a prototype beforehand.
 TEST(FitSurfaces, FollowsTheCartilageOfALivingKnee) {
   const fs::path folder = kSpecimens / "lenhart2015";
@@ -267,7 +311,8 @@ TEST(FitSurfaces, FollowsTheCartilageOfALivingKnee) {
   expect_core(knee({.femur = folder / "ACLC01-R-femur-cart.obj",
                     .tibia = folder / "ACLC01-R-tibia-cart.obj",
                     .to_mm = 1000}),
-              {.rms = 0.06, .max = 0.25, .normal_degrees = 2.5});
+              {.rms = 0.06, .max = 0.25, .normal_degrees = 2.5},
+              {.rms = 0.075, .max = 0.3, .normal_degrees = 2.5});
 }
 
 KneeFiles lenhart_files(const std::string& resolution) {
@@ -280,8 +325,7 @@ KneeFiles lenhart_files(const std::string& resolution) {
 /// rms difference of curvature between the patches of two knees, farther than 4 mm from both edges
 /// and where neither bends with a radius below `least_radius` [mm].
 double curvature_difference(const FittedSurface& a, const FittedSurface& b, double least_radius) {
-  const double rim_a = kUncertainRim * a.report->smoothing_length,
-               rim_b = kUncertainRim * b.report->smoothing_length;
+  const double rim_a = rim_of(a), rim_b = rim_of(b);
   double square = 0, count = 0;
   for (const Place& place : a.surface->samples(1.0)) {
     const SurfacePoint at = a.surface->evaluate(place);
@@ -299,7 +343,7 @@ double curvature_difference(const FittedSurface& a, const FittedSurface& b, doub
 // Three meshes of one knee, 13, 3 and 1 thousand vertices for the femur: what they differ in must
 // not look like curvature. Limits from a prototype with smoothing lengths fixed at 2 and 1.5 mm,
 // whose regions ended before the shoulder of the eminence: there, where the bone bends with radii
-// of 4 to 10 mm, the difference may be larger.
+// of 4 to 10 mm and the smoothing length falls to 0.7 mm, the difference may be larger.
 TEST(FitSurfaces, FindsTheSameCurvatureInMeshesOfDifferentResolution) {
   if (!fs::exists(kSpecimens / "lenhart2015")) GTEST_SKIP() << "no specimens here";
   const auto full = fit_surfaces(knee(lenhart_files(".obj"))),
@@ -307,7 +351,7 @@ TEST(FitSurfaces, FindsTheSameCurvatureInMeshesOfDifferentResolution) {
              coarse = fit_surfaces(knee(lenhart_files("-coarse.stl")));
   for (std::size_t i = 0; i < full.size(); ++i) {
     EXPECT_LT(curvature_difference(full[i], medium[i], 10), 0.0006) << full[i].report->surface;
-    EXPECT_LT(curvature_difference(full[i], medium[i], 0), 0.001) << full[i].report->surface;
+    EXPECT_LT(curvature_difference(full[i], medium[i], 0), 0.002) << full[i].report->surface;
     EXPECT_LT(curvature_difference(full[i], coarse[i], 0), 0.003) << full[i].report->surface;
   }
 }
@@ -321,7 +365,8 @@ TEST(FitSurfaces, FollowsTheMeanKneeOfAShapeModel) {
                     .lateral = {1, 0, 0},
                     .anterior = {0, 1, 0},
                     .proximal = {0, 0, 1}}),
-              {.rms = 0.04, .max = 0.25, .normal_degrees = 2.5});
+              {.rms = 0.04, .max = 0.25, .normal_degrees = 2.5},
+              {.rms = 0.06, .max = 0.3, .normal_degrees = 2.5});
 }
 
 /// Closed slabs of cartilage from MRI, with the staircase of its voxels.
@@ -335,11 +380,23 @@ struct Slabs : testing::Test {
 
 // Normals of a staircase are those of its steps: 6.6 degrees on the plateaus.
 TEST_F(Slabs, AreFollowedOnTheirOuterFaces) {
-  for (SurfaceDescription& surface : scene.surfaces) surface.patch.smoothing.reset();
+  for (SurfaceDescription& surface : scene.surfaces) {
+    surface.patch.smoothing.reset();
+    surface.patch.smooth_for_position = true;
+  }
   for (const FittedSurface& fitted : fit_surfaces(scene)) {
     const bool condyle = fitted.report->surface.ends_with("condyle");
     EXPECT_LE(fitted.report->core_rms, condyle ? 0.055 : 0.07) << fitted.report->surface;
     EXPECT_LE(fitted.report->normal_rms * 180 / M_PI, condyle ? 2.5 : 7) << fitted.report->surface;
+  }
+}
+
+// Chosen for normals the smoothing takes the steps for texture, and leaves more of them.
+TEST_F(Slabs, AreSmoothedOverTheirSteps) {
+  for (SurfaceDescription& surface : scene.surfaces) surface.patch.smoothing.reset();
+  for (const FittedSurface& fitted : fit_surfaces(scene)) {
+    EXPECT_GT(fitted.report->smoothing_length, 2.5) << fitted.report->surface;
+    EXPECT_LE(fitted.report->core_rms, 0.1) << fitted.report->surface;
   }
 }
 

@@ -91,6 +91,7 @@ std::string surfaces_text(const Scene& scene,
       out += fmt::format("mesh = \"{}\"\n", file.at(surface.patch.mesh->path));
     std::string fit;
     if (surface.patch.smoothing) fit = fmt::format("smoothing = {:.17g}", *surface.patch.smoothing);
+    if (surface.patch.smooth_for_position) fit = "smoothing = \"position\"";
     if (surface.patch.control_points)
       fit += fmt::format("{}control_points = [{}, {}]", fit.empty() ? "" : ", ",
                          (*surface.patch.control_points)[0], (*surface.patch.control_points)[1]);

@@ -78,7 +78,8 @@ struct PatchDescription {
       0;  ///< the fitted surface is moved this far along its normal, out of the bone [mm]
   std::optional<MeshFile> mesh;                      ///< of its own, in place of the body's
   std::optional<std::array<int, 2>> control_points;  ///< absent: chosen from the data
-  std::optional<double> smoothing;                   ///< smoothing length [mm]; absent: "auto"
+  std::optional<double> smoothing;   ///< smoothing length [mm]; absent: chosen from the data
+  bool smooth_for_position = false;  ///< chosen for the least error of position, not of normals
   int degree = 3;
 };
 

@@ -38,16 +38,22 @@ void read_control_points(const Section& fit, PatchDescription& patch) {
   }
 }
 
+void read_smoothing(const Section& fit, const Scene& scene, PatchDescription& patch) {
+  const std::string expected = "\"auto\", \"position\" or a smoothing length >= 0";
+  const Value& value = fit.value("smoothing", expected);
+  if (is_auto(value)) return;
+  patch.smooth_for_position = value.type == Value::Type::kText && value.text == "position";
+  if (patch.smooth_for_position) return;
+  if (!value.is_number()) fit.fail("smoothing", expected);
+  patch.smoothing =
+      scene.length_to_mm * fit.number("smoothing", "a smoothing length", Range::kNotNegative);
+}
+
 void read_fit(const Section& fit, const Scene& scene, PatchDescription& patch) {
   if (fit.has("degree"))
     patch.degree = read_whole_number(fit, "degree", fit.value("degree", "a degree"), 3, 5);
   if (fit.has("control_points")) read_control_points(fit, patch);
-  if (fit.has("smoothing") && !is_auto(fit.value("smoothing", "a length"))) {
-    const Value& value = fit.value("smoothing", "a length");
-    if (!value.is_number()) fit.fail("smoothing", "\"auto\" or a smoothing length >= 0");
-    patch.smoothing =
-        scene.length_to_mm * fit.number("smoothing", "a smoothing length", Range::kNotNegative);
-  }
+  if (fit.has("smoothing")) read_smoothing(fit, scene, patch);
   fit.finish();
 }
 

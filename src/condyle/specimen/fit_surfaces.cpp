@@ -14,6 +14,7 @@
 
 #include "condyle/input_error.h"
 #include "condyle/mesh/clean_mesh.h"
+#include "condyle/mesh/drop_flat_vertices.h"
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/mesh_files/load_mesh.h"
 #include "condyle/surface/bone_check.h"
@@ -35,6 +36,7 @@ struct Source {
   std::vector<int> surfaces;                         ///< indices into Scene::surfaces
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of the mesh, in the file's frame [mm]
   CleanMesh mesh;                                    ///< about the middle, as the axis
+  TriangleMesh shape;                                ///< the same without flat vertices
   std::optional<CondylarAxis> axis;
   bool turned = false;  ///< some of the mesh was turned to face out of the bone
   std::vector<std::string> notes;
@@ -84,6 +86,7 @@ std::vector<Source> collect_sources(const Scene& scene) {
                          .surfaces = {},
                          .middle = Eigen::Vector3d::Zero(),
                          .mesh = {},
+                         .shape = {},
                          .axis = {},
                          .turned = false,
                          .notes = {}});
@@ -162,7 +165,9 @@ void load_source(const Scene& scene, const MeshReader& read, Source& source) {
   if (source.turned)
     source.notes.push_back(fmt::format("{} of {} sheets faced into the bone and were turned",
                                        turned, source.mesh.closed.size()));
-  const TriangleMesh& mesh = source.mesh.mesh;
+  source.shape = drop_flat_vertices(source.mesh.mesh,
+                                    {.tolerance = rounding_of(source.mesh.mesh, source.middle)});
+  const TriangleMesh& mesh = source.shape;
   if (is_tibia(scene, source)) suspect_side(scene, mesh, source);
   try {
     if (is_femur(scene, source)) check_one_knee(mesh, bone_frame(scene.joint->femur, source));
@@ -182,7 +187,7 @@ void load_source(const Scene& scene, const MeshReader& read, Source& source) {
 ArticularRegion find_region(const Scene& scene,
                             const Source& source,
                             const PatchDescription& patch) {
-  const TriangleMesh& mesh = source.mesh.mesh;
+  const TriangleMesh& mesh = source.shape;
   std::optional<std::array<Eigen::Vector3d, 2>> box = patch.region_box;
   if (box)
     for (Eigen::Vector3d& corner : *box) corner -= source.middle;
@@ -258,6 +263,7 @@ FittedSurface fit_one(const Scene& scene, const Source& source, const SurfaceDes
     FitOptions options;
     options.control_points = surface.patch.control_points;
     options.smoothing_length = surface.patch.smoothing;
+    if (surface.patch.smooth_for_position) options.aim = SmoothingAim::kPositions;
     options.degree = surface.patch.degree;
     PatchFit fit = fit_patch(region, options);
     FitReport report = report_of(surface.name, region, fit);

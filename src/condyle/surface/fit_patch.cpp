@@ -19,12 +19,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kMargin = 1;  // of the parameter box around the data [mm]
-// The smoothing length as a fraction of what is chosen: at the edge of the face, rising to 1 over a
-// band within it and falling over one beyond it [mm].
-constexpr double kEdgeSmoothing = 0.7, kEdgeBand = 8;
-constexpr double kLeastSmoothing = 0.5, kBeyondBand = 2;
-constexpr double kGuess = 2;  // smoothing length of the first guess [mm]
+constexpr double kMargin = 1;      // of the parameter box around the data [mm]
+constexpr double kBeyondBand = 2;  // over which it falls to EdgeSmoothing::least [mm]
+constexpr double kGuess = 2;       // smoothing length of the first guess [mm]
 
 SplineGrid make_grid(const ArticularRegion& region, const FitOptions& options) {
   Eigen::AlignedBox2d box;
@@ -74,12 +71,10 @@ std::vector<DataPoint> data_points(const ArticularRegion& region) {
   return points;
 }
 
-/// Less smoothing towards the edge of the face and beyond it, where bones are round with small
-/// radii.
-double edge_fraction(double inside) {
-  const double change = inside > 0 ? (1 - kEdgeSmoothing) / kEdgeBand
-                                   : (kEdgeSmoothing - kLeastSmoothing) / kBeyondBand;
-  return std::clamp(kEdgeSmoothing + change * inside, kLeastSmoothing, 1.0);
+double edge_fraction(const EdgeSmoothing& edge, double inside) {
+  const double change =
+      inside > 0 ? (1 - edge.edge) / edge.band : (edge.edge - edge.least) / kBeyondBand;
+  return std::clamp(edge.edge + change * inside, edge.least, 1.0);
 }
 
 /// The chart as flat patches whose masks tell how far the edge is: of all data, and of the
@@ -118,15 +113,20 @@ FlatCharts flat_charts(const SplineGrid& grid, const ArticularRegion& region, do
   return {std::move(all), flat_chart(grid, part.mesh, chart, small_hole)};
 }
 
-/// Which cells hold data, and the smoothing length there.
-std::vector<CellMetric> describe_cells(const SplineGrid& grid, const FlatCharts& flat) {
+/// Which cells hold data, and the smoothing length there; far outside twice that of the last data.
+std::vector<CellMetric> describe_cells(const SplineGrid& grid,
+                                       const FlatCharts& flat,
+                                       const EdgeSmoothing& edge) {
+  const double outside = edge.least / kPlainEdge.least;
   std::vector<CellMetric> cells;
   for (int i = 0; i < grid.cells_u(); ++i)
     for (int j = 0; j < grid.cells_v(); ++j) {
       const Place place(grid.u_min + (i + 0.5) * grid.step_u(),
                         grid.v_min + (j + 0.5) * grid.step_v(), 0);
       const double inside = flat.all.edge_distance(place);
-      cells.push_back({.smoothing = inside < -2 ? 1 : edge_fraction(flat.face.edge_distance(place)),
+      const double within = edge_fraction(edge, flat.face.edge_distance(place));
+      cells.push_back({.smoothing = inside < -2 ? outside : within,
+                       .bending = outside,
                        .known = inside > -0.5});
     }
   return cells;
@@ -145,13 +145,16 @@ void measure_stretch(const SplineGrid& grid, const Patch& patch, std::vector<Cel
 }
 
 /// The smoothing length is chosen from the data of the face alone, so that crests and flanks, which
-/// bend with small radii, have no say; judged away from its edge, as long as that leaves enough.
+/// bend with small radii, have no say; judged away from its edge, as long as that leaves enough. For
+/// normals the deeper the more, as bones touch in the middle of their faces.
 double choose_on_face(const SplineGrid& grid,
                       const ArticularRegion& region,
                       const Patch& face,
                       const std::vector<DataPoint>& points,
-                      std::vector<CellMetric> cells) {
-  constexpr double kEdge = 2;  // [mm]
+                      std::vector<CellMetric> cells,
+                      SmoothingAim aim,
+                      const EdgeSmoothing& edge) {
+  constexpr double kEdge = 2, kDeep = 15;  // [mm]
   std::vector<DataPoint> on_face;
   std::vector<Judgement> judged;
   std::size_t count = 0;
@@ -159,17 +162,21 @@ double choose_on_face(const SplineGrid& grid,
     if (!region.face.empty() && !region.face[i]) continue;
     const double inside = face.edge_distance({points[i].uv.x(), points[i].uv.y(), 0});
     on_face.push_back(points[i]);
-    judged.push_back({.counts = inside > kEdge, .smoothing = edge_fraction(inside)});
+    const double depth = std::clamp(inside / kDeep, 0.0, 1.0);
+    judged.push_back({.counts = inside > kEdge,
+                      .weight = aim == SmoothingAim::kNormals ? depth * depth : 1,
+                      .smoothing = edge_fraction(edge, inside)});
     count += inside > kEdge;
   }
   if (count < on_face.size() / 5)
-    for (Judgement& judgement : judged) judgement.counts = true;
-  const std::vector<CellMetric> within = describe_cells(grid, {face, face});
+    for (Judgement& judgement : judged) judgement.counts = true, judgement.weight = 1;
+  const std::vector<CellMetric> within = describe_cells(grid, {face, face}, edge);
   for (std::size_t k = 0; k < cells.size(); ++k) {
     cells[k].smoothing = within[k].smoothing;
     cells[k].known = within[k].known;
   }
-  return choose_smoothing(grid, on_face, judged, assemble_penalty(grid, cells)).length;
+  return choose_smoothing(grid, on_face, judged, assemble_penalty(grid, cells), {.aim = aim})
+      .length;
 }
 
 /// Closest points from the last parameters; where the way leads astray, from the nearest seed of
@@ -217,7 +224,7 @@ void finish(const ArticularRegion& region,
     fit.distance.push_back(std::copysign((point.p - at.c).norm(), at.n.dot(point.p - at.c)));
     fit.edge_distance.push_back(patch.edge_distance(place));
   }
-  for (double& distance : data.mask) distance -= kUncertainRim * fit.smoothing_length;
+  for (double& distance : data.mask) distance -= fit.rim;
   fit.patch = std::move(data);
 }
 
@@ -229,7 +236,9 @@ PatchFit fit_patch(const ArticularRegion& region, const FitOptions& options) {
   const RegionOutline outline = trace_outline(region.mesh, small_hole);
   std::vector<DataPoint> points = data_points(region);
   const FlatCharts flat = flat_charts(grid, region, small_hole);
-  std::vector<CellMetric> cells = describe_cells(grid, flat);
+  const bool plain = options.smoothing_length || options.aim == SmoothingAim::kPositions;
+  const EdgeSmoothing& edge = plain ? kPlainEdge : kNormalsEdge;
+  std::vector<CellMetric> cells = describe_cells(grid, flat, edge);
   DataTerm term = assemble_data(grid, points);
   // A first guess tells how the chart is stretched, so that lengths are those of the surface.
   const PenaltyTerm unstretched = assemble_penalty(grid, cells);
@@ -237,9 +246,10 @@ PatchFit fit_patch(const ArticularRegion& region, const FitOptions& options) {
   PenaltyTerm penalty = assemble_penalty(grid, cells);
 
   PatchFit fit;
-  fit.smoothing_length = options.smoothing_length
-                             ? *options.smoothing_length
-                             : choose_on_face(grid, region, flat.face, points, cells);
+  fit.smoothing_length = options.smoothing_length ? *options.smoothing_length
+                                                  : choose_on_face(grid, region, flat.face, points,
+                                                                   cells, options.aim, edge);
+  fit.rim = kUncertainRim * edge.least * fit.smoothing_length;
   PatchData data = patch_data(grid, solve_fit(term, penalty, fit.smoothing_length));
 
   const std::vector<double> areas = vertex_areas(region.mesh);

@@ -6,6 +6,8 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "condyle/surface/patch.h"
 
@@ -16,6 +18,7 @@ using Eigen::VectorXd;
 
 constexpr int kRungs = 9;          // smoothing lengths that are tried
 constexpr int kCorrelations = 12;  // correlation lengths that are tried
+constexpr double kNear = 1.02;    // an error of normals over the least one that is as good
 // Of segmentations, and the spread of its logarithm: where the bands do not tell, it decides.
 constexpr double kUsualCorrelation = 1.2, kUsualSpread = 0.7;  // [mm], [-]
 
@@ -24,6 +27,9 @@ double passed(double smoothing_length, double k) {
   const double x = smoothing_length * k, cube = x * x * x;
   return 1 / (1 + cube * cube);
 }
+
+/// What an error of wave number k counts for.
+double worth(SmoothingAim aim, double k) { return aim == SmoothingAim::kNormals ? k * k : 1; }
 
 /// (1/2π) ∫ S(k) weight(k) k dk for texture of unit variance and correlation length l.
 template <class Weight>
@@ -40,6 +46,7 @@ double over_spectrum(double l, Weight weight) {
 
 /// Fits of growing smoothing length, and how far the judged points lie from each of them.
 struct Ladder {
+  SmoothingAim aim = SmoothingAim::kNormals;
   std::vector<double> length;  ///< [mm]
   std::vector<VectorXd> left;  ///< distances at right angles [mm]
   VectorXd weight;             ///< of the points, sum 1
@@ -72,19 +79,21 @@ void weigh(const std::vector<DataPoint>& points,
   constexpr int kBins = 6;
   std::array<double, kBins> share{};
   ladder.weight.setZero(static_cast<Eigen::Index>(points.size()));
-  double area = 0, count = 0;
+  double sum = 0, area = 0, count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!judged[i].counts) continue;
-    ladder.weight[static_cast<Eigen::Index>(i)] = points[i].weight;
+    const double weight = points[i].weight * judged[i].weight;
+    ladder.weight[static_cast<Eigen::Index>(i)] = weight;
+    sum += weight;
     area += points[i].weight;
     ++count;
     const int bin = static_cast<int>(std::lround(judged[i].smoothing * kBins)) - 1;
-    share[std::clamp(bin, 0, kBins - 1)] += points[i].weight;
+    share[std::clamp(bin, 0, kBins - 1)] += weight;
   }
-  ladder.weight /= std::max(area, 1e-300);
+  ladder.weight /= std::max(sum, 1e-300);
   ladder.area = area / std::max(count, 1.0);
   for (int b = 0; b < kBins; ++b)
-    if (share[b] > 0) ladder.fractions.push_back({(b + 1.0) / kBins, share[b] / area});
+    if (share[b] > 0) ladder.fractions.push_back({(b + 1.0) / kBins, share[b] / sum});
 }
 
 Ladder climb(const SplineGrid& grid,
@@ -93,6 +102,7 @@ Ladder climb(const SplineGrid& grid,
              const PenaltyTerm& penalty,
              const SmoothingOptions& options) {
   Ladder ladder;
+  ladder.aim = options.aim;
   weigh(points, judged, ladder);
   const DataTerm data = assemble_data(grid, points);
   for (int r = 0; r < kRungs; ++r) {
@@ -127,13 +137,13 @@ std::vector<double> bands_of_texture(const Ladder& ladder, double l) {
   return bands;
 }
 
-/// Power of unit texture that a fit follows.
+/// Squared error that unit texture leaves in a fit, which follows it.
 double texture_followed(const Ladder& ladder, double length, double l) {
   double sum = 0;
   for (const auto& [fraction, share] : ladder.fractions)
     sum += share * over_spectrum(l, [&](double k) {
              const double part = passed(fraction * length, k);
-             return part * part;
+             return part * part * worth(ladder.aim, k);
            });
   return sum;
 }
@@ -185,11 +195,12 @@ Explanation explain(const std::vector<double>& data,
   return e;
 }
 
-Explanation explain(const Ladder& ladder) {
+/// All that were tried, the likeliest first.
+std::vector<Explanation> explain(const Ladder& ladder) {
   const std::vector<double> data = bands_of_data(ladder);
   // Finer than the mesh is the same as independent from vertex to vertex.
   const double finest = std::sqrt(ladder.area / (2 * M_PI)), coarsest = std::max(4.0, finest);
-  Explanation best;
+  std::vector<Explanation> all;
   for (int c = 0; c < kCorrelations; ++c) {
     const double l = finest * std::pow(coarsest / finest, c / (kCorrelations - 1.0));
     const std::vector<double> texture = bands_of_texture(ladder, l);
@@ -198,15 +209,17 @@ Explanation explain(const Ladder& ladder) {
       e.correlation = l;
       const double unusual = std::log(l / kUsualCorrelation) / kUsualSpread;
       e.misfit += unusual * unusual / 2;
-      if (e.misfit < best.misfit) best = e;
+      all.push_back(e);
     }
   }
-  return best;
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Explanation& a, const Explanation& b) { return a.misfit < b.misfit; });
+  return all;
 }
 
-/// What a fit of the last rung loses of the shape, over what lies between it and the rung before,
-/// for a spectrum of shape that falls as the growth of the bands tells: S ~ k^-p, where a band
-/// grows with ℓ^(p-2).
+/// The squared error that a fit of smoothing length ℓ leaves by what it loses of the shape, over
+/// what lies between it and the rung before, for a spectrum that falls as the growth of the bands
+/// tells: S ~ k^-p, where a band grows with ℓ^(p-2). For normals in units of 1/ℓ².
 double lost_over_band(const Ladder& ladder, double growth) {
   const double step = ladder.length[1] / ladder.length[0];
   const double p = 2 + std::log(growth) / std::log(step);
@@ -214,13 +227,103 @@ double lost_over_band(const Ladder& ladder, double growth) {
   for (double x = -4; x < 5; x += 0.02) {  // over log k, in units of 1/ℓ
     const double k = std::exp(x), power = std::pow(k, 2 - p);
     const double H = passed(1, k), before = passed(1 / step, k);
-    lost += power * (1 - H) * (1 - H);
+    lost += power * (1 - H) * (1 - H) * worth(ladder.aim, k);
     band += power * (before - H) * (before - H);
   }
   return lost / band;
 }
 
 double density(const Texture& t) { return t.rms * t.rms * t.correlation * t.correlation; }
+
+/// What an explanation takes for texture, no weaker than any segmentation has.
+Texture texture_of(const Explanation& e, const SmoothingOptions& options) {
+  const Texture found{std::sqrt(e.variance), e.correlation};
+  return density(found) < density(options.least_texture) ? options.least_texture : found;
+}
+
+/// Expected squared errors at the lengths of a scan.
+class Expectation {
+ public:
+  std::vector<double> errors;
+
+  Expectation(const Ladder& ladder, std::vector<double> lengths)
+      : errors(lengths.size()), ladder_(ladder), lengths_(std::move(lengths)) {}
+
+  void add(const Explanation& e, const Texture& texture, double weight) {
+    const std::vector<double>& followed = followed_by(texture.correlation);
+    const double step = std::log(ladder_.length[1] / ladder_.length[0]);
+    const double lost = e.shape * lost_over_band(ladder_, e.growth);
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      const double band = std::log(lengths_[i] / ladder_.length[0]) / step;
+      errors[i] += weight * (texture.rms * texture.rms * followed[i] +
+                             lost * std::pow(e.growth, band) * worth(ladder_.aim, 1 / lengths_[i]));
+    }
+  }
+
+ private:
+  const std::vector<double>& followed_by(double correlation) {
+    std::vector<double>& followed = followed_[correlation];
+    if (followed.empty())
+      for (const double length : lengths_)
+        followed.push_back(texture_followed(ladder_, length, correlation));
+    return followed;
+  }
+
+  const Ladder& ladder_;
+  std::vector<double> lengths_;
+  std::map<double, std::vector<double>> followed_;  ///< by correlation length
+};
+
+/// In equal ratios.
+std::vector<double> scan(const SmoothingOptions& options, int steps) {
+  std::vector<double> lengths;
+  for (int i = 0; i <= steps; ++i)
+    lengths.push_back(options.least *
+                      std::pow(options.greatest / options.least, static_cast<double>(i) / steps));
+  return lengths;
+}
+
+/// The likeliest explanation's least error, in steps of an eighth: near its least it is flat, and
+/// meshes of one bone shall not differ in ℓ.
+SmoothingChoice choose_for_positions(const Ladder& ladder,
+                                     const std::vector<Explanation>& all,
+                                     const SmoothingOptions& options) {
+  const std::vector<double> lengths = scan(options, 16);
+  const Texture texture = texture_of(all[0], options);
+  Expectation expected(ladder, lengths);
+  expected.add(all[0], texture, 1);
+  const auto least = std::min_element(expected.errors.begin(), expected.errors.end());
+  return {lengths[static_cast<std::size_t>(least - expected.errors.begin())], texture,
+          std::sqrt(*least)};
+}
+
+/// Over all explanations, each as likely as it fits, so that no small change of the data turns the
+/// choice over; of the lengths whose error comes near the least the longest, as curvature, which a
+/// soft joint feels as well, gets better with ℓ.
+SmoothingChoice choose_for_normals(const Ladder& ladder,
+                                   const std::vector<Explanation>& all,
+                                   const SmoothingOptions& options) {
+  constexpr double kUnlikely = 1e-3;
+  const std::vector<double> lengths = scan(options, 64);
+  Expectation expected(ladder, lengths);
+  double likelihood = 0;
+  for (const Explanation& e : all) {
+    const double weight = std::exp(all[0].misfit - e.misfit);
+    if (weight < kUnlikely) break;
+    expected.add(e, texture_of(e, options), weight);
+    likelihood += weight;
+  }
+  const std::vector<double>& errors = expected.errors;
+  const double least = *std::min_element(errors.begin(), errors.end()),
+               limit = kNear * kNear * least;
+  std::size_t last = errors.size() - 1;
+  while (errors[last] > limit) --last;
+  double length = lengths[last];
+  if (last + 1 < errors.size())
+    length *= std::pow(lengths[last + 1] / lengths[last],
+                       (limit - errors[last]) / (errors[last + 1] - errors[last]));
+  return {length, texture_of(all[0], options), std::sqrt(least / likelihood)};
+}
 
 }  // namespace
 
@@ -231,24 +334,9 @@ SmoothingChoice choose_smoothing(const SplineGrid& grid,
                                  const SmoothingOptions& options) {
   assert(judged.size() == points.size());
   const Ladder ladder = climb(grid, points, judged, penalty, options);
-  const Explanation found = explain(ladder);
-  Texture texture{std::sqrt(found.variance), found.correlation};
-  if (density(texture) < density(options.least_texture)) texture = options.least_texture;
-
-  const double lost = found.shape * lost_over_band(ladder, found.growth);
-  const double step = std::log(ladder.length[1] / ladder.length[0]);
-  constexpr int kTries = 16;
-  SmoothingChoice choice{.length = 0, .texture = texture, .error = 1e300};
-  for (int i = 0; i <= kTries; ++i) {
-    const double length =
-        options.least * std::pow(options.greatest / options.least, static_cast<double>(i) / kTries);
-    const double error =
-        texture.rms * texture.rms * texture_followed(ladder, length, texture.correlation) +
-        lost * std::pow(found.growth, std::log(length / options.least) / step);
-    if (error < choice.error) choice.length = length, choice.error = error;
-  }
-  choice.error = std::sqrt(choice.error);
-  return choice;
+  const std::vector<Explanation> all = explain(ladder);
+  return options.aim == SmoothingAim::kNormals ? choose_for_normals(ladder, all, options)
+                                               : choose_for_positions(ladder, all, options);
 }
 
 }  // namespace condyle

@@ -189,9 +189,10 @@ PenaltyTerm assemble_penalty(const SplineGrid& grid, const std::vector<CellMetri
       add_cell<4>(term.third, grid, i, j, gram_u, gram_v,
                   {local * v2 * v2 * v2, 3 * local * u2 * v2 * v2, 3 * local * u2 * u2 * v2,
                    local * u2 * u2 * u2});
+      const double outside = area * std::pow(cell.bending, 4);
       if (!cell.known)
         add_cell<3>(term.second_outside, grid, i, j, gram_u, gram_v,
-                    {area * v2 * v2, 2 * area * u2 * v2, area * u2 * u2});
+                    {outside * v2 * v2, 2 * outside * u2 * v2, outside * u2 * u2});
     }
   return term;
 }

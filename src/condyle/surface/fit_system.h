@@ -33,6 +33,7 @@ struct SplineGrid {
 struct CellMetric {
   double stretch_u = 1, stretch_v = 1;  ///< mm of surface per unit of parameter
   double smoothing = 1;                 ///< the smoothing length here as a fraction of ℓ
+  double bending = 1;                   ///< that of the second penalty, where there are no data
   bool known = true;
 };
 

@@ -117,7 +117,7 @@ OffsetPatch offset_patch(const ArticularRegion& region, const PatchFit& fit, dou
         offset * patch.evaluate_frame({fit.parameters[i].x(), fit.parameters[i].y(), 0}).n;
   fill_mask(result.patch, result.region, trace_outline(region.mesh, bridged_perimeter(region.mesh)),
             fit.parameters);
-  for (double& distance : result.patch.mask) distance -= kUncertainRim * fit.smoothing_length;
+  for (double& distance : result.patch.mask) distance -= fit.rim;
   measure(grid, patch, offset, result);
   return result;
 }
