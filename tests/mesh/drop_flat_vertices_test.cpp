@@ -74,8 +74,7 @@ TEST(DropFlatVertices, GivesASplitMeshBackAsItWas) {
   TriangleMesh fine = split(split(split(mesh)));
   ASSERT_EQ(fine.triangles.size(), 64 * mesh.triangles.size());
   for (Vector3d& p : fine.vertices) p = p.cast<float>().cast<double>();
-  const TriangleMesh back =
-      drop_flat_vertices(fine, {.tolerance = rounding_of(fine, Vector3d::Zero())});
+  const TriangleMesh back = drop_flat_vertices(fine);
   ASSERT_EQ(back.vertices.size(), mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
     EXPECT_LT((back.vertices[i] - mesh.vertices[i]).norm(), 1e-5);

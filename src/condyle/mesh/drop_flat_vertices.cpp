@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace condyle {
@@ -160,13 +159,6 @@ TriangleMesh drop_flat_vertices(TriangleMesh mesh, const FlatVertexOptions& opti
   Collapsible collapsible(std::move(mesh), options);
   collapsible.run();
   return std::move(collapsible).rest();
-}
-
-double rounding_of(const TriangleMesh& mesh, const Eigen::Vector3d& moved) {
-  double greatest = 0;
-  for (const Vector3d& p : mesh.vertices)
-    greatest = std::max(greatest, (p + moved).cwiseAbs().maxCoeff());
-  return 2 * std::numeric_limits<float>::epsilon() * greatest;
 }
 
 }  // namespace condyle

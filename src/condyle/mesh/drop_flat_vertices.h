@@ -9,16 +9,13 @@
 namespace condyle {
 
 struct FlatVertexOptions {
-  double tolerance = 1e-5;  ///< how far from the new triangles a vertex may lie that goes [mm]
+  double tolerance = 2e-5;  ///< how far from the new triangles a vertex may lie that goes: what
+                            ///< single precision makes of a knee's coordinates [mm]
   double longest_edge = 3;  ///< that may come about [mm]
 };
 
 /// Pulls such vertices, one by one, onto a neighbour; the rest keep their places and order.
 [[nodiscard]] TriangleMesh drop_flat_vertices(TriangleMesh mesh,
                                               const FlatVertexOptions& options = {});
-
-/// Tolerance for coordinates of single precision, about the greatest of the mesh moved by `moved`
-/// [mm].
-[[nodiscard]] double rounding_of(const TriangleMesh& mesh, const Eigen::Vector3d& moved);
 
 }  // namespace condyle

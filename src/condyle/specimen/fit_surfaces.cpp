@@ -165,8 +165,7 @@ void load_source(const Scene& scene, const MeshReader& read, Source& source) {
   if (source.turned)
     source.notes.push_back(fmt::format("{} of {} sheets faced into the bone and were turned",
                                        turned, source.mesh.closed.size()));
-  source.shape = drop_flat_vertices(source.mesh.mesh,
-                                    {.tolerance = rounding_of(source.mesh.mesh, source.middle)});
+  source.shape = drop_flat_vertices(source.mesh.mesh);
   const TriangleMesh& mesh = source.shape;
   if (is_tibia(scene, source)) suspect_side(scene, mesh, source);
   try {
