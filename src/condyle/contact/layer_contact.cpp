@@ -68,6 +68,8 @@ class BothSides {
   void reset() {
     for (LayerSide& side : sides_) side.reset();
   }
+  /// Of the sides that have points.
+  [[nodiscard]] double count() const { return static_cast<double>(sides_.size()); }
   /// At a pose, of layers `factor` times as stiff, their wrench on A added where one is asked for.
   LayerSums sums(const RigidTransform& X,
                  const LayerLaw& law,
@@ -85,7 +87,7 @@ class BothSides {
   }
 
  private:
-  [[nodiscard]] double share() const { return 1.0 / static_cast<double>(sides_.size()); }
+  [[nodiscard]] double share() const { return 1 / count(); }
 
   std::vector<LayerSide> sides_;
 };
@@ -149,11 +151,18 @@ class LayerContact final : public ContactPotential {
     if (!sides) sides.emplace(*lattices_, level_, shifted);
     return *sides;
   }
-  /// Errors of the lattice and of the shifted one have nearly opposite signs.
+  /// Of the force, relative. An error that goes along one direction of the lattice changes its sign
+  /// with a shift of half a cell, so half the difference is that error; what goes along diagonals
+  /// keeps its sign and is not seen: of N points on a side it has a root mean square of
+  /// 0.15 N^(-5/4), 0.38 of all.
   [[nodiscard]] double lattice_error(const RigidTransform& X_BA) {
+    constexpr double kUnseen = 0.15;
     const LayerSums here = sides(false).sums(X_BA, law_), shifted = sides(true).sums(X_BA, law_);
     const double force = std::max(here.force, shifted.force);
-    return force > 0 ? 0.5 * (here.on_A - shifted.on_A).norm() / force : 0;
+    if (!(force > 0)) return 0;
+    const double seen = 0.5 * (here.on_A - shifted.on_A).norm() / force;
+    const double points = std::max(1.0, here.points / sides(false).count());
+    return std::hypot(seen, kUnseen * std::pow(points, -1.25));
   }
   /// Part of the force that an edge takes away.
   [[nodiscard]] static double lost(const LayerSums& sums) {
