@@ -17,6 +17,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::array<int, 6> kCells = {1, 2, 3, 4, 6, 8};  // in a knot span, in either direction
+constexpr double kError = 0.39;                            // N^5/4 times the error of N on a side
 constexpr std::size_t kLevels = kCells.size();
 
 /// The lattices of a pair's surfaces, made when they are first asked for.
@@ -59,10 +60,11 @@ class Lattices {
 class BothSides {
  public:
   BothSides(const Lattices& lattices, std::size_t level, bool shifted) {
+    const FootAccuracy accuracy = shifted ? FootAccuracy::kEstimate : FootAccuracy::kExact;
     if (const LayerLattice* points = lattices.of_A(level, shifted))
-      sides_.emplace_back(*points, true, *lattices.on_B);
+      sides_.emplace_back(*points, true, *lattices.on_B, accuracy);
     if (const LayerLattice* points = lattices.of_B(level, shifted))
-      sides_.emplace_back(*points, false, *lattices.on_A);
+      sides_.emplace_back(*points, false, *lattices.on_A, accuracy);
   }
 
   void reset() {
@@ -70,14 +72,23 @@ class BothSides {
   }
   /// Of the sides that have points.
   [[nodiscard]] double count() const { return static_cast<double>(sides_.size()); }
-  /// At a pose, of layers `factor` times as stiff, their wrench on A added where one is asked for.
-  LayerSums sums(const RigidTransform& X,
-                 const LayerLaw& law,
-                 double factor = 1,
-                 Wrench* wrench = nullptr) {
+  /// At a pose, of layers `factor` times as stiff.
+  LayerSums sums(const RigidTransform& X, const LayerLaw& law, double factor = 1) {
     LayerSums all;
-    for (LayerSide& side : sides_) side.add_to(X, law, factor * share(), wrench, all);
+    for (LayerSide& side : sides_) side.add_to(X, law, factor * share(), nullptr, all);
     return all;
+  }
+  /// Their wrench on A, added; the sum of the forces' magnitudes [N].
+  double add_to(const RigidTransform& X, const LayerLaw& law, double factor, Wrench& wrench) {
+    double force = 0;
+    for (LayerSide& side : sides_) force += side.add_to(X, law, factor * share(), wrench);
+    return force;
+  }
+  /// How many points are pressed.
+  std::size_t pressed(const RigidTransform& X) {
+    std::size_t points = 0;
+    for (LayerSide& side : sides_) points += side.pressed(X);
+    return points;
   }
   /// The points that are pressed, B's first.
   void add_pressures(const RigidTransform& X,
@@ -111,12 +122,17 @@ class LayerContact final : public ContactPotential {
       if (sides) sides->reset();
   }
 
-  /// The coarsest lattice, or where it would hardly see a small area the one that does.
+  /// The coarsest lattice that should do by the number of its points, as one that is coarser tells
+  /// that.
   void prepare(const RigidTransform& X_BA) override {
-    constexpr int kFewest = 16;  // points
-    for (level_ = 0; level_ + 1 < kLevels; ++level_) {
-      const int points = sides(false).sums(X_BA, law_).points;
-      if (points == 0 || points >= kFewest) break;
+    constexpr double kEnough = 8;  // points, to tell those of other lattices
+    level_ = 0;
+    for (;;) {
+      const double points = static_cast<double>(sides(false).pressed(X_BA)) / sides(false).count();
+      const double finer = std::sqrt(fewest_points(options_.tolerance) / points);
+      if (level_ + 1 == kLevels || points == 0 || !(finer > 1)) break;
+      level_ = points < kEnough ? level_ + 1 : level_of(finer * kCells[level_]);
+      if (points >= kEnough) break;
     }
   }
 
@@ -136,7 +152,7 @@ class LayerContact final : public ContactPotential {
   }
 
   double add_to(const RigidTransform& X_BA, Wrench& wrench) override {
-    return sides(false).sums(X_BA, law_, factor_, &wrench).force;
+    return sides(false).add_to(X_BA, law_, factor_, wrench);
   }
 
   double energy(const RigidTransform& X_BA) override {
@@ -172,12 +188,17 @@ class LayerContact final : public ContactPotential {
     const Vector3d at = x + origin_;
     return fmt::format("[{:.1f}, {:.1f}, {:.1f}] mm of the fixed body", at.x(), at.y(), at.z());
   }
+  /// Points on a side that leave an error of the force of that, root mean square.
+  [[nodiscard]] static double fewest_points(double error) { return std::pow(kError / error, 0.8); }
+  /// The coarsest with at least so many cells, or the finest.
+  [[nodiscard]] static std::size_t level_of(double cells) {
+    std::size_t level = 0;
+    while (level + 1 < kLevels && kCells[level] < cells) ++level;
+    return level;
+  }
   /// The coarsest lattice that should do: errors of the force fall as the width of cells to 5/2.
   [[nodiscard]] std::size_t finer(std::size_t level, double error) const {
-    const double wanted = kCells[level] * std::pow(error / options_.tolerance, 0.4);
-    do ++level;
-    while (level + 1 < kLevels && kCells[level] < wanted);
-    return level;
+    return std::max(level + 1, level_of(kCells[level] * std::pow(error / options_.tolerance, 0.4)));
   }
   [[nodiscard]] std::optional<Objection> objection(const LayerSums& sums) const;
 

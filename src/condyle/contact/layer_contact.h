@@ -7,7 +7,8 @@
 ///
 /// The lattice is as fine as the force asks for: a pose is solved on one lattice, which is held
 /// meanwhile, and solved on with a finer one until the force on a lattice shifted by half a cell
-/// agrees with it. Each pose begins with the coarsest, so that nothing depends on poses before.
+/// agrees with it. Each pose begins with the coarsest that should do by the number of points that are
+/// pressed where it starts, so that nothing depends on poses before.
 
 #include <array>
 #include <memory>

@@ -1,12 +1,12 @@
 #include "condyle/contact/layer_side.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 
 #include "condyle/math/rotation.h"
+#include "condyle/math/simd.h"
 
 namespace condyle {
 namespace {
@@ -18,65 +18,81 @@ using Eigen::Vector3d;
 /// behind the other body.
 constexpr double kOpposed = -0.3;
 
+/// Points that have moved by less than this since their feet were found are told from there: φ and
+/// n by their derivatives, with errors of this cubed and squared, over radii of curvature [mm].
+constexpr double kStill = 1e-6;
+
+/// Longest last step to a foot [mm].
+double longest_step(FootAccuracy accuracy) {
+  return accuracy == FootAccuracy::kExact ? 1e-7 : 5e-3;
+}
+
 }  // namespace
 
-/// What a point is pressed against, in the frame of the body that carries the other surface.
-struct LayerSide::Pressed {
-  std::size_t point;
-  double phi;  ///< signed distance [mm], < 0
-  Vector3d n;  ///< out of the other solid
-  Matrix3d K;  ///< curvature tensor there [1/mm]
-  Place place;
-};
-
-LayerSide::LayerSide(const LayerLattice& points, bool of_A, const Surface& into)
+LayerSide::LayerSide(const LayerLattice& points,
+                     bool of_A,
+                     const Surface& into,
+                     FootAccuracy accuracy)
     : points_(points),
       of_A_(of_A),
       into_(into),
+      find_(into),
+      step_(longest_step(accuracy)),
       blocks_(points.blocks.size()),
-      seen_(points.x.size()) {}
+      feet_(points.x.size()) {
+  pressed_.reserve(points.x.size());
+}
 
 void LayerSide::reset() {
-  std::fill(blocks_.begin(), blocks_.end(), Seen());
-  std::fill(seen_.begin(), seen_.end(), Seen());
+  std::fill(blocks_.begin(), blocks_.end(), LayerFoot());
+  std::fill(feet_.begin(), feet_.end(), LayerFoot());
+  is_at_ = false;
 }
 
 /// May a block hold points that are pressed?
 bool LayerSide::is_near(std::size_t block, const RigidTransform& X) {
-  Seen& seen = blocks_[block];
+  LayerFoot& foot = blocks_[block];
   const Vector3d center = X * points_.blocks[block].center;
   const double radius = points_.blocks[block].radius;
-  if (seen.is_clear(center, radius)) return false;
-  seen.place = into_.closest(center, seen.known ? seen.place : into_.seed(center));
-  const SurfacePoint at = into_.evaluate_frame(seen.place);
-  seen = {seen.place, center, at.n.dot(center - at.c), true};
-  return !(seen.phi > radius);
+  if (foot.is_clear(center, radius)) return false;
+  if (foot.is_near(center, radius)) return true;
+  if (foot.known)
+    find_.find(center, foot, step_, foot);
+  else
+    find_.find_anew(center, foot);
+  return !(foot.phi > radius);
 }
 
-bool LayerSide::press(std::size_t point,
-                      const Seen& block,
-                      const RigidTransform& X,
-                      Pressed& pressed) {
+void LayerSide::press(std::size_t point, const LayerFoot& block, const RigidTransform& X) {
   const Vector3d p = X * points_.x[point];
-  Seen& seen = seen_[point];
-  if (seen.is_clear(p, 0)) return false;
-  const Place place = into_.closest(p, seen.known ? seen.place : block.place);
-  const SurfacePoint at = into_.evaluate(place);
-  seen = {place, p, at.n.dot(p - at.c), true};
-  pressed = {point, seen.phi, at.n, at.K, place};
-  return pressed.phi < 0 && at.n.dot(X.R * points_.n[point]) < kOpposed;
+  LayerFoot& foot = feet_[point];
+  if (foot.is_clear(p, 0)) return;
+  if (!foot.known || !((p - foot.at).squaredNorm() < kStill * kStill))
+    find_.find(p, foot.known ? foot : block, step_, foot);
+  const Vector3d v = p - foot.at, Hv = foot.H * v;
+  const double phi = foot.phi + foot.n.dot(v) + 0.5 * v.dot(Hv);
+  if (!(phi < 0)) return;
+  const Vector3d n = foot.n + Hv;
+  if (n.dot(X.R * points_.n[point]) < kOpposed) pressed_.push_back({point, phi, p, n});
 }
 
-template <typename Visit>
-void LayerSide::visit(const RigidTransform& X_BA, const Visit& visit) {
+/// Finds the points that are pressed, if it does not know them.
+void LayerSide::press_at(const RigidTransform& X_BA) {
+  if (is_at_ && X_.R == X_BA.R && X_.p == X_BA.p) return;
   const RigidTransform X = of_A_ ? X_BA : X_BA.inverse();
-  Pressed pressed;
+  pressed_.clear();
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     if (!is_near(b, X)) continue;
     const LayerBlock& block = points_.blocks[b];
-    for (std::size_t i = block.first; i < block.first + block.count; ++i)
-      if (press(i, blocks_[b], X, pressed)) visit(pressed);
+    for (std::size_t i = block.first; i < block.first + block.count; ++i) press(i, blocks_[b], X);
   }
+  X_ = X_BA;
+  is_at_ = true;
+}
+
+std::size_t LayerSide::pressed(const RigidTransform& X_BA) {
+  press_at(X_BA);
+  return pressed_.size();
 }
 
 namespace {
@@ -110,59 +126,120 @@ void add_to_sums(const Push& push, LayerSums& sums) {
   sums.normal = push.n;
 }
 
-/// Force f at the arm s, and G: the blocks of a point that is fixed on A, or on B.
-void add_to_wrench(
-    const Vector3d& f, const Vector3d& s, const Matrix3d& G, bool of_A, Wrench& wrench) {
-  const Matrix3d S = skew(s), f_x = skew(f), SG = S * G;
-  wrench.f += f;
-  wrench.m += s.cross(f);
-  wrench.F1 += G;
-  if (of_A) {
-    wrench.F2 += SG.transpose();  // -G S, G being symmetric
-    wrench.M1 += SG;
-    wrench.M2 += f_x * S - SG * S;
-  } else {
-    wrench.F2 += SG.transpose() - f_x;
-    wrench.M1 += SG + f_x;
-    wrench.M2 -= SG * S + S * f_x;
+/// Sums over points in the frame of the other body, s being the arms of forces f = ±p n.
+struct Moments {
+  double force = 0;                   ///< Σ w p [N]
+  Vector3d f = Vector3d::Zero();      ///< Σ w f [N]
+  Matrix3d s_f = Matrix3d::Zero();    ///< Σ w s fᵀ [N mm]
+  Matrix3d G = Matrix3d::Zero();      ///< Σ w G [N/mm]
+  Matrix3d S_G = Matrix3d::Zero();    ///< Σ w [s]x G [N]
+  Matrix3d S_G_S = Matrix3d::Zero();  ///< Σ w [s]x G [s]x [N mm]
+};
+
+CONDYLE_FMA_CLONE
+void add_point(
+    const Vector3d& s, const Vector3d& n, const Matrix3d& H, double wp, double wk, Moments& sums) {
+  double G[3][3], SG[3][3];
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) G[j][i] = wp * H(i, j) - wk * n[i] * n[j];
+  for (int j = 0; j < 3; ++j) {
+    SG[j][0] = s[1] * G[j][2] - s[2] * G[j][1];
+    SG[j][1] = s[2] * G[j][0] - s[0] * G[j][2];
+    SG[j][2] = s[0] * G[j][1] - s[1] * G[j][0];
+  }
+  sums.force += wp;
+  for (int j = 0; j < 3; ++j) {
+    sums.f[j] += wp * n[j];
+    for (int i = 0; i < 3; ++i) {
+      sums.s_f(i, j) += s[i] * (wp * n[j]);
+      sums.G(i, j) += G[j][i];
+      sums.S_G(i, j) += SG[j][i];
+    }
+  }
+  for (int i = 0; i < 3; ++i) {  // the rows of [s]x G times [s]x
+    sums.S_G_S(i, 0) += SG[1][i] * s[2] - SG[2][i] * s[1];
+    sums.S_G_S(i, 1) += SG[2][i] * s[0] - SG[0][i] * s[2];
+    sums.S_G_S(i, 2) += SG[0][i] * s[1] - SG[1][i] * s[0];
   }
 }
 
+Vector3d axis_of(const Matrix3d& s_f) {
+  return {s_f(1, 2) - s_f(2, 1), s_f(2, 0) - s_f(0, 2), s_f(0, 1) - s_f(1, 0)};
+}
+
+/// Points fixed on A, all in the frame of B.
+void add_to_wrench_of_A(const Moments& sums, Wrench& wrench) {
+  wrench.f += sums.f;
+  wrench.m += axis_of(sums.s_f);
+  wrench.F1 += sums.G;
+  wrench.F2 += sums.S_G.transpose();  // -G S, G being symmetric
+  wrench.M1 += sums.S_G;
+  wrench.M2 += sums.s_f - sums.s_f.trace() * Matrix3d::Identity() - sums.S_G_S;
+}
+
+/// Points fixed on B, all in the frame of A, n out of A: f = -p n.
+void add_to_wrench_of_B(const Moments& sums, const Matrix3d& R, Wrench& wrench) {
+  const Vector3d f = -(R * sums.f);
+  const Matrix3d s_f = -(R * sums.s_f * R.transpose()), G = R * sums.G * R.transpose(),
+                 S_G = R * sums.S_G * R.transpose(), S_G_S = R * sums.S_G_S * R.transpose(),
+                 f_x = skew(f);
+  wrench.f += f;
+  wrench.m += axis_of(s_f);
+  wrench.F1 += G;
+  wrench.F2 += S_G.transpose() - f_x;
+  wrench.M1 += S_G + f_x;
+  wrench.M2 -= S_G_S + s_f.transpose() - s_f.trace() * Matrix3d::Identity();
+}
+
 }  // namespace
+
+double LayerSide::add_to(const RigidTransform& X_BA,
+                         const LayerLaw& law,
+                         double share,
+                         Wrench& wrench) {
+  press_at(X_BA);
+  Moments sums;
+  for (const Pressed& pressed : pressed_) {
+    const LayerLaw::Answer answer = law.at(-pressed.phi);
+    const double w = share * points_.area[pressed.point];
+    const Vector3d s = of_A_ ? Vector3d(pressed.p - X_BA.p) : pressed.p;
+    add_point(s, pressed.n, feet_[pressed.point].H, w * answer.pressure, w * answer.stiffness,
+              sums);
+  }
+  if (of_A_)
+    add_to_wrench_of_A(sums, wrench);
+  else
+    add_to_wrench_of_B(sums, X_BA.R, wrench);
+  return sums.force;
+}
 
 void LayerSide::add_to(const RigidTransform& X_BA,
                        const LayerLaw& law,
                        double share,
                        Wrench* wrench,
                        LayerSums& sums) {
-  visit(X_BA, [&](const Pressed& pressed) {
+  press_at(X_BA);
+  for (const Pressed& pressed : pressed_) {
     const Vector3d& own = points_.x[pressed.point];
-    const Vector3d s = of_A_ ? Vector3d(X_BA.R * own) : Vector3d(own - X_BA.p);
-    const double phi = pressed.phi;
-    const LayerLaw::Answer answer = law.at(-phi);
-    const Vector3d n = of_A_ ? pressed.n : Vector3d(X_BA.R * pressed.n);
-    const Vector3d out_of_B = of_A_ ? n : Vector3d(-n);
+    const Vector3d out_of_B = of_A_ ? pressed.n : Vector3d(-(X_BA.R * pressed.n));
     const double w = share * points_.area[pressed.point];
     const double faded = points_.faded.empty() ? 0 : share * points_.faded[pressed.point];
-    add_to_sums(
-        {answer, w, faded, -phi, X_BA.p + s, out_of_B, into_.edge_distance(pressed.place) < 0},
-        sums);
-    if (wrench == nullptr) return;
-    Matrix3d H = -pressed.K * (Matrix3d::Identity() - phi * pressed.K).inverse();
-    if (!of_A_) H = X_BA.R * H * X_BA.R.transpose();
-    const Matrix3d G = w * (answer.pressure * H - answer.stiffness * n * n.transpose());
-    add_to_wrench(w * answer.pressure * out_of_B, s, G, of_A_, *wrench);
-  });
+    add_to_sums({law.at(-pressed.phi), w, faded, -pressed.phi, of_A_ ? pressed.p : own, out_of_B,
+                 into_.edge_distance(feet_[pressed.point].place) < 0},
+                sums);
+  }
+  if (wrench != nullptr) add_to(X_BA, law, share, *wrench);
 }
 
 void LayerSide::add_pressures(const RigidTransform& X_BA,
                               const LayerLaw& law,
                               std::vector<PressurePoint>& points) {
-  visit(X_BA, [&](const Pressed& pressed) {
+  press_at(X_BA);
+  for (const Pressed& pressed : pressed_) {
     const std::size_t i = pressed.point;
     points.push_back({of_A_, points_.place[i], points_.x[i], law.at(-pressed.phi).pressure,
                       -pressed.phi, points_.area[i]});
-  });
+  }
 }
 
 }  // namespace condyle

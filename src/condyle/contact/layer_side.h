@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "condyle/contact/contact_result.h"
+#include "condyle/contact/layer_foot.h"
 #include "condyle/contact/layer_lattice.h"
 #include "condyle/contact/layer_law.h"
 #include "condyle/elements/wrench.h"
@@ -47,12 +48,21 @@ struct LayerSums {
   [[nodiscard]] Eigen::Vector3d center_of_pressure() const { return moment / force; }
 };
 
-/// Points of one body, pressed into a surface of the other. Keeps closest points from pose to pose;
-/// one thread.
+/// How exactly the feet of points are wanted.
+enum class FootAccuracy {
+  kExact,    ///< to round-off, for whatever is solved
+  kEstimate  ///< to 1e-7 of the force, for an estimate of an error
+};
+
+/// Points of one body, pressed into a surface of the other. Keeps closest points from pose to pose,
+/// and the points that are pressed until it is asked for another pose; one thread.
 class LayerSide {
  public:
   /// Points of A pressed into B's surface, or the other way round. All is referred to.
-  LayerSide(const LayerLattice& points, bool of_A, const Surface& into);
+  LayerSide(const LayerLattice& points,
+            bool of_A,
+            const Surface& into,
+            FootAccuracy accuracy = FootAccuracy::kExact);
 
   /// As newly made. Allocates nothing.
   void reset();
@@ -64,35 +74,39 @@ class LayerSide {
               Wrench* wrench,
               LayerSums& sums);
 
+  /// Adds `share` of the wrench on A; returns the sum of the forces' magnitudes [N]. Allocates
+  /// nothing.
+  double add_to(const RigidTransform& X_BA, const LayerLaw& law, double share, Wrench& wrench);
+
+  /// How many points are pressed.
+  [[nodiscard]] std::size_t pressed(const RigidTransform& X_BA);
+
   /// Appends the points that are pressed.
   void add_pressures(const RigidTransform& X_BA,
                      const LayerLaw& law,
                      std::vector<PressurePoint>& points);
 
  private:
-  struct Pressed;
-  /// A point, of the lattice or the centre of a block, where the other surface was last asked for it.
-  struct Seen {
-    Place place = Place::Zero();
-    Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< in the other body's frame [mm]
-    double phi = 0;                                ///< [mm]
-    bool known = false;
-
-    /// φ changes by no more than the way of a point: farther off than `radius` it stays so until it
-    /// has moved by the rest.
-    [[nodiscard]] bool is_clear(const Eigen::Vector3d& now, double radius) const {
-      return known && phi > radius && (now - at).squaredNorm() < (phi - radius) * (phi - radius);
-    }
+  /// A point that is pressed, in the frame of the body that carries the other surface.
+  struct Pressed {
+    std::size_t point = 0;
+    double phi = 0;     ///< signed distance [mm], < 0
+    Eigen::Vector3d p;  ///< where it is [mm]
+    Eigen::Vector3d n;  ///< out of the other solid
   };
   [[nodiscard]] bool is_near(std::size_t block, const RigidTransform& X);
-  bool press(std::size_t point, const Seen& block, const RigidTransform& X, Pressed& pressed);
-  template <typename Visit>
-  void visit(const RigidTransform& X_BA, const Visit& visit);
+  void press(std::size_t point, const LayerFoot& block, const RigidTransform& X);
+  void press_at(const RigidTransform& X_BA);
 
   const LayerLattice& points_;
   bool of_A_;
   const Surface& into_;
-  std::vector<Seen> blocks_, seen_;
+  LayerFeet find_;
+  double step_;                           ///< of the search for a foot, the last one at most [mm]
+  std::vector<LayerFoot> blocks_, feet_;  ///< of the blocks' centres, and of the points
+  std::vector<Pressed> pressed_;          ///< at X_, with room for all
+  RigidTransform X_;
+  bool is_at_ = false;  ///< X_
 };
 
 }  // namespace condyle
