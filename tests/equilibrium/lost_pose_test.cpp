@@ -233,9 +233,21 @@ TEST(PassedThrough, WhatSlidOffAnEdgeAndWentOnBehindIsBehind) {
   EXPECT_FALSE(depth(40, 5).has_value());
   EXPECT_FALSE(depth(40, -10).has_value()) << "as deep as the search sees";
   ASSERT_TRUE(depth(40, -40).has_value());
-  EXPECT_NEAR(*depth(40, -40), 40, 4);
+  EXPECT_NEAR(*depth(40, -40), 43, 3);  // of the lower part of the tilted disc
   ASSERT_TRUE(depth(0, -20).has_value());
   EXPECT_NEAR(*depth(0, -20), 20, 2);
+}
+
+// A large disc stands beside a small one, its lower half behind it: as much of it lies in front.
+TEST(PassedThrough, WhatStandsHalfBehindAnEdgeIsBehind) {
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), origin = Eigen::Vector3d::Zero();
+  ContactPair pair;
+  pair.on_B = make_plane(origin, up, 12);
+  pair.on_A = make_plane(origin, -up, 30);
+  const PassedThrough passed(pair, 30);
+  const Eigen::Matrix3d upright = exp_rotation({0, 1.3, 0});
+  ASSERT_TRUE(passed.depth({upright, {60, 0, 0}}).has_value());
+  EXPECT_FALSE(passed.depth({upright, {60, 0, 30}}).has_value()) << "all of it in front";
 }
 
 TEST(CarriedPose, HasThePrescribedCoordinatesAndKeepsTheOthers) {

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kSpacing = 0.2;   // of the samples [L]
 constexpr double kOpposed = -0.5;  // cosine between normals that face each other
-constexpr std::size_t kFew = 3;    // fewer samples that face each other tell nothing
+constexpr std::size_t kFew = 3;    // fewer samples tell nothing
 
 bool has_edge(const Surface& surface) {
   return std::isfinite(surface.edge_distance(surface.seed(Eigen::Vector3d::Zero())));
@@ -33,10 +33,11 @@ void add_gaps(const Samples& samples, const RigidTransform& X, const Surface& ot
   }
 }
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+/// The third lowest: one or two samples may have met a closest point far from the true one.
+double low(std::vector<double>& values) {
+  const auto third = values.begin() + (kFew - 1);
+  std::nth_element(values.begin(), third, values.end());
+  return *third;
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ std::optional<double> PassedThrough::depth(const RigidTransform& X_BA) const {
   add_gaps(samples_A_, X_BA, *on_B_, gaps);
   add_gaps(samples_B_, X_BA.inverse(), *on_A_, gaps);
   if (gaps.all.size() < kFew) return std::nullopt;
-  const double gap = median(gaps.facing.size() < kFew ? gaps.all : gaps.facing);
+  const double gap = low(gaps.facing.size() < kFew ? gaps.all : gaps.facing);
   if (gap > -kDeep * L_) return std::nullopt;
   return -gap;
 }

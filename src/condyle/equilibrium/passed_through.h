@@ -16,9 +16,10 @@ class PassedThrough {
   /// `L` is the model's length [mm].
   PassedThrough(const ContactPair& pair, double L);
 
-  /// How deep one surface lies behind the other [mm], where most of what faces the other's known
-  /// part does so by more than `kDeep` L; where next to nothing faces it (a joint that slid off its
-  /// edge and went on behind), most of both surfaces. Nothing where they are on their right sides.
+  /// How deep one surface lies behind the other [mm], where some of what faces the other's known part
+  /// does so by more than `kDeep` L; where next to nothing faces it (a joint that slid off its edge
+  /// and went on behind), some of all of both surfaces. Nothing where they are on their right
+  /// sides: in a joint nothing that faces lies behind.
   [[nodiscard]] std::optional<double> depth(const RigidTransform& X_BA) const;
 
   /// The same for a pose at which the search found no overlap, sought only where no such pose is
