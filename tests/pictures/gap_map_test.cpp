@@ -15,29 +15,10 @@ using Eigen::Vector3d;
 
 constexpr double kRadius = 20, kHeight = 1;  // of a ball above a plane [mm]
 
-/// A ball on the femur, its lowest point 1 mm above a plane of radius 50 on the tibia, y up.
-Run ball_over_plane() {
-  Run run = block_run();
-  run.scene.surfaces.resize(2);
-  SurfaceDescription &ball = run.scene.surfaces[0], &plane = run.scene.surfaces[1];
-  ball.name = "ball";
-  ball.body = 0;
-  ball.kind = SurfaceKind::kSphere;
-  ball.radius = kRadius;
-  ball.point = {0, kRadius + kHeight, 0};
-  plane.name = "plane";
-  plane.body = 1;
-  plane.kind = SurfaceKind::kPlane;
-  plane.direction = {0, 1, 0};
-  plane.known_radius = 50;
-  run.scene.contacts[0].surfaces = {0, 1};
-  return run;
-}
-
 const std::vector<RigidTransform> kAsModelled(2);
 
 TEST(GapMap, IsTheDistanceToTheNearestPointOfTheOtherSurface) {
-  const auto run = ball_over_plane();
+  const auto run = ball_over_plane(kRadius, kHeight);
   const GapMap map(run);
   for (const double r : {0.0, 5.0, 15.0}) {
     const GapMap::Gap gap = map.gap(1, {r, 0, 0}, {0, 1, 0}, kAsModelled);
@@ -52,7 +33,7 @@ TEST(GapMap, IsTheDistanceToTheNearestPointOfTheOtherSurface) {
 }
 
 TEST(GapMap, FollowsThePosesOfTheBodies) {
-  const auto run = ball_over_plane();
+  const auto run = ball_over_plane(kRadius, kHeight);
   std::vector<RigidTransform> X_P(2);
   X_P[0].p = {0, 2.5, 0};
   EXPECT_NEAR(GapMap(run).gap(1, {0, 0, 0}, {0, 1, 0}, X_P).width, kHeight + 2.5, 1e-9);
@@ -61,7 +42,7 @@ TEST(GapMap, FollowsThePosesOfTheBodies) {
 }
 
 TEST(GapMap, SaysNothingBeyondTheKnownSurfaceAndOnTheFarSide) {
-  const auto run = ball_over_plane();
+  const auto run = ball_over_plane(kRadius, kHeight);
   const GapMap map(run);
   std::vector<RigidTransform> X_P(2);
   X_P[0].p = {70, 0, 0};
@@ -71,7 +52,7 @@ TEST(GapMap, SaysNothingBeyondTheKnownSurfaceAndOnTheFarSide) {
 }
 
 TEST(GapMap, PaintsTouchingDarkAndFarPale) {
-  const auto run = ball_over_plane();
+  const auto run = ball_over_plane(kRadius, kHeight);
   ShadedMesh mesh;
   for (const double r : {0.0, 20.0})
     mesh.vertices.push_back({Eigen::Vector3f(static_cast<float>(r), 0, 0), {0, 1, 0}, {}});
@@ -94,7 +75,7 @@ TEST(GapMap, ColoursGrowLighterFromTouchingToFar) {
 }
 
 TEST(GapMap, PaintsOverlapInAColourOutsideOfTheScaleAndSaysHowDeep) {
-  const auto run = ball_over_plane();
+  const auto run = ball_over_plane(kRadius, kHeight);
   std::vector<RigidTransform> X_P(2);
   X_P[0].p = {0, -1.25, 0};  // the ball's lowest point 0.25 mm below the plane
   ShadedMesh mesh;

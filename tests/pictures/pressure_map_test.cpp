@@ -17,25 +17,12 @@ constexpr double kRadius = 30, kDepth = 0.5;  // of a ball in a plane [mm]
 // E (1 - ν)/((1 + ν)(1 - 2ν))/h at E = 10 N/mm², ν = 0.45, both layers 6 mm [N/mm³].
 constexpr double kStiffness = 6.321839080459770;
 
-/// A layered ball on the femur, 0.5 mm deep in a layered plane of radius 50 on the tibia, y up.
+/// A layered ball 0.5 mm deep in a layered plane.
 Run ball_in_plane(double greatest = 0) {
-  Run run = block_run();
-  run.scene.surfaces.resize(2);
-  SurfaceDescription &ball = run.scene.surfaces[0], &plane = run.scene.surfaces[1];
-  ball.name = "ball";
-  ball.body = 0;
-  ball.kind = SurfaceKind::kSphere;
-  ball.radius = kRadius;
-  ball.point = {0, kRadius - kDepth, 0};
-  plane.name = "plane";
-  plane.body = 1;
-  plane.kind = SurfaceKind::kPlane;
-  plane.direction = {0, 1, 0};
-  plane.known_radius = 50;
+  Run run = ball_over_plane(kRadius, -kDepth);
   for (SurfaceDescription& surface : run.scene.surfaces)
     surface.elastic = ElasticSurface{.modulus = 10, .poisson = 0.45, .layer = 3};
   run.scene.contacts.resize(1);
-  run.scene.contacts[0].surfaces = {0, 1};
   run.scene.contacts[0].layer.emplace();
   for (PoseResult& pose : run.sweep.poses) {
     pose.contacts.resize(1);

@@ -98,4 +98,24 @@ inline Run block_run(double side = 1) {
   return run;
 }
 
+/// The blocks with a ball on the femur, its lowest point `height` above a plane of radius 50 on the
+/// tibia, y up: surfaces 0 and 1 of the first contact [mm].
+inline Run ball_over_plane(double radius, double height) {
+  Run run = block_run();
+  run.scene.surfaces.resize(2);
+  SurfaceDescription &ball = run.scene.surfaces[0], &plane = run.scene.surfaces[1];
+  ball.name = "ball";
+  ball.body = 0;
+  ball.kind = SurfaceKind::kSphere;
+  ball.radius = radius;
+  ball.point = {0, radius + height, 0};
+  plane.name = "plane";
+  plane.body = 1;
+  plane.kind = SurfaceKind::kPlane;
+  plane.direction = {0, 1, 0};
+  plane.known_radius = 50;
+  run.scene.contacts[0].surfaces = {0, 1};
+  return run;
+}
+
 }  // namespace condyle

@@ -8,16 +8,12 @@
 #include "condyle/exchange/run_table.h"
 
 namespace condyle {
-namespace {
-
-std::string quoted(const std::string& text) {
+std::string csv_quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string result = "\"";
   for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
   return result + '"';
 }
-
-}  // namespace
 
 std::string csv_of_poses(const Run& run, const std::vector<ShownPose>& shown) {
   const SweptQuantity quantity = swept_quantity(run);
@@ -29,7 +25,7 @@ std::string csv_of_poses(const Run& run, const std::vector<ShownPose>& shown) {
     for (const TableColumn& column : columns) {
       if (!std::isfinite(column.values[i])) continue;
       fmt::format_to(std::back_inserter(text), "{}{},{},{},{},{}\n", head, column.quantity,
-                     quoted(column.name), column.component, column.values[i], column.unit);
+                     csv_quoted(column.name), column.component, column.values[i], column.unit);
     }
   }
   return text;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "condyle/exchange/csv_run.h"
 #include "condyle/exchange/vtk_file.h"
 
 namespace condyle {
@@ -28,13 +29,6 @@ void each_pressure(const Scene& scene, const PoseResult& pose, const Take& take)
            point.on_A ? Eigen::Vector3d(pose.X_BA * point.point) : point.point);
 }
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + '"';
-}
-
 }  // namespace
 
 bool has_layers(const Run& run) {
@@ -55,7 +49,7 @@ std::string csv_of_pressures(const Run& run, const std::vector<ShownPose>& shown
                   [&](const std::string& contact, const std::string& surface,
                       const PressurePoint& point, const Eigen::Vector3d& x) {
                     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{}\n",
-                                   head, quoted(contact), quoted(surface), point.place.x(),
+                                   head, csv_quoted(contact), csv_quoted(surface), point.place.x(),
                                    point.place.y(), x.x(), x.y(), x.z(), point.pressure,
                                    point.depth, point.area);
                   });
