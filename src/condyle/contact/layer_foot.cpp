@@ -58,7 +58,26 @@ FootStep step_to_foot(const PatchDerivatives& d,
   return result;
 }
 
+double rolling_radius(const Surface& surface) {
+  constexpr double kSpacings = 40;  // in the extent's radius
+  const double extent = surface.extent().radius;
+  if (!std::isfinite(extent)) return 0;
+  double bend = 0;
+  for (const Place& place : surface.samples(extent / kSpacings)) {
+    const SurfacePoint at = surface.evaluate(place);
+    // The greater principal curvature, of a tensor with the eigenvalue 0 along n.
+    const double mean = at.K.trace() / 2;
+    bend = std::max(bend, mean + std::sqrt(std::max(0.0, at.K.squaredNorm() / 2 - mean * mean)));
+  }
+  return 1 / (2 * bend + 1 / extent);
+}
+
 }  // namespace
+
+LayerFeet::LayerFeet(const Surface& surface)
+    : surface_(surface),
+      patch_(dynamic_cast<const Patch*>(&surface)),
+      rolling_(rolling_radius(surface)) {}
 
 /// False where Newton would do better to be guarded.
 bool LayerFeet::follow(const Vector3d& p, Vector2d x, double step, LayerFoot& foot) const {
@@ -80,7 +99,7 @@ bool LayerFeet::follow(const Vector3d& p, Vector2d x, double step, LayerFoot& fo
     if (newton.length > step) foot.phi -= newton.length;
     foot.place = {x[0], x[1], 0};
     foot.at = p;
-    foot.known = true;
+    foot.known = foot.is_regular = true;
     return true;
   }
   return false;
@@ -96,6 +115,7 @@ void LayerFeet::find_by_surface(const Vector3d& p, const Place& start, LayerFoot
   foot.turn.setZero();
   if (patch_ != nullptr) foot.turn = at.dual;
   foot.known = true;
+  foot.is_regular = (p - at.c - foot.phi * at.n).norm() < 1e-9 * (1 + std::abs(foot.phi));
 }
 
 void LayerFeet::find(const Vector3d& p, const LayerFoot& from, double step, LayerFoot& foot) const {

@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
+
 #include "condyle/surface/patch.h"
 
 namespace condyle {
@@ -23,21 +25,42 @@ struct LayerFoot {
       Eigen::Matrix<double, 3, 2>::Zero();  ///< of u and v with the point; patches only
   bool known = false;
 
-  /// φ changes by no more than the way of a point: farther off than `radius` it stays so until it
-  /// has moved by the rest.
-  [[nodiscard]] bool is_clear(const Eigen::Vector3d& now, double radius) const {
-    return known && phi > radius && (now - at).squaredNorm() < (phi - radius) * (phi - radius);
-  }
-  /// The same of being no farther off than `radius`.
-  [[nodiscard]] bool is_near(const Eigen::Vector3d& now, double radius) const {
-    return known && phi < radius && (now - at).squaredNorm() < (radius - phi) * (radius - phi);
+  /// Is n the gradient of φ: does p - c go along it?
+  bool is_regular = false;
+};
+
+/// Where φ of a point may be known from an earlier one. Nowhere does it change by more than the way v
+/// that the point went. Where a ball of radius ρ rolls over the surface from outside it is at least
+/// φ + n·v - v²/(2(ρ - φ - |v|)), too: 1/(ρ - φ) bounds -∂²φ.
+struct PhiBound {
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< [mm]
+  Eigen::Vector3d n = Eigen::Vector3d::Zero();
+  double phi = -1;  ///< [mm], unknown below 0
+  double room = 0;  ///< ρ - φ, 0 where n is not to be used [mm]
+
+  PhiBound() = default;
+  PhiBound(const LayerFoot& foot, double rho)
+      : from(foot.at), n(foot.n), phi(foot.phi), room(foot.is_regular ? rho - foot.phi : 0) {}
+
+  /// Is φ > `radius` at p?
+  [[nodiscard]] bool is_clear(const Eigen::Vector3d& p, double radius) const {
+    const double rest = phi - radius;
+    if (!(rest > 0)) return false;
+    const Eigen::Vector3d v = p - from;
+    const double square = v.squaredNorm();
+    if (square < rest * rest) return true;
+    const double left = room - std::sqrt(square);
+    return left > 0 && 2 * left * (rest + n.dot(v)) > square;
   }
 };
 
 class LayerFeet {
  public:
-  explicit LayerFeet(const Surface& surface)
-      : surface_(surface), patch_(dynamic_cast<const Patch*>(&surface)) {}
+  explicit LayerFeet(const Surface& surface);
+
+  /// Radius of a ball that rolls over the surface from outside: by half of the smallest concave one
+  /// seen on it, 0 where it has no bounds [mm].
+  [[nodiscard]] double rolling() const { return rolling_; }
 
   /// The foot of p, searched from that of a point near it, `from`, which may be `foot` itself.
   /// `step`: of the last iteration at most [mm]; φ is then good to its cube, n to its square. Of a
@@ -53,6 +76,7 @@ class LayerFeet {
 
   const Surface& surface_;
   const Patch* patch_;  ///< null where it is none
+  double rolling_;      ///< [mm]
 };
 
 }  // namespace condyle

@@ -91,7 +91,7 @@ void close_block(std::size_t first, LayerLattice& lattice) {
 template <typename Add>
 void add_blocks(
     const Midpoints& u, const Midpoints& v, int per_span, LayerLattice& lattice, const Add& add) {
-  constexpr int kSpans = 2;  // of a block, in either direction
+  constexpr int kSpans = 1;  // of a block, in either direction
   const auto side = static_cast<std::size_t>(kSpans * per_span);
   for (std::size_t i0 = 0; i0 < u.t.size(); i0 += side)
     for (std::size_t j0 = 0; j0 < v.t.size(); j0 += side) {

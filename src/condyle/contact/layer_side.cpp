@@ -20,9 +20,13 @@ constexpr double kOpposed = -0.3;
 
 /// Points that have moved by less than this since their feet were found are told from there: φ and
 /// n by their derivatives, with errors of this cubed and squared, over radii of curvature [mm].
-constexpr double kStill = 1e-6;
+constexpr double kStill = 1e-5;
 
-/// Longest last step to a foot [mm].
+/// Longest last step to a foot that is known from before: its curvatures are wrong by this over
+/// radii of curvature [mm].
+constexpr double kFollowed = 3e-6;
+
+/// Longest last step to any [mm].
 double longest_step(FootAccuracy accuracy) {
   return accuracy == FootAccuracy::kExact ? 1e-7 : 5e-3;
 }
@@ -39,36 +43,48 @@ LayerSide::LayerSide(const LayerLattice& points,
       find_(into),
       step_(longest_step(accuracy)),
       blocks_(points.blocks.size()),
-      feet_(points.x.size()) {
+      feet_(points.x.size()),
+      block_bounds_(points.blocks.size()),
+      bounds_(points.x.size()) {
   pressed_.reserve(points.x.size());
 }
 
 void LayerSide::reset() {
   std::fill(blocks_.begin(), blocks_.end(), LayerFoot());
   std::fill(feet_.begin(), feet_.end(), LayerFoot());
+  std::fill(block_bounds_.begin(), block_bounds_.end(), PhiBound());
+  std::fill(bounds_.begin(), bounds_.end(), PhiBound());
   is_at_ = false;
 }
 
-/// May a block hold points that are pressed?
+/// May a block hold points that are pressed? It is told from where its foot was found if that is
+/// enough to say.
 bool LayerSide::is_near(std::size_t block, const RigidTransform& X) {
+  constexpr double kSurely = 0.75;
   LayerFoot& foot = blocks_[block];
   const Vector3d center = X * points_.blocks[block].center;
   const double radius = points_.blocks[block].radius;
-  if (foot.is_clear(center, radius)) return false;
-  if (foot.is_near(center, radius)) return true;
+  if (block_bounds_[block].is_clear(center, radius)) return false;
+  const Vector3d v = center - foot.at;
+  if (foot.known && (foot.phi + v.norm() <= radius || foot.phi + foot.n.dot(v) < kSurely * radius))
+    return true;
   if (foot.known)
     find_.find(center, foot, step_, foot);
   else
     find_.find_anew(center, foot);
+  block_bounds_[block] = {foot, find_.rolling()};
   return !(foot.phi > radius);
 }
 
 void LayerSide::press(std::size_t point, const LayerFoot& block, const RigidTransform& X) {
   const Vector3d p = X * points_.x[point];
+  if (bounds_[point].is_clear(p, 0)) return;
   LayerFoot& foot = feet_[point];
-  if (foot.is_clear(p, 0)) return;
-  if (!foot.known || !((p - foot.at).squaredNorm() < kStill * kStill))
-    find_.find(p, foot.known ? foot : block, step_, foot);
+  if (!foot.known)
+    find_.find(p, block, step_, foot);
+  else if (!((p - foot.at).squaredNorm() < kStill * kStill))
+    find_.find(p, foot, std::max(step_, kFollowed), foot);
+  bounds_[point] = {foot, find_.rolling()};
   const Vector3d v = p - foot.at, Hv = foot.H * v;
   const double phi = foot.phi + foot.n.dot(v) + 0.5 * v.dot(Hv);
   if (!(phi < 0)) return;

@@ -104,7 +104,8 @@ class LayerSide {
   LayerFeet find_;
   double step_;                           ///< of the search for a foot, the last one at most [mm]
   std::vector<LayerFoot> blocks_, feet_;  ///< of the blocks' centres, and of the points
-  std::vector<Pressed> pressed_;          ///< at X_, with room for all
+  std::vector<PhiBound> block_bounds_, bounds_;
+  std::vector<Pressed> pressed_;  ///< at X_, with room for all
   RigidTransform X_;
   bool is_at_ = false;  ///< X_
 };
