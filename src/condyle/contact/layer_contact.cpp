@@ -60,7 +60,7 @@ class Lattices {
 class BothSides {
  public:
   BothSides(const Lattices& lattices, std::size_t level, bool shifted) {
-    const FootAccuracy accuracy = shifted ? FootAccuracy::kEstimate : FootAccuracy::kExact;
+    const ClosestAccuracy accuracy = shifted ? ClosestAccuracy::kEstimate : ClosestAccuracy::kExact;
     if (const LayerLattice* points = lattices.of_A(level, shifted))
       sides_.emplace_back(*points, true, *lattices.on_B, accuracy);
     if (const LayerLattice* points = lattices.of_B(level, shifted))

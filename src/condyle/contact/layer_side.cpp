@@ -18,17 +18,18 @@ using Eigen::Vector3d;
 /// behind the other body.
 constexpr double kOpposed = -0.3;
 
-/// Points that have moved by less than this since their feet were found are told from there: φ and
-/// n by their derivatives, with errors of this cubed and squared, over radii of curvature [mm].
+/// Points that have moved by less than this since their closest points were found are told from
+/// there: φ and n by their derivatives, with errors of this cubed and squared, over radii of
+/// curvature [mm].
 constexpr double kStill = 1e-5;
 
-/// Longest last step to a foot that is known from before: its curvatures are wrong by this over
-/// radii of curvature [mm].
+/// Longest last step to a closest point that is known from before: its curvatures are wrong by this
+/// over radii of curvature [mm].
 constexpr double kFollowed = 3e-6;
 
 /// Longest last step to any [mm].
-double longest_step(FootAccuracy accuracy) {
-  return accuracy == FootAccuracy::kExact ? 1e-7 : 5e-3;
+double longest_step(ClosestAccuracy accuracy) {
+  return accuracy == ClosestAccuracy::kExact ? 1e-7 : 5e-3;
 }
 
 }  // namespace
@@ -36,59 +37,60 @@ double longest_step(FootAccuracy accuracy) {
 LayerSide::LayerSide(const LayerLattice& points,
                      bool of_A,
                      const Surface& into,
-                     FootAccuracy accuracy)
+                     ClosestAccuracy accuracy)
     : points_(points),
       of_A_(of_A),
       into_(into),
       find_(into),
       step_(longest_step(accuracy)),
       blocks_(points.blocks.size()),
-      feet_(points.x.size()),
+      closest_(points.x.size()),
       block_bounds_(points.blocks.size()),
       bounds_(points.x.size()) {
   pressed_.reserve(points.x.size());
 }
 
 void LayerSide::reset() {
-  std::fill(blocks_.begin(), blocks_.end(), LayerFoot());
-  std::fill(feet_.begin(), feet_.end(), LayerFoot());
+  std::fill(blocks_.begin(), blocks_.end(), LayerClosestPoint());
+  std::fill(closest_.begin(), closest_.end(), LayerClosestPoint());
   std::fill(block_bounds_.begin(), block_bounds_.end(), PhiBound());
   std::fill(bounds_.begin(), bounds_.end(), PhiBound());
   is_at_ = false;
 }
 
-/// May a block hold points that are pressed? It is told from where its foot was found if that is
-/// enough to say.
+/// May a block hold points that are pressed? It is told from where its closest point was found if
+/// that is enough to say.
 bool LayerSide::is_near(std::size_t block, const RigidTransform& X) {
   constexpr double kSurely = 0.75;
-  LayerFoot& foot = blocks_[block];
+  LayerClosestPoint& closest = blocks_[block];
   const Vector3d center = X * points_.blocks[block].center;
   const double radius = points_.blocks[block].radius;
   if (block_bounds_[block].is_clear(center, radius)) return false;
-  const Vector3d v = center - foot.at;
-  if (foot.known && (foot.phi + v.norm() <= radius || foot.phi + foot.n.dot(v) < kSurely * radius))
+  const Vector3d v = center - closest.at;
+  if (closest.known &&
+      (closest.phi + v.norm() <= radius || closest.phi + closest.n.dot(v) < kSurely * radius))
     return true;
-  if (foot.known)
-    find_.find(center, foot, step_, foot);
+  if (closest.known)
+    find_.find(center, closest, step_, closest);
   else
-    find_.find_anew(center, foot);
-  block_bounds_[block] = {foot, find_.rolling()};
-  return !(foot.phi > radius);
+    find_.find_anew(center, closest);
+  block_bounds_[block] = PhiBound(closest);
+  return !(closest.phi > radius);
 }
 
-void LayerSide::press(std::size_t point, const LayerFoot& block, const RigidTransform& X) {
+void LayerSide::press(std::size_t point, const LayerClosestPoint& block, const RigidTransform& X) {
   const Vector3d p = X * points_.x[point];
   if (bounds_[point].is_clear(p, 0)) return;
-  LayerFoot& foot = feet_[point];
-  if (!foot.known)
-    find_.find(p, block, step_, foot);
-  else if (!((p - foot.at).squaredNorm() < kStill * kStill))
-    find_.find(p, foot, std::max(step_, kFollowed), foot);
-  bounds_[point] = {foot, find_.rolling()};
-  const Vector3d v = p - foot.at, Hv = foot.H * v;
-  const double phi = foot.phi + foot.n.dot(v) + 0.5 * v.dot(Hv);
+  LayerClosestPoint& closest = closest_[point];
+  if (!closest.known)
+    find_.find(p, block, step_, closest);
+  else if (!((p - closest.at).squaredNorm() < kStill * kStill))
+    find_.find(p, closest, std::max(step_, kFollowed), closest);
+  bounds_[point] = PhiBound(closest);
+  const Vector3d v = p - closest.at, Hv = closest.H * v;
+  const double phi = closest.phi + closest.n.dot(v) + 0.5 * v.dot(Hv);
   if (!(phi < 0)) return;
-  const Vector3d n = foot.n + Hv;
+  const Vector3d n = closest.n + Hv;
   if (n.dot(X.R * points_.n[point]) < kOpposed) pressed_.push_back({point, phi, p, n});
 }
 
@@ -219,7 +221,7 @@ double LayerSide::add_to(const RigidTransform& X_BA,
     const LayerLaw::Answer answer = law.at(-pressed.phi);
     const double w = share * points_.area[pressed.point];
     const Vector3d s = of_A_ ? Vector3d(pressed.p - X_BA.p) : pressed.p;
-    add_point(s, pressed.n, feet_[pressed.point].H, w * answer.pressure, w * answer.stiffness,
+    add_point(s, pressed.n, closest_[pressed.point].H, w * answer.pressure, w * answer.stiffness,
               sums);
   }
   if (of_A_)
@@ -241,7 +243,7 @@ void LayerSide::add_to(const RigidTransform& X_BA,
     const double w = share * points_.area[pressed.point];
     const double faded = points_.faded.empty() ? 0 : share * points_.faded[pressed.point];
     add_to_sums({law.at(-pressed.phi), w, faded, -pressed.phi, of_A_ ? pressed.p : own, out_of_B,
-                 into_.edge_distance(feet_[pressed.point].place) < 0},
+                 into_.edge_distance(closest_[pressed.point].place) < 0},
                 sums);
   }
   if (wrench != nullptr) add_to(X_BA, law, share, *wrench);

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "condyle/contact/contact_result.h"
-#include "condyle/contact/layer_foot.h"
+#include "condyle/contact/layer_closest.h"
 #include "condyle/contact/layer_lattice.h"
 #include "condyle/contact/layer_law.h"
 #include "condyle/elements/wrench.h"
@@ -48,8 +48,8 @@ struct LayerSums {
   [[nodiscard]] Eigen::Vector3d center_of_pressure() const { return moment / force; }
 };
 
-/// How exactly the feet of points are wanted.
-enum class FootAccuracy {
+/// How exactly the closest points of points are wanted.
+enum class ClosestAccuracy {
   kExact,    ///< to round-off, for whatever is solved
   kEstimate  ///< to 1e-7 of the force, for an estimate of an error
 };
@@ -62,7 +62,7 @@ class LayerSide {
   LayerSide(const LayerLattice& points,
             bool of_A,
             const Surface& into,
-            FootAccuracy accuracy = FootAccuracy::kExact);
+            ClosestAccuracy accuracy = ClosestAccuracy::kExact);
 
   /// As newly made. Allocates nothing.
   void reset();
@@ -95,15 +95,15 @@ class LayerSide {
     Eigen::Vector3d n;  ///< out of the other solid
   };
   [[nodiscard]] bool is_near(std::size_t block, const RigidTransform& X);
-  void press(std::size_t point, const LayerFoot& block, const RigidTransform& X);
+  void press(std::size_t point, const LayerClosestPoint& block, const RigidTransform& X);
   void press_at(const RigidTransform& X_BA);
 
   const LayerLattice& points_;
   bool of_A_;
   const Surface& into_;
-  LayerFeet find_;
-  double step_;                           ///< of the search for a foot, the last one at most [mm]
-  std::vector<LayerFoot> blocks_, feet_;  ///< of the blocks' centres, and of the points
+  LayerClosestPoints find_;
+  double step_;  ///< of the search for a closest point, the last one at most [mm]
+  std::vector<LayerClosestPoint> blocks_, closest_;  ///< of the blocks' centres, and of the points
   std::vector<PhiBound> block_bounds_, bounds_;
   std::vector<Pressed> pressed_;  ///< at X_, with room for all
   RigidTransform X_;
