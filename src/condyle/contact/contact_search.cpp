@@ -14,6 +14,7 @@
 #include "condyle/contact/gap_paraboloid.h"
 #include "condyle/contact/line_contact.h"
 #include "condyle/contact/refine_minimum.h"
+#include "condyle/contact/rim_minimum.h"
 
 namespace condyle {
 namespace {
@@ -21,6 +22,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // All in sample spacings:
 constexpr double kFacingSpacing = 1.5;  // of the surface that the samples of the other one face
+constexpr double kRimReach = 1.5;       // from a sample to an edge that it stands for, and along it
 constexpr double kDeepest = 12;     // overlap of a surface with an edge that is still taken for one
 constexpr double kNeighbour = 1.6;  // a sample nearer than this may be the lower one
 constexpr double kSame = 0.3;       // a minimum predicted nearer to one that is known is that one
@@ -196,6 +198,35 @@ void ContactSearch::add_minimum(int sample,
   if (minimum->gap < cutoff) minima.push_back(*minimum);
 }
 
+/// Where the edge of a known part lies lower than `cutoff`, between samples that do not. It is no
+/// minimum of the gap: unrefined.
+void ContactSearch::add_rims(const RigidTransform& X_BA,
+                             double cutoff,
+                             std::vector<GapMinimum>& minima) const {
+  const double reach = kRimReach * spacing_;
+  const RigidTransform X = from_to(X_BA);
+  const Surface &own = sampled().surface(), &facing = other().surface();
+  for (const int sample : near_) {
+    if (seen(sample).lower > cutoff) continue;
+    const Place &place = sampled().place(sample), &there = closest(sample).place;
+    const bool of_own = own.edge_distance(place) < reach;
+    if (!of_own && !(facing.edge_distance(there) < reach)) continue;
+    const std::optional<RimMinimum> rim =
+        of_own ? rim_minimum(own, place, facing, there, X, reach)
+               : rim_minimum(facing, there, own, place, X.inverse(), reach);
+    if (!rim || !(rim->gap < cutoff)) continue;
+    GapMinimum minimum;
+    const bool rim_of_A = of_own == sampled_on_A_;
+    minimum.on_A = rim_of_A ? rim->on_rim : rim->facing;
+    minimum.on_B = rim_of_A ? rim->facing : rim->on_rim;
+    const SurfacePoint B = on_B_->evaluate_frame(minimum.on_B);
+    minimum.point_B = B.c;
+    minimum.n = B.n;
+    minimum.gap = rim->gap;
+    minima.push_back(minimum);
+  }
+}
+
 /// For certain, where its closest point was not found yet.
 bool ContactSearch::faces_known_part(int sample) const {
   const Closest& there = closest(sample);
@@ -266,6 +297,7 @@ void ContactSearch::find(const RigidTransform& X_BA,
     if (nearly_faces_known_part(sample) && leads_elsewhere(sample, X_BA, cutoff))
       add_minimum(sample, X_BA, cutoff, /*lowest=*/false, minima);
   }
+  if (cutoff <= 0) add_rims(X_BA, cutoff, minima);
   keep_isolated(minima, merge);
 }
 

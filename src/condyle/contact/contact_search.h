@@ -154,6 +154,7 @@ class ContactSearch {
   [[nodiscard]] bool faces_known_part(int sample) const;
   [[nodiscard]] bool nearly_faces_known_part(int sample) const;
   [[nodiscard]] bool leads_elsewhere(int sample, const RigidTransform& X_BA, double cutoff) const;
+  void add_rims(const RigidTransform& X_BA, double cutoff, std::vector<GapMinimum>& minima) const;
   void add_minimum(int sample,
                    const RigidTransform& X_BA,
                    double cutoff,
