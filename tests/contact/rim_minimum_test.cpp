@@ -1,0 +1,60 @@
+/// The edge of a known part, between samples: where it lies lowest over the other surface.
+
+#include "condyle/contact/rim_minimum.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "condyle/contact/contact_search.h"
+#include "condyle/math/rotation.h"
+#include "condyle/surface/exact_surfaces.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+const Vector3d kUp = Vector3d::UnitZ(), kOrigin = Vector3d::Zero();
+constexpr double kRadius = 12, kReach = 3;  // of a disc, and of the search along its edge [mm]
+
+// A disc tilted by α over a plane: its edge is lowest where it has gone down by r sin α.
+TEST(RimMinimum, OfATiltedDiscIsItsLowestPoint) {
+  constexpr double kTilt = 0.2, kHeight = 3;
+  const auto disc = make_plane(kOrigin, kUp, kRadius), plane = make_plane(kOrigin, -kUp, 100);
+  const RigidTransform X{exp_rotation({0, kTilt, 0}), {0, 0, -kHeight}};
+  const Place start(-11 * std::cos(0.1), 11 * std::sin(0.1), 0);
+  const auto rim = rim_minimum(*disc, start, *plane, kOrigin, X, kReach);
+  ASSERT_TRUE(rim.has_value());
+  EXPECT_NEAR(rim->gap, kHeight - kRadius * std::sin(kTilt), 1e-7);
+  EXPECT_NEAR(disc->edge_distance(rim->on_rim), 0, 1e-8);
+  EXPECT_LT((rim->on_rim - Vector3d(-kRadius, 0, 0)).norm(), 2e-3);
+}
+
+TEST(RimMinimum, ASurfaceWithoutAnEdgeHasNone) {
+  const auto ball = make_sphere(kOrigin, 20, true), plane = make_plane(kOrigin, -kUp, 100);
+  EXPECT_FALSE(rim_minimum(*ball, {0, 0, 20}, *plane, kOrigin, {}, kReach).has_value());
+}
+
+// The disc's plane would be nearest to the ball 5 mm beyond the disc's edge: no minimum of the gap
+// lies on it, and its edge is in the ball by two thousandths of a millimetre.
+TEST(RimMinimum, AnEdgeWithinABallIsFoundBetweenSamples) {
+  constexpr double kBall = 30, kAside = 5, kOverlap = 0.002;
+  ContactPair pair;
+  pair.on_B = make_sphere({0, 0, -kBall}, kBall, true);
+  pair.on_A = make_plane(kOrigin, -kUp, kRadius);
+  const double reach = kBall - kOverlap;
+  const double height = std::sqrt(reach * reach - kAside * kAside) - kBall;
+  ContactSearch search(pair);
+  std::vector<GapMinimum> minima;
+  for (const double turn : {0.0, 0.03, 0.05, 0.07}) {  // other samples beside the lowest point
+    search.find({exp_rotation({0, 0, turn}), {kRadius + kAside, 0, height}}, 0, minima);
+    ASSERT_FALSE(minima.empty()) << turn;
+    EXPECT_NEAR(minima.front().gap, -kOverlap, 1e-6) << turn;
+    EXPECT_FALSE(minima.front().refined);
+    EXPECT_NEAR(minima.front().edge, 0, 1e-8);
+  }
+}
+
+}  // namespace
+}  // namespace condyle
