@@ -130,9 +130,10 @@ Pushed push(const LayerLattice& points,
             double share) {
   Pushed out;
   LayerSide side(points, of_A, into);
-  side.add_to(X, law, share, &out.wrench, out.sums);
+  side.add_to(X, law, share, out.wrench);
+  side.add_to(X, law, share, out.sums);
   LayerSums again;
-  side.add_to(X, law, share, nullptr, again);
+  side.add_to(X, law, share, again);
   EXPECT_NEAR(again.energy, out.sums.energy, 1e-12 * out.sums.energy);
   EXPECT_EQ(again.points, out.sums.points);
   return out;

@@ -90,9 +90,10 @@ int run_simulate(const SimulateCommand& command) {
                            ": [simulate] is missing, expected time, rate and gravity");
         for (const ContactDescription& contact : s.contacts)
           if (contact.layer)
-            throw InputError(fmt::format("{}: [[contact]] \"{}\": law = \"layer\", expected "
-                                         "\"rigid\" in a motion: layers are for equilibria",
-                                         s.file.string(), contact.name));
+            throw InputError(
+                fmt::format("{}: [[contact]] \"{}\": law = \"layer\", expected "
+                            "\"rigid\" in a motion: layers are for equilibria",
+                            s.file.string(), contact.name));
       });
   Progress progress(talk, "frames");
   const auto simulation = std::make_shared<const Simulation>(

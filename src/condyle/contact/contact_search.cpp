@@ -15,6 +15,7 @@
 #include "condyle/contact/line_contact.h"
 #include "condyle/contact/refine_minimum.h"
 #include "condyle/contact/rim_minimum.h"
+#include "condyle/surface/has_edge.h"
 
 namespace condyle {
 namespace {
@@ -40,12 +41,6 @@ double affordable_spacing(const Surface& surface, double wanted) {
     return std::max(wanted, coarse * std::sqrt(static_cast<double>(n) / kMost));
   }
   return wanted;
-}
-
-/// Behind a surface that ends somewhere is not yet inside.
-bool has_edge(const Surface& surface) {
-  const Place somewhere = surface.seed(Eigen::Vector3d::Zero());
-  return std::isfinite(surface.edge_distance(somewhere));
 }
 
 /// Lowest first; of minima nearer to each other than `merge` [mm] the lowest stays.

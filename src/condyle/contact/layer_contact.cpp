@@ -75,7 +75,7 @@ class BothSides {
   /// At a pose, of layers `factor` times as stiff.
   LayerSums sums(const RigidTransform& X, const LayerLaw& law, double factor = 1) {
     LayerSums all;
-    for (LayerSide& side : sides_) side.add_to(X, law, factor * share(), nullptr, all);
+    for (LayerSide& side : sides_) side.add_to(X, law, factor * share(), all);
     return all;
   }
   /// Their wrench on A, added; the sum of the forces' magnitudes [N].

@@ -234,7 +234,6 @@ double LayerSide::add_to(const RigidTransform& X_BA,
 void LayerSide::add_to(const RigidTransform& X_BA,
                        const LayerLaw& law,
                        double share,
-                       Wrench* wrench,
                        LayerSums& sums) {
   press_at(X_BA);
   for (const Pressed& pressed : pressed_) {
@@ -246,7 +245,6 @@ void LayerSide::add_to(const RigidTransform& X_BA,
                  into_.edge_distance(closest_[pressed.point].place) < 0},
                 sums);
   }
-  if (wrench != nullptr) add_to(X_BA, law, share, *wrench);
 }
 
 void LayerSide::add_pressures(const RigidTransform& X_BA,

@@ -67,12 +67,8 @@ class LayerSide {
   /// As newly made. Allocates nothing.
   void reset();
 
-  /// Adds `share` of what the points do to A, its wrench where one is asked for. Allocates nothing.
-  void add_to(const RigidTransform& X_BA,
-              const LayerLaw& law,
-              double share,
-              Wrench* wrench,
-              LayerSums& sums);
+  /// Adds `share` of what the points amount to. Allocates nothing.
+  void add_to(const RigidTransform& X_BA, const LayerLaw& law, double share, LayerSums& sums);
 
   /// Adds `share` of the wrench on A; returns the sum of the forces' magnitudes [N]. Allocates
   /// nothing.

@@ -1,7 +1,8 @@
 #include "condyle/equilibrium/passed_through.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "condyle/surface/has_edge.h"
 
 namespace condyle {
 namespace {
@@ -9,10 +10,6 @@ namespace {
 constexpr double kSpacing = 0.2;   // of the samples [L]
 constexpr double kOpposed = -0.5;  // cosine between normals that face each other
 constexpr std::size_t kFew = 3;    // fewer samples tell nothing
-
-bool has_edge(const Surface& surface) {
-  return std::isfinite(surface.edge_distance(surface.seed(Eigen::Vector3d::Zero())));
-}
 
 /// Signed distances of samples from the other surface [mm].
 struct Gaps {

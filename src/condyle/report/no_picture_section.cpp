@@ -12,9 +12,7 @@ std::string picture_section(const Run& run) {
 
 std::string plot_section(const Run&) { return ""; }
 
-ViewerPressures viewer_pressures(const Run&,
-                                 const std::vector<RunShape>&,
-                                 const std::vector<ShownPose>&) {
+ViewerPressures viewer_pressures(const Run&, const ShapeOptions&, const std::vector<ShownPose>&) {
   return {};
 }
 

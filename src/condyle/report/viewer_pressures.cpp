@@ -32,13 +32,13 @@ std::string levels_of(const RunShape& shape,
 }  // namespace
 
 ViewerPressures viewer_pressures(const Run& run,
-                                 const std::vector<RunShape>& shapes,
+                                 const ShapeOptions& options,
                                  const std::vector<ShownPose>& shown) {
   ViewerPressures all;
   if (!(greatest_pressure(run) > 0)) return all;
   const PressureMap map(run);
   all.top = map.top();
-  for (const RunShape& shape : shapes) {
+  for (const RunShape& shape : run_shapes(run, options)) {
     const auto surface = std::find_if(run.scene.surfaces.begin(), run.scene.surfaces.end(),
                                       [&](const auto& s) { return s.name == shape.name; });
     if (shape.bone || surface == run.scene.surfaces.end()) continue;

@@ -21,9 +21,10 @@ struct ViewerPressures {
   std::vector<OfSurface> surfaces;
 };
 
-/// Of the shapes that are articular surfaces. Empty in a build without pictures.
+/// Of the shapes that are articular surfaces; they are made only for a run that has pressures.
+/// Empty in a build without pictures.
 [[nodiscard]] ViewerPressures viewer_pressures(const Run& run,
-                                               const std::vector<RunShape>& shapes,
+                                               const ShapeOptions& options,
                                                const std::vector<ShownPose>& shown);
 
 }  // namespace condyle

@@ -136,7 +136,7 @@ class ViewerData {
   }
 
   void add_pressures(Json& json) const {
-    const ViewerPressures pressures = viewer_pressures(run_, run_shapes(run_, shapes_), shown_);
+    const ViewerPressures pressures = viewer_pressures(run_, shapes_, shown_);
     if (!(pressures.top > 0)) return;
     json["pressure"]["top"] = pressures.top;
     for (const ViewerPressures::OfSurface& surface : pressures.surfaces)

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 constexpr int kRungs = 9;          // smoothing lengths that are tried
 constexpr int kCorrelations = 12;  // correlation lengths that are tried
-constexpr double kNear = 1.02;    // an error of normals over the least one that is as good
+constexpr double kNear = 1.02;     // an error of normals over the least one that is as good
 // Of segmentations, and the spread of its logarithm: where the bands do not tell, it decides.
 constexpr double kUsualCorrelation = 1.2, kUsualSpread = 0.7;  // [mm], [-]
 
