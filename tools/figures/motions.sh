@@ -5,9 +5,12 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source tools/figures/program.sh
 scratch
 
-# row LABEL SCENE TOLERANCE NOTE
+# Layers of 3 mm, E = 10 N/mm², ν = 0.45, on all surfaces.
+layers='s|^compartment.*|&\nmodulus = 10\npoisson = 0.45\nlayer = 3|; s|^surfaces = .*|&\nlaw = "layer"|'
+
+# row LABEL SCENE TOLERANCE NOTE [EDIT]
 row() {
-  sed "s|= \"../../meshes|= \"$PWD/meshes|; s|^\[simulate\].*|&\ntolerance = $3|" "data/phantom/$2.toml" >"$out/scene.toml"
+  sed "s|= \"../../meshes|= \"$PWD/meshes|; s|^\[simulate\].*|&\ntolerance = $3|; ${5:-}" "data/phantom/$2.toml" >"$out/scene.toml"
   for ((run = 0; run < ${RUNS:-1}; run++)); do
     "$CONDYLE" simulate "$out/scene.toml" -o "$out/motion.h5" --json 2>/dev/null
   done | tr -d '",' | awk -v label="$1" -v tolerance="$3$4" '
@@ -26,3 +29,6 @@ for scene in 'pendulum, 2 s' 'blow, 0.2 s' 'decaying-sine, 0.4 s'; do
   row '' "${scene%%,*}" 1e-7 ''
   row '' "${scene%%,*}" 1e-9 ", the scene's own"
 done
+row 'pendulum on layers, 2 s' pendulum 1e-5 '' "$layers"
+row '' pendulum 1e-7 '' "$layers"
+row '' pendulum 1e-9 '' "$layers"

@@ -46,13 +46,12 @@ void print_events(const MotionView& motion) {
 void print_balance(const MotionView& motion, double mass) {
   if (motion.energies.empty()) return;
   const auto change = [&](double MotionEnergies::*part) { return motion.change(part) / kJoule; };
-  fmt::print(
-      "\nEnergy in J: kinetic {:+.6g}, gravity {:+.6g}, ligaments {:+.6g}, dissipated {:.6g}, "
-      "loads "
-      "gave {:.6g}\n",
-      change(&MotionEnergies::kinetic), change(&MotionEnergies::gravity),
-      change(&MotionEnergies::elastic), change(&MotionEnergies::dissipated),
-      change(&MotionEnergies::work));
+  fmt::print("\nEnergy in J: kinetic {:+.6g}, gravity {:+.6g}, ligaments {:+.6g}, ",
+             change(&MotionEnergies::kinetic), change(&MotionEnergies::gravity),
+             change(&MotionEnergies::elastic));
+  if (motion.layered) fmt::print("layers {:+.6g}, ", change(&MotionEnergies::layers));
+  fmt::print("dissipated {:.6g}, loads gave {:.6g}\n", change(&MotionEnergies::dissipated),
+             change(&MotionEnergies::work));
   fmt::print("Balance kept to {:.1e} of the largest of them\n", motion.imbalance);
   fmt::print("{:.3f} s of motion of {:.4g} kg in {:.3f} s, {} steps\n",
              motion.change(&MotionEnergies::time), mass * 1e3, motion.seconds, motion.steps);
@@ -88,12 +87,6 @@ int run_simulate(const SimulateCommand& command) {
         if (!s.simulation)
           throw InputError(s.file.string() +
                            ": [simulate] is missing, expected time, rate and gravity");
-        for (const ContactDescription& contact : s.contacts)
-          if (contact.layer)
-            throw InputError(
-                fmt::format("{}: [[contact]] \"{}\": law = \"layer\", expected "
-                            "\"rigid\" in a motion: layers are for equilibria",
-                            s.file.string(), contact.name));
       });
   Progress progress(talk, "frames");
   const auto simulation = std::make_shared<const Simulation>(

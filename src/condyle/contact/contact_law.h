@@ -35,6 +35,9 @@ class ContactPotential {
   /// solved on.
   virtual bool accepts(const RigidTransform& /*X_BA*/) { return true; }
 
+  /// How wrong at a pose what is held makes the force, for describe to tell; accepts knows it too.
+  virtual void estimate_error(const RigidTransform& /*X_BA*/) {}
+
   /// Until told otherwise it is `factor` times as stiff as it is: a way to poses that Newton does
   /// not find at once. Allocates nothing.
   virtual void soften(double /*factor*/) {}

@@ -144,8 +144,10 @@ class LayerContact final : public ContactPotential {
     return std::clamp(540 * force / (L * L * L * law_.stiffness()), kLeast, 1.0);
   }
 
+  void estimate_error(const RigidTransform& X_BA) override { error_ = lattice_error(X_BA); }
+
   bool accepts(const RigidTransform& X_BA) override {
-    error_ = lattice_error(X_BA);
+    estimate_error(X_BA);
     if (error_ <= options_.tolerance || level_ + 1 == kLevels) return true;
     level_ = finer(level_, error_);
     return false;

@@ -29,6 +29,7 @@ ContactSighting PairScout::operator()(NetworkState& state) {
     scout_pair(static_cast<int>(p), state, sighting);
   }
   sighting.lost = lost_contact(state);
+  if (sighting.lost.empty()) sighting.lost = lost_layer(state);
   return sighting;
 }
 
@@ -45,6 +46,16 @@ std::string PairScout::lost_contact(const NetworkState& state) const {
     const ContactPair& pair = model_.pairs[knee_.places[i]];
     std::string reason = beyond_edge(pair, edge_distance(pair, places.on_ground, places.on_body));
     if (!reason.empty()) return reason;
+  }
+  return "";
+}
+
+std::string PairScout::lost_layer(const NetworkState& state) {
+  for (const PotentialComponent& contact : knee_.network.potentials) {
+    clear(described_);
+    const std::optional<Objection> objection =
+        contact.potential->describe(state.bodies[0].X, described_);
+    if (objection) return objection->reason;
   }
   return "";
 }

@@ -25,6 +25,7 @@ class PairScout {
   [[nodiscard]] int waiting_contact(int pair, const NetworkState& state) const;
   void drop_doubles(int pair, NetworkState& state) const;
   [[nodiscard]] std::string lost_contact(const NetworkState& state) const;
+  [[nodiscard]] std::string lost_layer(const NetworkState& state);
   [[nodiscard]] Eigen::Vector3d point_of(int contact, const NetworkState& state) const;
 
   const Model& model_;
@@ -32,6 +33,7 @@ class PairScout {
   std::vector<ContactSearch> searches_;  ///< one for each of Model::pairs
   std::vector<GapMinimum> minima_;
   std::vector<KnownContact> known_;
+  ContactResult described_;
 };
 
 /// Why a closed contact so far from the edge of its patch [mm] is none: beyond it the surface is a

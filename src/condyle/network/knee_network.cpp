@@ -22,7 +22,7 @@ void add_ligaments(const Model& model, Network& network) {
   }
 }
 
-/// A motion carries straight lines and rigid points alone.
+/// A motion carries straight lines alone.
 void check_carried(const Model& model) {
   for (std::size_t i = 0; i < model.elements.size(); ++i)
     if (model.elements[i].path)
@@ -30,10 +30,6 @@ void check_carried(const Model& model) {
           fmt::format("ligament \"{}\" has a path of its own, expected a straight one "
                       "in a motion",
                       model.element_names[i]));
-  for (const ContactPair& pair : model.pairs)
-    if (pair.law)
-      throw InputError(fmt::format(
-          "contact \"{}\" has a law of its own, expected rigid contacts in a motion", pair.name));
 }
 
 constexpr double kReach = 5.0 / 3;  // of L: how far an open pair is looked for
@@ -68,6 +64,10 @@ KneeNetwork make_knee_network(const Model& model, const std::optional<MassProper
     network.forces.push_back({model.load_names[i], 0, model.loads[i], {}});
   for (std::size_t i = 0; i < model.pairs.size(); ++i) {
     const ContactPair& pair = model.pairs[i];
+    if (pair.law) {
+      network.potentials.push_back({pair.name, 0, pair.law(pair)});
+      knee.potentials.push_back(static_cast<int>(i));
+    }
     if (pair.mode == ContactMode::kOpen) continue;
     const bool opens = pair.mode == ContactMode::kAuto;
     for (int point = 0; point < (opens ? kPointsPerPair : 1); ++point) {

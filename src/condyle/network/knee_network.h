@@ -14,11 +14,12 @@ namespace condyle {
 /// `mass` may be absent where only statics is asked. The reference port is the mass centre, or the
 /// origin O_A where there is no mass. Contacts that the model leaves out are left out; `places`
 /// says which of Model::pairs each contact of the network is: a pair that can open has several
-/// contacts, for the points at which its surfaces may touch at once.
-/// Throws InputError for a pair with a contact law and an element with a path of its own.
+/// contacts, for the points at which its surfaces may touch at once. `potentials` says it of those
+/// with a law of their own.
+/// Throws InputError for an element with a path of its own.
 struct KneeNetwork {
   Network network;
-  std::vector<int> places;
+  std::vector<int> places, potentials;
 };
 [[nodiscard]] KneeNetwork make_knee_network(const Model& model,
                                             const std::optional<MassProperties>& mass);

@@ -10,10 +10,11 @@
 namespace condyle {
 
 struct EnergySum {
-  double kinetic = 0, gravity = 0, elastic = 0;  ///< [N mm]
+  double kinetic = 0, gravity = 0, elastic = 0;  ///< [N mm]; elastic: of lines
+  double layers = 0;                             ///< of contacts with a law of their own [N mm]
   double dissipation = 0;                        ///< [N mm/s]
   double driver_power = 0;                       ///< [N mm/s], after solve()
-  [[nodiscard]] double stored() const { return kinetic + gravity + elastic; }
+  [[nodiscard]] double stored() const { return kinetic + gravity + elastic + layers; }
 };
 
 struct MotionFrame {

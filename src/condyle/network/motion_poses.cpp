@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "condyle/contact/contact.h"
+#include "condyle/equilibrium/model_covers.h"
 #include "condyle/equilibrium/pose_result.h"
 #include "condyle/network/contact_scout.h"
 
@@ -22,10 +23,13 @@ ContactPointResult point_of(const ContactPair& pair,
 
 class FrameTeller {
  public:
-  FrameTeller(const Scene& scene, const Model& model, const KneeNetwork& knee)
-      : scene_(scene), model_(model), knee_(knee) {}
+  FrameTeller(const Scene& scene,
+              const Model& model,
+              const ContactCovers& covers,
+              const KneeNetwork& knee)
+      : scene_(scene), model_(model), knee_(knee), searches_(make_searches(model, covers)) {}
 
-  PoseResult tell(const MotionFrame& frame) const {
+  PoseResult tell(const MotionFrame& frame) {
     PoseResult pose;
     pose.value = frame.state.t;
     pose.status = PoseStatus::kConverged;
@@ -39,6 +43,7 @@ class FrameTeller {
     for (std::size_t i = 0; i < model_.elements.size(); ++i)
       pose.ligaments[i].force = frame.lines[i].force;
     add_contacts(frame, pose);
+    add_layers(pose);
     for (std::size_t i = 0; i < model_.conditions.size(); ++i) {
       const std::vector<int>& hold = scene_.simulation->hold;
       const auto held = std::find(hold.begin(), hold.end(), static_cast<int>(i));
@@ -69,6 +74,27 @@ class FrameTeller {
       if (!pose.contacts[p].closed) add_nearest(frame, static_cast<int>(p), pose);
   }
 
+  /// With the lattice and so the forces of the motion.
+  void add_layers(PoseResult& pose) {
+    constexpr double kAnywhere = 5.0 / 3;  // of L: how far an open pair is looked for
+    for (std::size_t i = 0; i < knee_.potentials.size(); ++i) {
+      ContactPotential& potential = *knee_.network.potentials[i].potential;
+      const auto p = static_cast<std::size_t>(knee_.potentials[i]);
+      ContactResult& contact = pose.contacts[p];
+      potential.estimate_error(pose.X_BA);
+      if (const std::optional<Objection> objection = potential.describe(pose.X_BA, contact)) {
+        pose.status = objection->status;
+        pose.reason = objection->reason;
+      }
+      if (contact.closed) continue;
+      searches_[p].find_nearest(pose.X_BA, kAnywhere * model_.length, minima_);
+      if (minima_.empty()) continue;
+      const GapMinimum& nearest = minima_.front();
+      set_nearest_point(point_of(model_.pairs[p], {nearest.on_B, nearest.on_A}, 0, pose.X_BA),
+                        contact);
+    }
+  }
+
   void add_nearest(const MotionFrame& frame, int pair, PoseResult& pose) const {
     int nearest = -1;
     for (std::size_t i = 0; i < knee_.places.size(); ++i)
@@ -90,15 +116,18 @@ class FrameTeller {
   const Scene& scene_;
   const Model& model_;
   const KneeNetwork& knee_;
+  std::vector<ContactSearch> searches_;  ///< one for each of Model::pairs
+  std::vector<GapMinimum> minima_;
 };
 
 }  // namespace
 
 std::vector<PoseResult> motion_poses(const Scene& scene,
                                      const Model& model,
+                                     const ContactCovers& covers,
                                      const KneeNetwork& knee,
                                      const Motion& motion) {
-  const FrameTeller teller(scene, model, knee);
+  FrameTeller teller(scene, model, covers, knee);
   std::vector<PoseResult> poses;
   poses.reserve(motion.frames.size());
   for (const MotionFrame& frame : motion.frames) poses.push_back(teller.tell(frame));

@@ -14,6 +14,7 @@ namespace condyle {
 /// One for each frame; PoseResult::value is the time [s].
 [[nodiscard]] std::vector<PoseResult> motion_poses(const Scene& scene,
                                                    const Model& model,
+                                                   const ContactCovers& covers,
                                                    const KneeNetwork& knee,
                                                    const Motion& motion);
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/contact/contact_law.h"
 #include "condyle/elements/force_law.h"
 #include "condyle/elements/kinematic_condition.h"
 #include "condyle/elements/load.h"
@@ -80,6 +81,14 @@ struct ContactComponent {
   bool scouted = false;
 };
 
+/// Contact of a body with the ground by a law without unknowns, such as elastic layers. Its storage is
+/// that of one motion at a time.
+struct PotentialComponent {
+  std::string name;
+  int body = 0;
+  std::shared_ptr<ContactPotential> potential;
+};
+
 /// A kinematic condition on a body, its value a function of time (absent: as it stands).
 struct DrivenValue {
   double value, rate, acceleration;
@@ -101,6 +110,7 @@ struct Network {
   std::vector<MotionDriver> motions;
   std::vector<BallJoint> joints;
   std::vector<ContactComponent> contacts;
+  std::vector<PotentialComponent> potentials;
   std::vector<ConditionComponent> conditions;
 };
 

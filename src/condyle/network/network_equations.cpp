@@ -90,6 +90,15 @@ void NetworkEquations::add_forces(const NetworkState& state) {
   }
 }
 
+void NetworkEquations::add_potentials(const NetworkState& state) {
+  for (std::size_t i = 0; i < network_.potentials.size(); ++i) {
+    const PotentialComponent& contact = network_.potentials[i];
+    Wrench wrench;
+    contact.potential->add_to(state.bodies[contact.body].X, wrench);
+    through_.col(graph_.potential_edge[i]) << -wrench.f, -wrench.m;
+  }
+}
+
 /// Σ K_j y_j over the ports of each body.
 CONDYLE_FMA_CLONE
 void NetworkEquations::collect_wrenches() {
@@ -119,6 +128,7 @@ bool NetworkEquations::assemble(NetworkState& state, bool open_contacts_too) {
   at_.place(state);
   if (!add_lines()) return false;
   add_forces(state);
+  add_potentials(state);
   constraint_rows(network_, graph_, at_, contacts_, state, rows_);
   collect_wrenches();
   fill_jacobian();

@@ -97,6 +97,7 @@ class NetworkEquations {
   void list_feeds();
   bool add_lines();
   void add_forces(const NetworkState& state);
+  void add_potentials(const NetworkState& state);
   void collect_wrenches();
   void fill_jacobian();
   void set_inertia(const NetworkState& state);

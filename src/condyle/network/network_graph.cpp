@@ -84,6 +84,9 @@ class GraphMaker {
     for (const ConditionComponent& condition : network_.conditions)
       g_.condition_edge.push_back(add_edge(
           condition.name, 0, origin(condition.body, condition.name), EdgeKind::kConstraint));
+    for (const PotentialComponent& contact : network_.potentials)
+      g_.potential_edge.push_back(
+          add_edge(contact.name, 0, origin(contact.body, contact.name), EdgeKind::kElement));
     for (const ContactComponent& contact : network_.contacts)
       g_.contact_edge.push_back(add_edge(
           contact.name, 0,

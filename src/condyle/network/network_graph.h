@@ -23,7 +23,8 @@ struct NetworkGraph {
   std::vector<NetworkVertex> vertices;  ///< 0 is the ground
   std::vector<int> port_vertex;         ///< of each port
   std::vector<int> reference_edge;      ///< of each body
-  std::vector<int> line_edge, force_edge, motion_edge, joint_edge, contact_edge, condition_edge;
+  std::vector<int> line_edge, force_edge, motion_edge, joint_edge, contact_edge, potential_edge,
+      condition_edge;
 };
 
 /// Throws InputError where the parts do not fit together.

@@ -17,6 +17,8 @@ EnergySum NetworkEquations::energies() const {
     sum.elastic += line.energy;
     sum.dissipation += line.dissipation;
   }
+  for (const PotentialComponent& contact : network_.potentials)
+    sum.layers += contact.potential->energy(at_.poses()[contact.body]);
   sum.driver_power = driver_power();
   return sum;
 }

@@ -22,9 +22,10 @@ void audit(const MotionFrame& frame, Motion& motion) {
   const MotionFrame& first = motion.frames.empty() ? frame : motion.frames.front();
   motion.largest_imbalance =
       std::max(motion.largest_imbalance, std::abs(frame.balance() - first.balance()));
-  motion.energy_scale = std::max(
-      {motion.energy_scale, frame.energy.kinetic, std::abs(frame.energy.elastic),
-       std::abs(frame.energy.gravity - first.energy.gravity), std::abs(frame.driver_work)});
+  motion.energy_scale =
+      std::max({motion.energy_scale, frame.energy.kinetic, std::abs(frame.energy.elastic),
+                frame.energy.layers, std::abs(frame.energy.gravity - first.energy.gravity),
+                std::abs(frame.driver_work)});
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "condyle/network/drive.h"
 #include "condyle/network/integrate.h"
 #include "condyle/network/knee_network.h"
+#include "condyle/network/motion_lattices.h"
 #include "condyle/network/motion_poses.h"
 #include "condyle/network/network_equations.h"
 #include "condyle/specimen/fit_surfaces.h"
@@ -104,19 +105,47 @@ void complete(const Scene& scene, const BodyOrigins& origins, KneeNetwork& knee)
   }
 }
 
-/// The motion of least energy that has the wanted flexion velocity and keeps the contacts.
-void set_velocity(const Scene& scene, const Model& model, Network network, NetworkState& state) {
+/// Rigid contacts where layers are pressed most.
+void keep_depths(const Model& model,
+                 const KneeNetwork& knee,
+                 Network& network,
+                 NetworkState& state) {
+  const RigidTransform& X = state.bodies[0].X;
+  for (std::size_t i = 0; i < knee.potentials.size(); ++i) {
+    const ContactPair& pair = model.pairs[knee.potentials[i]];
+    ContactResult contact;
+    knee.network.potentials[i].potential->describe(X, contact);
+    if (!contact.closed) continue;
+    const ContactPointResult& deepest = contact.points.front();
+    network.contacts.push_back({pair.name, 0, pair.on_B, pair.on_A, false, false});
+    const auto place = [](const Surface& surface, const Eigen::Vector3d& p) {
+      return surface.closest(p, surface.seed(p));
+    };
+    state.contacts.push_back(
+        {place(*pair.on_B, deepest.point_ground), place(*pair.on_A, deepest.point_moving), true});
+  }
+}
+
+/// The motion of least energy that has the wanted flexion velocity and keeps the contacts, of layers
+/// the depth where it is greatest.
+void set_velocity(const Scene& scene,
+                  const Model& model,
+                  const KneeNetwork& knee,
+                  NetworkState& start) {
   const double velocity = scene.simulation->flexion_velocity;
   if (velocity == 0) return;
+  Network network = knee.network;
+  NetworkState state = start;
   network.conditions.push_back(
       {"flexion velocity", 0, flexion_condition(model, *scene.simulation->flexion), {}});
+  keep_depths(model, knee, network, state);
   NetworkEquations equations(network);
   if (!equations.assemble(state)) fail(scene, "a contact has no place at the start");
   Eigen::VectorXd after = Eigen::VectorXd::Zero(equations.jacobian().rows()), impulse;
   after[after.size() - 1] = velocity;
   const Eigen::VectorXd twist = equations.impact(after, impulse);
-  state.bodies[0].v = twist.head<3>();
-  state.bodies[0].omega = twist.tail<3>();
+  start.bodies[0].v = twist.head<3>();
+  start.bodies[0].omega = twist.tail<3>();
 }
 
 }  // namespace
@@ -144,9 +173,10 @@ Simulation simulate(const Scene& scene,
   const ContactCovers covers = cover_pairs(model);
   const EquilibriumState start = find_start(scene, mass, model, covers);
   KneeNetwork knee = make_knee_network(model, mass);
+  choose_lattices(start.X, knee.network);
   complete(scene, model.origins, knee);
   NetworkState state = state_at_rest(model, covers, knee, start);
-  set_velocity(scene, model, knee.network, state);
+  set_velocity(scene, model, knee, state);
 
   const SimulationDescription& simulation = *scene.simulation;
   IntegrationOptions options;
@@ -156,12 +186,12 @@ Simulation simulate(const Scene& scene,
   options.restitution = simulation.restitution;
   options.breaks = drive_breaks(simulation.drives);
   options.on_frame = on_frame;
-  PairScout scout(model, covers, knee);
   const auto begin = std::chrono::steady_clock::now();
-  result.motion = integrate(knee.network, state, options, std::move(scout));
+  do result.motion = integrate(knee.network, state, options, PairScout(model, covers, knee));
+  while (!accept_lattices(result.motion, knee.network));
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.contact_of = knee.places;
-  result.poses = motion_poses(scene, model, knee, result.motion);
+  result.poses = motion_poses(scene, model, covers, knee, result.motion);
   if (!result.motion.completed && model.joint && !result.poses.empty())
     result.motion.reason += fmt::format(", {:.4g} deg of flexion at the frame before",
                                         result.poses.back().joint.flexion * 180 / M_PI);

@@ -254,6 +254,8 @@ Chart energy_chart(const Run& run) {
                   curve("ligaments", &MotionEnergies::elastic),
                   curve("dissipated", &MotionEnergies::dissipated),
                   curve("work of loads", &MotionEnergies::work)};
+  if (motion->layered)
+    parts.curves.insert(parts.curves.begin() + 3, curve("layers", &MotionEnergies::layers));
   const Panel balance = balance_panel(curve("", &MotionEnergies::balance));
   chart.panels = {parts, balance};
   return chart;

@@ -72,6 +72,7 @@ std::string motion_section(const Run& run) {
   add("kinetic", &MotionEnergies::kinetic);
   add("gravity", &MotionEnergies::gravity);
   add("ligaments", &MotionEnergies::elastic);
+  if (motion->layered) add("layers", &MotionEnergies::layers);
   add("dissipated", &MotionEnergies::dissipated);
   add("work of the loads", &MotionEnergies::work);
   HtmlTable events{"Contacts", {"time [s]", "contact", "event", "speed [mm/s]"}, {}, {1, 2}};

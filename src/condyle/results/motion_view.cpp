@@ -8,8 +8,8 @@ namespace condyle {
 namespace {
 
 MotionEnergies energies_of(const MotionFrame& frame) {
-  return {frame.state.t,    frame.energy.kinetic, frame.energy.gravity, frame.energy.elastic,
-          frame.dissipated, frame.driver_work,    frame.balance()};
+  return {frame.state.t,       frame.energy.kinetic, frame.energy.gravity, frame.energy.elastic,
+          frame.energy.layers, frame.dissipated,     frame.driver_work,    frame.balance()};
 }
 
 }  // namespace
@@ -21,7 +21,10 @@ std::optional<MotionView> motion_view(const Run& run) {
   MotionView view;
   view.completed = motion.completed;
   view.reason = motion.reason;
-  for (const MotionFrame& frame : motion.frames) view.energies.push_back(energies_of(frame));
+  for (const MotionFrame& frame : motion.frames) {
+    view.energies.push_back(energies_of(frame));
+    view.layered |= frame.energy.layers > 0;
+  }
   for (const ContactEvent& event : motion.events) {
     const int contact = simulation->contact_of.at(static_cast<std::size_t>(event.contact));
     view.events.push_back({event.t, run.scene.contacts.at(static_cast<std::size_t>(contact)).name,

@@ -15,6 +15,7 @@ namespace condyle {
 struct MotionEnergies {
   double time = 0;  ///< [s]
   double kinetic = 0, gravity = 0, elastic = 0;
+  double layers = 0;                ///< of elastic layers
   double dissipated = 0, work = 0;  ///< since the start; work of the loads
   double balance = 0;               ///< their sum, constant along a motion
 };
@@ -33,6 +34,7 @@ struct MotionView {
   std::vector<MotionEvent> events;
   long steps = 0;        ///< of the integrator
   double seconds = 0;    ///< of computing
+  bool layered = false;  ///< some energy is that of elastic layers
   double imbalance = 0;  ///< largest departure of the balance, over the largest energy met
   /// From the first to the last frame [N mm].
   [[nodiscard]] double change(double MotionEnergies::*part) const {

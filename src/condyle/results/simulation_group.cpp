@@ -45,6 +45,7 @@ class SimulationWriter {
     joules("kinetic", [](const MotionFrame& f) { return f.energy.kinetic; });
     joules("gravity", [](const MotionFrame& f) { return f.energy.gravity; });
     joules("ligaments", [](const MotionFrame& f) { return f.energy.elastic; });
+    joules("layers", [](const MotionFrame& f) { return f.energy.layers; });
     joules("dissipated", [](const MotionFrame& f) { return f.dissipated; });
     joules("driver_work", [](const MotionFrame& f) { return f.driver_work; });
     joules("balance", [](const MotionFrame& f) { return f.balance(); });
@@ -98,6 +99,7 @@ void read_energy(const Hdf5Group& energy, std::vector<MotionFrame>& frames) {
   joules("kinetic", [](MotionFrame& f, double e) { f.energy.kinetic = e; });
   joules("gravity", [](MotionFrame& f, double e) { f.energy.gravity = e; });
   joules("ligaments", [](MotionFrame& f, double e) { f.energy.elastic = e; });
+  if (energy.has("layers")) joules("layers", [](MotionFrame& f, double e) { f.energy.layers = e; });
   joules("dissipated", [](MotionFrame& f, double e) { f.dissipated = e; });
   joules("driver_work", [](MotionFrame& f, double e) { f.driver_work = e; });
 }
