@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -55,6 +56,35 @@ TEST(Laxity, ALoadIsSweptLikeAnAngle) {
   EXPECT_NEAR(drawn[10], 0, 1e-12);
   EXPECT_LT(drawn.front(), 0);
   EXPECT_GT(drawn.back(), 0);
+}
+
+// On layers the knee is laxer; four times as stiff they leave half of that.
+TEST(Laxity, OfLayersTendsToTheRigidOne) {
+  Scene scene = read_scene(kDrawer);
+  scene.laxity->flexions = {30 * kDegree};
+  const auto laxities = [](const Scene& s) {
+    std::array<double, 2> found{};
+    const LaxityResult result = test_laxity(s, fit_surfaces(s));
+    for (const LaxityCurve& curve : result.curves) {
+      EXPECT_EQ(curve.ours.count_converged(), static_cast<int>(curve.ours.poses.size()));
+      found[curve.cut ? 1 : 0] = laxity_of(s, curve.ours);
+    }
+    return found;
+  };
+  const auto on_layers = [&](double modulus) {
+    for (SurfaceDescription& surface : scene.surfaces)
+      surface.elastic = ElasticSurface{modulus, 0.45, 3};
+    LayerOptions options;
+    options.tolerance = 1e-4;
+    for (ContactDescription& contact : scene.contacts) contact.layer = options;
+    return laxities(scene);
+  };
+  const std::array<double, 2> rigid = laxities(scene), soft = on_layers(250),
+                              stiff = on_layers(1000);
+  for (const std::size_t knee : {0, 1}) {
+    EXPECT_GT(std::abs(soft[knee] - rigid[knee]), 0.02);
+    EXPECT_NEAR((stiff[knee] - rigid[knee]) / (soft[knee] - rigid[knee]), 0.5, 0.1) << knee;
+  }
 }
 
 TEST(Laxity, GoesThroughAFileUnchanged) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "condyle/contact/contact_scales.h"
 #include "condyle/equilibrium/contact_rules.h"
 #include "condyle/equilibrium/walker.h"
 
@@ -122,9 +123,11 @@ class PathFollower {
     if (const std::optional<double> end = length_to_end(length)) return finish(*end, length);
     if (!changes) {
       locate_limit(length, next_tangent);
+      if (!describe(*next)) return false;
+      locate_touches(length);
       point_ = *next;
       tangent_ = next_tangent;
-      return describe(point_);
+      return true;
     }
     return change_contacts(length);
   }
@@ -221,6 +224,31 @@ class PathFollower {
     result_.events.push_back({value, EventKind::kLimitPoint, -1});
   }
 
+  /// Where pairs with a law of their own touch or part between here and `length`, the last pose.
+  void locate_touches(double length) {
+    const PoseResult &before = result_.poses[result_.poses.size() - 2],
+                     &after = result_.poses.back();
+    for (std::size_t p = 0; p < model_.pairs.size(); ++p) {
+      const bool closes = after.contacts[p].closed;
+      if (!model_.pairs[p].law || before.contacts[p].closed == closes) continue;
+      double left = 0, right = length, value = after.value;
+      while (right - left > 1e-9 * model_.length) {
+        const double middle = 0.5 * (left + right);
+        const std::optional<PathPoint> point = at(middle);
+        if (!point) break;
+        (touches(p, point->state.X) == closes ? right : left) = middle;
+        value = point->value;
+      }
+      result_.events.push_back(
+          {value, closes ? EventKind::kClosing : EventKind::kOpening, static_cast<int>(p)});
+    }
+  }
+
+  bool touches(std::size_t pair, const RigidTransform& X) {
+    searches_[pair].find_nearest(X, kAnywhere * model_.length, minima_);
+    return !minima_.empty() && minima_.front().gap < 0;
+  }
+
   /// The length at which the swept value passes `to`, where it does within `length`.
   std::optional<double> length_to_end(double length) {
     const double before = point_.value - to_;
@@ -251,7 +279,7 @@ class PathFollower {
       return false;
     }
     last->value = to_;
-    describe(*last);
+    if (describe(*last)) locate_touches(length);
     return false;
   }
 
@@ -262,6 +290,7 @@ class PathFollower {
   PathSystem system_;
   std::vector<ContactSearch> searches_;
   ContactRules rules_;
+  std::vector<GapMinimum> minima_;
   PathPoint point_;
   Direction tangent_;
   SweepResult result_;
