@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "condyle/contact/curvature_tensor.h"
 
@@ -55,12 +56,17 @@ Rise Bending::in_shell(int level, int sample, const Eigen::Matrix3d& K) {
   if (cover_->bends_evenly()) return even_rise(radii_[shell], K);
   if (sample < 0) return {kInfinity, kInfinity};
   Shells& shells = shells_[static_cast<std::size_t>(sample)];
-  for (; shells.measured <= level; ++shells.measured) {
-    const auto next = static_cast<std::size_t>(shells.measured);
-    shells.of[next] = quadrics_.rise(cover_->sample(sample), cover_->cell_radius(sample),
-                                     next == 0 ? 0 : radii_[next - 1], radii_[next]);
+  if (!shells.measured[shell]) {
+    shells.of[shell] = quadrics_.rise(cover_->sample(sample), cover_->cell_radius(sample),
+                                      shell == 0 ? 0 : radii_[shell - 1], radii_[shell]);
+    shells.measured[shell] = true;
   }
   return shells.of[shell];
+}
+
+bool Bending::pays(int sample) {
+  if (cover_->bends_evenly() || sample < 0) return true;
+  return std::exchange(shells_[static_cast<std::size_t>(sample)].asked, true);
 }
 
 }  // namespace condyle

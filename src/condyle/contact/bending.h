@@ -40,8 +40,13 @@ class Bending {
   [[nodiscard]] static Radii shells(double spacing, double greatest);
 
   /// Of shell `level` about a sample (-1: none), over its own quadric; where the surface bends
-  /// evenly, over that with the curvature tensor K. Measured when it is first asked for.
+  /// evenly, over that with the curvature tensor K. Measured when it is first asked for, each shell
+  /// by itself.
   [[nodiscard]] Rise in_shell(int level, int sample, const Eigen::Matrix3d& K);
+
+  /// Asks for shells about that sample, or none, once more: all of them cost more than a search does
+  /// without them, so they pay from the second time on.
+  [[nodiscard]] bool pays(int sample);
 
   /// What is added for a point in the cell of the sample, where the curvature tensor is K [1/mm].
   [[nodiscard]] double shift(int sample, const Eigen::Matrix3d& K) const;
@@ -51,7 +56,8 @@ class Bending {
  private:
   struct Shells {
     std::array<Rise, kLevels> of;
-    int measured = 0;
+    std::array<bool, kLevels> measured = {};
+    bool asked = false;
   };
 
   const SurfaceCover* cover_;

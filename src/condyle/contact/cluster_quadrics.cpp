@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFine = 0.36;    // of a cluster's radius: that of the pieces it is fitted to
+constexpr int kSome = 64;         // samples show the shape of a cluster as well as all of them
 constexpr double kSmall = 0.125;  // a cluster counts as one cell below this share of its way
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
@@ -42,7 +43,11 @@ Rise rise_of(const SurfaceCell& cell, double change_within, const SurfacePoint& 
 }  // namespace
 
 ClusterQuadrics::ClusterQuadrics(const SurfaceCover& cover)
-    : cover_(&cover), fits_(cover.clusters().size()), fitted_(cover.clusters().size(), 0) {
+    : cover_(&cover),
+      fits_(cover.clusters().size()),
+      fitted_(cover.clusters().size(), 0),
+      means_(cover.clusters().size()),
+      has_mean_(cover.clusters().size(), 0) {
   pieces_.reserve(at(cover.size()));
 }
 
@@ -51,11 +56,20 @@ const ClusterQuadric& ClusterQuadrics::of(int cluster) {
   return fits_[at(cluster)];
 }
 
-const ClusterQuadric& ClusterQuadrics::about(int sample, double radius) {
+const SurfacePoint& ClusterQuadrics::mean_about(int sample, double radius) {
   int index = cover_->leaf(sample);
   while (cover_->cluster(index).radius < radius && cover_->cluster(index).parent >= 0)
     index = cover_->cluster(index).parent;
-  return of(index);
+  if (!has_mean_[at(index)]) {
+    const SurfaceCover::Cluster& cluster = cover_->cluster(index);
+    const int step = 1 + (cluster.last - cluster.first) / kSome;
+    for (int k = cluster.first; k < cluster.last; k += step)
+      pieces_.push_back(&cover_->cell(cover_->in_order(k)));
+    means_[at(index)] = fit_quadric(cover_->sample(sample_amid(cluster)), pieces_).at;
+    pieces_.clear();
+    has_mean_[at(index)] = 1;
+  }
+  return means_[at(index)];
 }
 
 /// The sample nearest to the centre.

@@ -24,8 +24,9 @@ class ClusterQuadrics {
   explicit ClusterQuadrics(const SurfaceCover& cover);
 
   [[nodiscard]] const ClusterQuadric& of(int cluster);
-  /// Of the smallest cluster about a sample whose radius is no less than that [mm].
-  [[nodiscard]] const ClusterQuadric& about(int sample, double radius);
+  /// The mean quadric alone of the smallest cluster about a sample whose radius is no less than that
+  /// [mm].
+  [[nodiscard]] const SurfacePoint& mean_about(int sample, double radius);
 
   /// Of all cells at a distance between `from` and `to` [mm] from a point within `own` [mm] of one
   /// of the surface.
@@ -41,6 +42,8 @@ class ClusterQuadrics {
   const SurfaceCover* cover_;
   std::vector<ClusterQuadric> fits_;
   std::vector<char> fitted_;
+  std::vector<SurfacePoint> means_;
+  std::vector<char> has_mean_;
   std::vector<const SurfaceCell*> pieces_;  ///< of the clusters under way, one after the other
 };
 

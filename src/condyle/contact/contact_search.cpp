@@ -207,8 +207,8 @@ void ContactSearch::add_rims(const RigidTransform& X_BA,
     const bool of_own = own.edge_distance(place) < reach;
     if (!of_own && !(facing.edge_distance(there) < reach)) continue;
     const std::optional<RimMinimum> rim =
-        of_own ? rim_minimum(own, place, facing, there, X, reach)
-               : rim_minimum(facing, there, own, place, X.inverse(), reach);
+        of_own ? rim_minimum(own, place, facing, there, X, reach, cutoff)
+               : rim_minimum(facing, there, own, place, X.inverse(), reach, cutoff);
     if (!rim || !(rim->gap < cutoff)) continue;
     GapMinimum minimum;
     const bool rim_of_A = of_own == sampled_on_A_;
@@ -266,6 +266,19 @@ void ContactSearch::gather_lowest(const RigidTransform& X_from_to) {
   for (const int sample : lowest_) measure(sample, X_from_to);
 }
 
+/// The samples whose cells may reach the cutoff, but for the neighbourhood of known contacts: first
+/// in ways that cost little, where they will do.
+void ContactSearch::look(const RigidTransform& X_from_to,
+                         double cutoff,
+                         const std::vector<KnownContact>& known) {
+  set_known(known);
+  for (std::size_t k = 0; k < known_; ++k)
+    if (touches_only(known[k], near_contacts_[k])) return;
+  if (cutoff <= 0 && known_ > 0 && look_beside(X_from_to, cutoff)) return;
+  set_discs(known);
+  visit(0, X_from_to, cutoff);
+}
+
 void ContactSearch::find(const RigidTransform& X_BA,
                          double cutoff,
                          std::vector<GapMinimum>& minima,
@@ -275,10 +288,8 @@ void ContactSearch::find(const RigidTransform& X_BA,
   near_.clear();
   ++now_;
   if (!has_samples()) return;
-  set_discs(known);
   const RigidTransform X = from_to(X_BA);
-  const bool beside = cutoff <= 0 && !known.empty() && !in_disc(sampled().cluster(0));
-  if (!beside || !look_beside(X, cutoff)) visit(0, X, cutoff);
+  look(X, cutoff, known);
   found_.clear();
   for (const KnownContact& contact : known)
     found_.push_back(sampled_on_A_ ? contact.on_B : contact.on_A);

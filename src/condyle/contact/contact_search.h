@@ -99,9 +99,11 @@ class ContactSearch {
     int stamp = -1;         ///< pose at which it was computed
     bool measured = false;  ///< to the closest point, not by a quadric nearby
   };
-  /// Samples beside a known contact.
+  /// Samples beside a known contact, and how far it is from them.
   struct NearContact {
     int on_B = -1, on_A = -1;
+    double shift = 0;  ///< of both curvatures, with heights and slopes on the way [1/mm]
+    double doubt = 0;  ///< by which a paraboloid has to be on its side [1/mm]
   };
   /// Which quadric parts the surfaces: about which known contact, from pieces of which size.
   struct Division {
@@ -117,11 +119,12 @@ class ContactSearch {
                    double reach,
                    std::vector<GapMinimum>& minima,
                    double merge);
-  [[nodiscard]] bool turns_beside(const KnownContact& contact,
-                                  const NearContact& near,
-                                  double shift,
-                                  double doubt) const;
+  [[nodiscard]] bool turns_beside(const KnownContact& contact, const NearContact& near) const;
+  void set_known(const std::vector<KnownContact>& known);
+  [[nodiscard]] bool is_free(int level, const KnownContact& contact, const NearContact& near);
+  [[nodiscard]] bool touches_only(const KnownContact& contact, const NearContact& near);
   void set_discs(const std::vector<KnownContact>& known);
+  void look(const RigidTransform& X_from_to, double cutoff, const std::vector<KnownContact>& known);
   [[nodiscard]] bool is_clear_of_sample(const SurfaceCover::Cluster& cluster,
                                         const Eigen::Vector3d& p,
                                         double cutoff,

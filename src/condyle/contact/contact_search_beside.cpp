@@ -35,8 +35,8 @@ bool ContactSearch::part(const Division& division,
   const int near_other = sampled_on_A_ ? contact.on_B : contact.on_A;
   if (near < 0 || near_other < 0) return false;
   const double piece = kPieces[division.size] * spacing_;
-  const SurfacePoint& lower = bending_other().quadrics().about(near_other, piece).cell.at;
-  const SurfacePoint& upper = bending_sampled().quadrics().about(near, piece).cell.at;
+  const SurfacePoint& lower = bending_other().quadrics().mean_about(near_other, piece);
+  const SurfacePoint& upper = bending_sampled().quadrics().mean_about(near, piece);
   const DividingQuadric quadric =
       divide(lower, moved(upper, X_from_to), other().sample(near_other).c);
   sampled().columns().not_on(CellColumns::Side::kAbove, moved(quadric, X_from_to.inverse()),

@@ -81,26 +81,20 @@ double bound_of_cell(const Facing& facing,
 }
 
 /// Is the innermost shell about a contact not free, as the cells of the nearest samples alone tell?
-bool ContactSearch::turns_beside(const KnownContact& contact,
-                                 const NearContact& near,
-                                 double shift,
-                                 double doubt) const {
+bool ContactSearch::turns_beside(const KnownContact& contact, const NearContact& near) const {
   if (cover_->on_B.bends_evenly() || cover_->on_A.bends_evenly()) return false;
   if (near.on_B < 0 || near.on_A < 0) return true;
   const auto greatest = [](const SurfaceCover& cover, int sample) {
     return largest_principal(cover.sample(sample).K) + cover.cell_change(sample);
   };
   const double change =
-      cover_->on_B.cell_change(near.on_B) + cover_->on_A.cell_change(near.on_A) + shift;
+      cover_->on_B.cell_change(near.on_B) + cover_->on_A.cell_change(near.on_A) + near.shift;
   return change > contact.least_curvature &&
-         greatest(cover_->on_B, near.on_B) + greatest(cover_->on_A, near.on_A) + shift > -doubt;
+         greatest(cover_->on_B, near.on_B) + greatest(cover_->on_A, near.on_A) + near.shift >
+             -near.doubt;
 }
 
-/// About a contact the surfaces are apart as far, shell by shell, as its relative curvature
-/// outweighs what both rise over their quadrics, or as a paraboloid of revolution between them has
-/// both on its own sides.
-void ContactSearch::set_discs(const std::vector<KnownContact>& known) {
-  discs_.clear();
+void ContactSearch::set_known(const std::vector<KnownContact>& known) {
   known_ = known.size();
   if (near_contacts_.size() < known_) near_contacts_.resize(known_);
   for (std::size_t k = 0; k < known_; ++k) {
@@ -108,20 +102,48 @@ void ContactSearch::set_discs(const std::vector<KnownContact>& known) {
     NearContact& near = near_contacts_[k];
     near.on_B = cover_->on_B.nearest(contact.on_B, near.on_B);
     near.on_A = cover_->on_A.nearest(contact.on_A, near.on_A);
-    const double doubt = kDoubt * (contact.K_B.norm() + contact.K_A.norm());
-    const double shift =
+    near.doubt = kDoubt * (contact.K_B.norm() + contact.K_A.norm());
+    near.shift =
         bending_B_.shift(near.on_B, contact.K_B) + bending_A_.shift(near.on_A, contact.K_A);
-    double radius = 0;
-    if (turns_beside(contact, near, shift, doubt)) continue;
-    for (int level = 0; level < Bending::kLevels; ++level) {
-      const Rise B = bending_B_.in_shell(level, near.on_B, contact.K_B);
-      const Rise A = bending_A_.in_shell(level, near.on_A, contact.K_A);
-      if (!(B.over_quadric + A.over_quadric + shift < contact.least_curvature) &&
-          !(B.over_plane + A.over_plane + shift < -doubt))
-        break;
-      radius = shells_[static_cast<std::size_t>(level)];
-    }
-    if (radius > 0) discs_.push_back({sampled_on_A_ ? contact.on_A : contact.on_B, radius});
+  }
+}
+
+/// In a shell about a contact the surfaces are apart where its relative curvature outweighs what
+/// both rise over their quadrics, or where a paraboloid of revolution between them has both on its
+/// own sides.
+bool ContactSearch::is_free(int level, const KnownContact& contact, const NearContact& near) {
+  const Rise B = bending_B_.in_shell(level, near.on_B, contact.K_B);
+  const Rise A = bending_A_.in_shell(level, near.on_A, contact.K_A);
+  return B.over_quadric + A.over_quadric + near.shift < contact.least_curvature ||
+         B.over_plane + A.over_plane + near.shift < -near.doubt;
+}
+
+/// A ball about a known contact holds all of the sampled surface, and all its shells are free.
+bool ContactSearch::touches_only(const KnownContact& contact, const NearContact& near) {
+  const SurfaceCover::Cluster& all = sampled().cluster(0);
+  const Eigen::Vector3d& center = sampled_on_A_ ? contact.on_A : contact.on_B;
+  const double needed = all.radius + (all.center - center).norm();
+  const auto outermost = std::upper_bound(shells_.begin(), shells_.end(), needed);
+  if (outermost == shells_.end() || turns_beside(contact, near)) return false;
+  const int levels = static_cast<int>(outermost - shells_.begin()) + 1;
+  const bool B_pays = bending_B_.pays(near.on_B), A_pays = bending_A_.pays(near.on_A);
+  if (!B_pays || !A_pays) return false;
+  int level = 0;
+  while (level < levels && is_free(level, contact, near)) ++level;
+  return level == levels;
+}
+
+void ContactSearch::set_discs(const std::vector<KnownContact>& known) {
+  discs_.clear();
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    const KnownContact& contact = known[k];
+    const NearContact& near = near_contacts_[k];
+    if (turns_beside(contact, near)) continue;
+    int level = 0;
+    while (level < Bending::kLevels && is_free(level, contact, near)) ++level;
+    if (level == 0) continue;
+    discs_.push_back({sampled_on_A_ ? contact.on_A : contact.on_B,
+                      shells_[static_cast<std::size_t>(level - 1)]});
   }
 }
 

@@ -27,8 +27,17 @@ double rise_over(const SurfacePoint& quadric, const SurfaceCell& cell) {
   return along - 0.5 * d.dot(Kt) + slope * r + 0.5 * bend * r * r + cell.rise;
 }
 
-/// The mean curvature tensor, the normal that leaves no mean slope and the height that leaves no
-/// mean height; each cell counts by its area.
+SurfaceCell enclosed(const SurfacePoint& quadric, SurfaceCells cells) {
+  SurfaceCell all{quadric};
+  for (const SurfaceCell* cell : cells) {
+    all.radius = std::max(all.radius, (cell->at.c - quadric.c).norm() + cell->radius);
+    if (all.rise < kInfinity) all.rise = std::max(all.rise, rise_over(quadric, *cell));
+  }
+  return all;
+}
+
+}  // namespace
+
 SurfacePoint mean_quadric(const SurfacePoint& about, SurfaceCells cells) {
   Eigen::Matrix3d K = Eigen::Matrix3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero(), way = Eigen::Vector3d::Zero();
@@ -55,26 +64,11 @@ SurfacePoint mean_quadric(const SurfacePoint& about, SurfaceCells cells) {
   return mean;
 }
 
-SurfaceCell enclosed(const SurfacePoint& quadric, SurfaceCells cells) {
-  SurfaceCell all{quadric};
-  for (const SurfaceCell* cell : cells) {
-    all.radius = std::max(all.radius, (cell->at.c - quadric.c).norm() + cell->radius);
-    if (all.rise < kInfinity) all.rise = std::max(all.rise, rise_over(quadric, *cell));
-  }
-  return all;
-}
-
-}  // namespace
-
-SurfaceCell fit_mean(const SurfacePoint& about, SurfaceCells cells) {
-  return enclosed(mean_quadric(about, cells), cells);
-}
-
 SurfaceCell fit_quadric(const SurfacePoint& about, SurfaceCells cells) {
   const SurfaceCell given = enclosed(about, cells);
   const double least = cells.front()->rise;
   if (given.rise <= least || given.rise == kInfinity) return given;
-  const SurfaceCell mean = fit_mean(about, cells);
+  const SurfaceCell mean = enclosed(mean_quadric(about, cells), cells);
   return mean.rise < given.rise ? mean : given;
 }
 

@@ -21,11 +21,13 @@ struct SurfaceCell {
 
 using SurfaceCells = std::span<const SurfaceCell* const>;
 
-/// The mean quadric of the cells near `about`; `radius` holds all of them and `rise` is that of all
-/// of them, infinite where the surface turns by more than 60 degrees.
-[[nodiscard]] SurfaceCell fit_mean(const SurfacePoint& about, SurfaceCells cells);
+/// The mean curvature tensor of the cells near `about`, the normal that leaves no mean slope and the
+/// height that leaves no mean height; each cell counts by its area.
+[[nodiscard]] SurfacePoint mean_quadric(const SurfacePoint& about, SurfaceCells cells);
 
-/// The same, or the quadric at `about` where the cells rise less over it.
+/// The mean quadric, or the one at `about` where the cells rise less over that; `radius` holds all
+/// of them and `rise` is that of all of them, infinite where the surface turns by more than 60
+/// degrees.
 [[nodiscard]] SurfaceCell fit_quadric(const SurfacePoint& about, SurfaceCells cells);
 
 }  // namespace condyle

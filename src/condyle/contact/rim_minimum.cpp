@@ -2,13 +2,19 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace condyle {
 namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kNone = std::numeric_limits<double>::infinity();
+// Of the change from the lowest look to the next: no parabola dips lower between them than by 1/4.
+constexpr double kBetween = 0.5;
 constexpr double kFacing = -0.3;  // cosine between normals of what faces each other, at most
 
 /// Places on the edge by their way along it from a start.
@@ -25,18 +31,23 @@ class Rim {
   }
   [[nodiscard]] bool found() const { return found_; }
 
-  /// Straight to the edge from `way` [mm] beside the start: the edge distance falls as one goes.
+  /// Straight to the edge from `way` [mm] beside the start, by the secant: the edge distance falls as
+  /// one goes.
   [[nodiscard]] std::optional<Place> at(double way) const {
     constexpr int kMost = 20;
-    constexpr double kOn = 1e-9;  // [mm]
+    constexpr double kOn = 1e-9;     // [mm]
+    constexpr double kUneven = 0.3;  // of a fall by as much as one goes: less, or more, is a kink
     const Place base = surface_.moved(start_, at_, way * along_);
     const SurfacePoint from = surface_.evaluate_frame(base);
     Place place = base;
-    double outward = 0;
+    double outward = 0, gone = 0, edge_before = 0;
     for (int i = 0; i < kMost; ++i) {
       const double edge = surface_.edge_distance(place);
       if (std::abs(edge) < kOn) return place;
-      outward += edge;
+      const double fall = i == 0 ? 1 : (edge_before - edge) / gone;
+      gone = fall > kUneven && fall < 1 / kUneven ? edge / fall : edge;
+      edge_before = edge;
+      outward += gone;
       if (!(std::abs(outward) < 4 * reach_)) return std::nullopt;
       place = surface_.moved(base, from, -outward * inward_);
     }
@@ -60,6 +71,19 @@ class Rim {
   bool found_ = false;
 };
 
+/// To either side of the lowest of them, the greater.
+template <std::size_t N>
+double change_beside_lowest(const std::array<double, N>& gaps) {
+  const auto lowest = std::min_element(gaps.begin(), gaps.end());
+  double change = 0;
+  const auto look = [&](double gap) {
+    if (gap < kNone) change = std::max(change, gap - *lowest);
+  };
+  if (lowest != gaps.begin()) look(lowest[-1]);
+  if (lowest + 1 != gaps.end()) look(lowest[1]);
+  return change;
+}
+
 }  // namespace
 
 std::optional<RimMinimum> rim_minimum(const Surface& rim,
@@ -67,28 +91,35 @@ std::optional<RimMinimum> rim_minimum(const Surface& rim,
                                       const Surface& facing,
                                       const Place& facing_start,
                                       const RigidTransform& X,
-                                      double reach) {
+                                      double reach,
+                                      double cutoff) {
   const Rim edge(rim, start, reach);
   if (!edge.found()) return std::nullopt;
   std::optional<RimMinimum> lowest;
   double best = 0;
   const auto look = [&](double way) {
     const std::optional<Place> place = edge.at(way);
-    if (!place) return;
+    double gap = kNone;
+    if (!place) return gap;
     const SurfacePoint own = rim.evaluate_frame(*place);
     const Vector3d p = X * own.c;
     const Place there = facing.closest(p, lowest ? lowest->facing : facing_start);
-    if (facing.edge_distance(there) < 0) return;
+    if (facing.edge_distance(there) < 0) return gap;
     const SurfacePoint at = facing.evaluate_frame(there);
-    const double gap = at.n.dot(p - at.c);
-    if (at.n.dot(X.R * own.n) > kFacing || (lowest && gap >= lowest->gap)) return;
+    if (at.n.dot(X.R * own.n) > kFacing) return gap;
+    gap = at.n.dot(p - at.c);
+    if (lowest && gap >= lowest->gap) return gap;
     lowest = RimMinimum{*place, there, gap};
     best = way;
+    return gap;
   };
   constexpr int kParts = 4;        // of the reach
   constexpr double kLeast = 1e-4;  // of the reach
-  for (int i = -kParts; i <= kParts; ++i) look(reach * i / kParts);
-  for (double step = 0.5 * reach / kParts; lowest && step > kLeast * reach; step *= 0.5) {
+  std::array<double, 2 * kParts + 1> gaps;
+  for (int i = -kParts; i <= kParts; ++i)
+    gaps[static_cast<std::size_t>(i + kParts)] = look(reach * i / kParts);
+  if (!lowest || lowest->gap - kBetween * change_beside_lowest(gaps) > cutoff) return std::nullopt;
+  for (double step = 0.5 * reach / kParts; step > kLeast * reach; step *= 0.5) {
     const double middle = best;
     look(middle - step);
     look(middle + step);

@@ -18,13 +18,14 @@ struct RimMinimum {
 
 /// Within `reach` [mm] of the place `start` near an edge of `rim`; `facing_start` is a place near
 /// the closest one, X takes the frame of `rim` to that of `facing`. Nothing where no edge is found,
-/// or where it faces nothing known. To 1e-4 of the reach along the edge, which is of second order in
-/// the gap.
+/// or where it faces nothing known, or where coarse steps along it show a gap above the cutoff [mm]
+/// all the way. To 1e-4 of the reach along the edge, which is of second order in the gap.
 [[nodiscard]] std::optional<RimMinimum> rim_minimum(const Surface& rim,
                                                     const Place& start,
                                                     const Surface& facing,
                                                     const Place& facing_start,
                                                     const RigidTransform& X,
-                                                    double reach);
+                                                    double reach,
+                                                    double cutoff);
 
 }  // namespace condyle
