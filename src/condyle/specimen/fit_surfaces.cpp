@@ -17,6 +17,7 @@
 #include "condyle/mesh/drop_flat_vertices.h"
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/mesh_files/load_mesh.h"
+#include "condyle/specimen/check_layers.h"
 #include "condyle/surface/bone_check.h"
 #include "condyle/surface/exact_surfaces.h"
 #include "condyle/surface/fit_figures.h"
@@ -368,6 +369,7 @@ std::vector<FittedSurface> fit_surfaces(const Scene& scene,
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     if (scene.surfaces[i].kind != SurfaceKind::kPatch)
       surfaces[i].surface = make_exact_surface(scene.surfaces[i]);
+  check_layers(scene, surfaces);
   return surfaces;
 }
 

@@ -22,7 +22,7 @@ namespace condyle {
 using MeshReader = std::function<TriangleMesh(const MeshFile&)>;
 
 /// One entry per Scene::surfaces, in the frames of the scene; where these have their origins does
-/// not matter. Throws InputError for meshes that cannot be used. `on_patch` is told of each patch
+/// not matter. Throws InputError for meshes that cannot be used and layers that have no room. `on_patch` is told of each patch
 /// that is fitted, from either of two threads but never from both at once.
 [[nodiscard]] std::vector<FittedSurface> fit_surfaces(const Scene& scene,
                                                       const OnProgress& on_patch = {},
