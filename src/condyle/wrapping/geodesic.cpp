@@ -1,0 +1,195 @@
+#include "condyle/wrapping/geodesic.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/wrapping/nystrom.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+Geodesic shoot_on(const WrapSphere& sphere,
+                  const WrapShape&,
+                  const SurfaceFrame& from,
+                  double arc) {
+  const double R = sphere.radius, c = std::cos(arc / R), s = std::sin(arc / R);
+  Geodesic g;
+  g.from = g.to = from;
+  g.to.n = c * from.n + s * from.t;
+  g.to.t = c * from.t - s * from.n;
+  g.to.x = R * g.to.n;
+  g.a = g.dr = c;
+  g.da = -s / R;
+  g.r = R * s;
+  g.first_of_kind = std::abs(arc) < M_PI * R;
+  return g;
+}
+
+Geodesic shoot_on(const WrapCylinder& cylinder,
+                  const WrapShape&,
+                  const SurfaceFrame& from,
+                  double arc) {
+  const Vector3d round(-from.n.y(), from.n.x(), 0);
+  const double along = from.t.dot(round), angle = arc * along / cylinder.radius;
+  const double c = std::cos(angle), s = std::sin(angle);
+  const auto turned = [&](const Vector3d& v) {
+    return Vector3d(c * v.x() - s * v.y(), s * v.x() + c * v.y(), v.z());
+  };
+  Geodesic g;
+  g.from = g.to = from;
+  g.to.n = turned(from.n);
+  g.to.t = turned(from.t);
+  g.to.b = turned(from.b);
+  g.to.x = cylinder.radius * g.to.n;
+  g.to.x.z() = from.x.z() + arc * from.t.z();
+  g.r = arc;
+  return g;
+}
+
+/// x'' = -J D x/q², q = |Dx|²: J = q tᵀDt stays along a geodesic [Joachimsthal]. G = det D/q².
+struct EllipsoidField {
+  double D2[3], JD[3], det;
+
+  EllipsoidField(const WrapEllipsoid& ellipsoid, const SurfaceFrame& from) {
+    const Vector3d D = ellipsoid.semi_axes.cwiseAbs2().cwiseInverse();
+    const double q = D.cwiseProduct(from.x).squaredNorm();
+    const double J = q * from.t.cwiseAbs2().dot(D);
+    for (int i = 0; i < 3; ++i) {
+      D2[i] = D[i] * D[i];
+      JD[i] = -J * D[i];
+    }
+    det = -D.prod();
+  }
+  inline __attribute__((always_inline)) void operator()(const Four (&y)[5], Four (&f)[5]) const {
+    const Four q = D2[0] * y[0] * y[0] + D2[1] * y[1] * y[1] + D2[2] * y[2] * y[2];
+    const Four w = 1.0 / (q * q), G = det * w;
+    for (int i = 0; i < 3; ++i) f[i] = JD[i] * w * y[i];
+    f[3] = G * y[3];
+    f[4] = G * y[4];
+  }
+};
+
+/// κ = -((1 - h²/ρ²)/r + h² cos φ/ρ³), ρ the distance from the axis, h = ρ (t . round), which stays along
+/// a geodesic [Clairaut], cos φ = (ρ - R)/r; G = cos φ/(r ρ).
+struct TorusField {
+  double R, per_r, hh;
+
+  TorusField(const WrapTorus& torus, const SurfaceFrame& from)
+      : R(torus.ring), per_r(1 / torus.tube) {
+    const double h = from.x.x() * from.t.y() - from.x.y() * from.t.x();
+    hh = h * h;
+  }
+  inline __attribute__((always_inline)) void operator()(const Four (&y)[5], Four (&f)[5]) const {
+    const Four rr = y[0] * y[0] + y[1] * y[1];
+    const Four per_rho = {1 / std::sqrt(rr[0]), 1 / std::sqrt(rr[1]), 1 / std::sqrt(rr[2]),
+                          1 / std::sqrt(rr[3])};
+    const Four out = (rr * per_rho - R) * per_r, tilt = hh * per_rho * per_rho;
+    const Four kn = (((tilt - 1.0) * per_r) - tilt * out * per_rho) * per_r;
+    const Four inwards = kn * (1.0 - R * per_rho), G = -out * per_r * per_rho;
+    f[0] = inwards * y[0];
+    f[1] = inwards * y[1];
+    f[2] = kn * y[2];
+    f[3] = G * y[3];
+    f[4] = G * y[4];
+  }
+};
+
+CONDYLE_FMA_CLONE __attribute__((noinline)) void step(const EllipsoidField& field,
+                                                      double h,
+                                                      GeodesicState& s) {
+  nystrom::step(field, h, s);
+}
+CONDYLE_FMA_CLONE __attribute__((noinline)) void step(const TorusField& field,
+                                                      double h,
+                                                      GeodesicState& s) {
+  nystrom::step(field, h, s);
+}
+
+/// How far the state is off the surface, in parts of the least radius.
+double off_surface(const WrapEllipsoid& ellipsoid, const GeodesicState& s) {
+  double level = -1;
+  for (int i = 0; i < 3; ++i) {
+    const double q = s.y[i] / ellipsoid.semi_axes[i];
+    level += q * q;
+  }
+  return level;
+}
+double off_surface(const WrapTorus& torus, const GeodesicState& s) {
+  return std::hypot(std::hypot(s.y[0], s.y[1]) - torus.ring, s.y[2]) / torus.tube - 1;
+}
+
+double largest_curvature(const SurfaceFrame& f) {
+  return std::max(std::abs(f.kappa), std::abs(f.kappa_b)) + std::abs(f.tau);
+}
+
+/// Steps that turn by 0.4 rad at most where they begin, halved where one loses the surface or the
+/// Wronskian a r' - a' r = 1.
+template <class Field, class Shape>
+Geodesic integrate(const Shape& solid,
+                   const WrapShape& shape,
+                   const SurfaceFrame& from,
+                   double arc) {
+  constexpr double kTurn = 0.4, kTolerance = 5e-13;
+  constexpr int kMostSteps = 400;
+  const Field field(solid, from);
+  GeodesicState at = {{from.x.x(), from.x.y(), from.x.z(), 1, 0},
+                      {from.t.x(), from.t.y(), from.t.z(), 0, 1}};
+  Geodesic g;
+  g.from = from;
+  double left = arc, longest = kTurn / largest_curvature(from);
+  double last_off = off_surface(solid, at), last_wronskian = 1;
+  int steps = 0;
+  for (; std::abs(left) > 0 && steps < kMostSteps; ++steps) {
+    const double pieces = std::ceil(std::abs(left) / longest - 1e-6),
+                 h = left / std::max(1.0, pieces);
+    GeodesicState next = at;
+    step(field, h, next);
+    const double off = off_surface(solid, next),
+                 wronskian = next.y[3] * next.v[4] - next.v[3] * next.y[4];
+    if (!(std::abs(off - last_off) < kTolerance) ||
+        !(std::abs(wronskian - last_wronskian) < kTolerance)) {
+      longest = 0.5 * std::abs(h);
+      continue;
+    }
+    if (next.y[4] * arc <= 0) g.first_of_kind = false;
+    at = next;
+    last_off = off;
+    last_wronskian = wronskian;
+    left = pieces > 1 ? left - h : 0;
+  }
+  g.found = steps < kMostSteps;
+  const Vector3d x(at.y[0], at.y[1], at.y[2]), t(at.v[0], at.v[1], at.v[2]);
+  g.to = frame_at(shape, x, t);
+  g.a = at.y[3];
+  g.r = at.y[4];
+  g.da = at.v[3];
+  g.dr = at.v[4];
+  return g;
+}
+
+Geodesic shoot_on(const WrapEllipsoid& solid,
+                  const WrapShape& shape,
+                  const SurfaceFrame& from,
+                  double arc) {
+  return integrate<EllipsoidField>(solid, shape, from, arc);
+}
+Geodesic shoot_on(const WrapTorus& solid,
+                  const WrapShape& shape,
+                  const SurfaceFrame& from,
+                  double arc) {
+  return integrate<TorusField>(solid, shape, from, arc);
+}
+
+}  // namespace
+
+Geodesic shoot(const WrapShape& shape, const SurfaceFrame& from, double arc) {
+  Geodesic g = std::visit([&](const auto& s) { return shoot_on(s, shape, from, arc); }, shape);
+  g.arc = arc;
+  return g;
+}
+
+}  // namespace condyle

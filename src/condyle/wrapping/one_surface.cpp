@@ -1,0 +1,166 @@
+#include "condyle/wrapping/one_surface.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/wrapping/geodesic.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+/// In the plane through the centre: with θ from X to Y, α and β from X to P and from Q to Y, the arc is
+/// R (θ - α - β).
+OneSurfacePath over(const WrapSphere& sphere,
+                    const WrapShape&,
+                    const Vector3d& X,
+                    const Vector3d& Y,
+                    ArcPlace& place) {
+  OneSurfacePath path;
+  const double R = sphere.radius, xx = X.squaredNorm(), yy = Y.squaredNorm();
+  if (!(xx > R * R) || !(yy > R * R)) return path;
+  const double x = std::sqrt(xx), y = std::sqrt(yy);
+  path.l1 = std::sqrt(xx - R * R);
+  path.l2 = std::sqrt(yy - R * R);
+  Vector3d m = X.cross(Y);
+  const double mm = m.norm();
+  if (mm > 1e-12 * x * y) {
+    m /= mm;
+  } else {
+    m = place.P.cross(place.t);
+    m = (m - m.dot(X) / xx * X).normalized();
+    if (!m.allFinite()) m = X.unitOrthogonal();
+  }
+  const double c = X.dot(Y) / (x * y), s = mm / (x * y);
+  const double c_a = R / x, s_a = path.l1 / x, c_b = R / y, s_b = path.l2 / y;
+  const double c_ab = c_a * c_b - s_a * s_b, s_ab = s_a * c_b + c_a * s_b;
+  const double c_psi = c * c_ab + s * s_ab, s_psi = s * c_ab - c * s_ab;
+  const double psi = std::atan2(s_psi, c_psi);
+  path.n = c_a / x * X + s_a / x * m.cross(X);
+  path.n_Q = c_b / y * Y - s_b / y * m.cross(Y);
+  path.e_X = m.cross(path.n);
+  path.e_Y = m.cross(path.n_Q);
+  path.b = path.b_Q = -m;
+  path.A = c_psi - path.l2 * s_psi / R;
+  path.D = c_psi - path.l1 * s_psi / R;
+  path.B = path.A * path.l1 + R * s_psi + path.l2 * c_psi;
+  place = {R * path.n, path.e_X, R * psi};
+  path.length = path.l1 + place.arc + path.l2;
+  path.found = path.length > 0;
+  path.shortest = path.B > 0;
+  return path;
+}
+
+/// Unrolled, the tangents and the arc are one straight line; seen along the axis it goes round by ψ.
+OneSurfacePath over(const WrapCylinder& cylinder,
+                    const WrapShape&,
+                    const Vector3d& X,
+                    const Vector3d& Y,
+                    ArcPlace& place) {
+  OneSurfacePath path;
+  const double R = cylinder.radius;
+  const double xx = X.x() * X.x() + X.y() * X.y(), yy = Y.x() * Y.x() + Y.y() * Y.y();
+  if (!(xx > R * R) || !(yy > R * R)) return path;
+  const double l1 = std::sqrt(xx - R * R), l2 = std::sqrt(yy - R * R);
+  const double sense = place.P.x() * place.t.y() - place.P.y() * place.t.x() < 0 ? -1 : 1;
+  const double kept = place.arc * std::hypot(place.t.x(), place.t.y()) / R;
+  const double l1_s = sense * l1, l2_s = -sense * l2;
+  path.n = Vector3d(R * X.x() - l1_s * X.y(), l1_s * X.x() + R * X.y(), 0) / xx;
+  path.n_Q = Vector3d(R * Y.x() - l2_s * Y.y(), l2_s * Y.x() + R * Y.y(), 0) / yy;
+  double psi = sense * std::atan2(path.n.x() * path.n_Q.y() - path.n.y() * path.n_Q.x(),
+                                  path.n.x() * path.n_Q.x() + path.n.y() * path.n_Q.y());
+  psi += 2 * M_PI * std::round((kept - psi) / (2 * M_PI));
+  const double flat = l1 + R * psi + l2, z = Y.z() - X.z(), L = std::sqrt(flat * flat + z * z);
+  if (!(flat > 0)) return path;
+  const double c = flat / L, s = z / L;
+  path.e_X = Vector3d(-sense * c * path.n.y(), sense * c * path.n.x(), s);
+  path.e_Y = Vector3d(-sense * c * path.n_Q.y(), sense * c * path.n_Q.x(), s);
+  path.b = path.e_X.cross(path.n);
+  path.b_Q = path.e_Y.cross(path.n_Q);
+  path.l1 = l1 / c;
+  path.l2 = l2 / c;
+  path.A = path.D = 1;
+  path.B = path.length = L;
+  place.P = R * path.n;
+  place.P.z() = X.z() + s * path.l1;
+  place.t = path.e_X;
+  place.arc = R * psi / c;
+  path.found = path.shortest = true;
+  return path;
+}
+
+double largest_curvature(const SurfaceFrame& f) {
+  return std::max(std::abs(f.kappa), std::abs(f.kappa_b)) + std::abs(f.tau);
+}
+
+/// Step (δθ, δb, δt, δℓ) from the path errors; singular only where the path does not press or B = 0.
+template <class Solid>
+OneSurfacePath over(
+    const Solid&, const WrapShape& shape, const Vector3d& X, const Vector3d& Y, ArcPlace& place) {
+  constexpr double kLongest = 0.3, kSmall = 1e-9;
+  constexpr int kMostSteps = 60;
+  OneSurfacePath path;
+  for (int iteration = 0; iteration < kMostSteps; ++iteration) {
+    const SurfaceFrame start = frame_at(shape, place.P, place.t);
+    const Geodesic g = shoot(shape, start, place.arc);
+    if (!g.found || !g.to.x.allFinite()) return path;
+    const SurfaceFrame &f = g.from, &f_Q = g.to;
+    const Vector3d d1 = f.x - X, d2 = Y - f_Q.x;
+    const double l1 = d1.norm(), l2 = d2.norm();
+    const double rho1 = d1.dot(f.n) / l1, rho2 = d1.dot(f.b);
+    const double rho3 = d2.dot(f_Q.n) / l2, rho4 = d2.dot(f_Q.b);
+    path.A = g.a + l2 * g.da;
+    path.B = path.A * l1 + g.r + l2 * g.dr;
+    path.D = g.da * l1 + g.dr;
+    double turn = (rho4 + path.A * rho2) / path.B;
+    double aside = l1 * turn - rho2;
+    double ahead = (rho1 - f.tau * aside) / f.kappa;
+    double slide = (rho3 - f_Q.tau * (g.a * aside + g.r * turn)) / f_Q.kappa;  // δt + δℓ
+    const double k = largest_curvature(f), k_Q = largest_curvature(f_Q);
+    const double size = std::max(
+        {std::abs(turn), k * std::max(std::abs(aside), std::abs(ahead)), k_Q * std::abs(slide)});
+    if (!std::isfinite(size)) return path;
+    if (size > kLongest) {
+      const double part = kLongest / size;
+      turn *= part;
+      aside *= part;
+      ahead *= part;
+      slide *= part;
+    }
+    place.P = onto_surface(shape, f.x + ahead * f.t + aside * f.b);
+    place.t = f.t + turn * f.b + (f.kappa * ahead + f.tau * aside) * f.n;
+    place.arc += slide - ahead;
+    if (size > kSmall) continue;
+    // What is left of the step is too small to show in frames and Jacobi fields.
+    const Vector3d Q = f_Q.x + slide * f_Q.t + (g.a * aside + g.r * turn) * f_Q.b;
+    path.e_X = place.P - X;
+    path.e_Y = Y - Q;
+    path.l1 = path.e_X.norm();
+    path.l2 = path.e_Y.norm();
+    path.e_X /= path.l1;
+    path.e_Y /= path.l2;
+    path.n = f.n;
+    path.b = f.b;
+    path.n_Q = f_Q.n;
+    path.b_Q = f_Q.b;
+    path.length = path.l1 + place.arc + path.l2;
+    path.found = path.e_X.dot(f.t) > 0 && path.e_Y.dot(f_Q.t) > 0;
+    path.shortest = path.B > 0 && (place.arc <= 0 || (g.first_of_kind && l1 * g.a + g.r > 0));
+    return path;
+  }
+  return path;
+}
+
+}  // namespace
+
+OneSurfacePath path_over(const WrapShape& shape,
+                         const Vector3d& X,
+                         const Vector3d& Y,
+                         ArcPlace& place) {
+  return std::visit([&](const auto& solid) { return over(solid, shape, X, Y, place); }, shape);
+}
+
+}  // namespace condyle

@@ -1,0 +1,43 @@
+#pragma once
+
+/// The path over one surface, both ends free of it, frame of the surface [mm]: closed forms for sphere
+/// and cylinder, else Newton with the explicit step.
+
+#include <Eigen/Core>
+
+#include "condyle/wrapping/wrap_shape.h"
+
+namespace condyle {
+
+/// Where the geodesic begins, its tangent there, its length: what is kept from pose to pose.
+struct ArcPlace {
+  Eigen::Vector3d P, t;
+  double arc;
+};
+
+struct OneSurfacePath {
+  double length = 0;
+  double l1, l2;                   ///< X to P, Q to Y
+  Eigen::Vector3d e_X, e_Y;        ///< unit tangents at X and Y, from X to Y
+  Eigen::Vector3d n, b, n_Q, b_Q;  ///< at P and Q
+  double A, B, D;                  ///< B = A l1 + r + l2 r', A = a + l2 a', D = a' l1 + r'
+  bool found = false;
+  bool shortest = false;  ///< B > 0, no conjugate point of X before Y
+
+  /// ∂²L/∂X² and ∂²L/∂Y² [1/mm].
+  [[nodiscard]] Eigen::Matrix3d H_XX() const {
+    return n * (n / l1).transpose() + b * (A / B * b).transpose();
+  }
+  [[nodiscard]] Eigen::Matrix3d H_YY() const {
+    return n_Q * (n_Q / l2).transpose() + b_Q * (D / B * b_Q).transpose();
+  }
+};
+
+/// From the place as it is: of a sphere only its plane is looked at where the ends leave it open, of a
+/// cylinder the sense and the nearest angle. The place is that of the path afterwards.
+[[nodiscard]] OneSurfacePath path_over(const WrapShape& shape,
+                                       const Eigen::Vector3d& X,
+                                       const Eigen::Vector3d& Y,
+                                       ArcPlace& place);
+
+}  // namespace condyle

@@ -1,0 +1,158 @@
+#include "condyle/wrapping/wrapped_path.h"
+
+#include <Eigen/Geometry>
+
+#include <stdexcept>
+
+#include "condyle/wrapping/one_surface.h"
+#include "condyle/wrapping/path_ends.h"
+#include "condyle/wrapping/path_revision.h"
+#include "condyle/wrapping/path_state.h"
+#include "condyle/wrapping/solve_chain.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+class SurfacesPath final : public WrappedPath {
+ public:
+  SurfacesPath(std::vector<PathWrap> wraps, const PathEnds& ends, InsideRule inside)
+      : wraps_(std::move(wraps)), ends_(ends), inside_(inside) {
+    for (const PathWrap& wrap : wraps_) surfaces_.push_back(make_surface(wrap));
+  }
+
+  [[nodiscard]] int numbers() const override { return PathState::numbers(wraps_.size()); }
+
+  double pull(const LineEnds& ends,
+              const RigidTransform& X_BA,
+              double* kept,
+              Wrench& unit) const override {
+    return at(ends, X_BA, kept, &unit);
+  }
+  [[nodiscard]] double length(const LineEnds& ends,
+                              const RigidTransform& X_BA,
+                              double* kept) const override {
+    return at(ends, X_BA, kept, nullptr);
+  }
+  bool revise(const LineEnds& ends, const RigidTransform& X_BA, double* kept) const override {
+    const PathEnds found = ends_at(ends, X_BA);
+    return revise_path({surfaces_, found, X_BA}, PathState(kept));
+  }
+  void add_points(const LineEnds& ends,
+                  const RigidTransform& X_BA,
+                  const double* kept,
+                  std::vector<Vector3d>& points) const override;
+
+  [[nodiscard]] const std::vector<PathWrap>& wraps() const override { return wraps_; }
+  [[nodiscard]] std::vector<Touch> touches(const LineEnds& ends,
+                                           const RigidTransform& X_BA,
+                                           const double* kept) const override;
+  [[nodiscard]] Finding finding(const LineEnds& ends,
+                                const RigidTransform& X_BA,
+                                const double* kept) const override {
+    return PathState(known(ends, X_BA, kept).data()).finding();
+  }
+
+ private:
+  static PathSurface make_surface(const PathWrap& wrap) {
+    PathSurface surface{wrap.shape, wrap.placement, wrap.placement.inverse(), wrap.on_moving, {}};
+    if (wrap.side) surface.side = normal_at(wrap.shape, surface.X_SW * *wrap.side);
+    return surface;
+  }
+
+  /// Those that were given when the path was made need not be looked at again.
+  [[nodiscard]] PathEnds ends_at(const LineEnds& ends, const RigidTransform& X_BA) const {
+    const Vector3d s_D = X_BA.R.transpose() * ends.q;
+    const bool same = ends.x_C == ends_.end[0].given &&
+                      (s_D - ends_.end[1].given).squaredNorm() <= 1e-26 * (1 + s_D.squaredNorm());
+    return same ? ends_ : path_ends(wraps_, ends.x_C, s_D, inside_);
+  }
+
+  /// `kept`, found where it is unknown.
+  [[nodiscard]] std::array<double, kMostPathNumbers> known(const LineEnds& ends,
+                                                           const RigidTransform& X_BA,
+                                                           const double* kept) const {
+    std::array<double, kMostPathNumbers> copy = unknown_path();
+    std::copy(kept, kept + numbers(), copy.begin());
+    if (std::isnan(copy[0])) at(ends, X_BA, copy.data(), nullptr);
+    return copy;
+  }
+
+  double at(const LineEnds& ends, const RigidTransform& X_BA, double* kept, Wrench* unit) const {
+    const PathEnds found = ends_at(ends, X_BA);
+    return pull_path({surfaces_, found, X_BA}, PathState(kept), unit);
+  }
+
+  std::vector<PathWrap> wraps_;
+  PathEnds ends_;
+  InsideRule inside_;
+  std::vector<PathSurface> surfaces_;
+};
+
+std::vector<WrappedPath::Touch> SurfacesPath::touches(const LineEnds& ends,
+                                                      const RigidTransform& X_BA,
+                                                      const double* kept) const {
+  auto numbers = known(ends, X_BA, kept);
+  const PathState state(numbers.data());
+  std::vector<Touch> result(wraps_.size());
+  for (std::size_t i = 0; i < wraps_.size(); ++i) {
+    if (!state.touches(static_cast<int>(i))) continue;
+    const ArcPlace place = state.place(static_cast<int>(i));
+    const WrapShape& shape = wraps_[i].shape;
+    const RigidTransform& X = wraps_[i].placement;
+    const Geodesic g = shoot(shape, frame_at(shape, place.P, place.t), place.arc);
+    const double turn = std::atan2(g.from.t.cross(g.to.t).norm(), g.from.t.dot(g.to.t));
+    result[i] = {true, X * g.from.x, X * g.to.x, X.R * g.from.t, X.R * g.to.t, place.arc, turn};
+  }
+  return result;
+}
+
+/// Anchors, and geodesics as chords that turn by 0.05 rad at most.
+void SurfacesPath::add_points(const LineEnds& ends,
+                              const RigidTransform& X_BA,
+                              const double* kept,
+                              std::vector<Vector3d>& points) const {
+  constexpr double kChord = 0.05;
+  auto numbers = known(ends, X_BA, kept);
+  const PathState state(numbers.data());
+  const PathEnds found = ends_at(ends, X_BA);
+  const auto anchored = [&](int end) {
+    return found.end[end].wrap >= 0 && !state.touches(found.end[end].wrap);
+  };
+  if (anchored(0)) points.push_back(found.end[0].at);
+  for (std::size_t i = 0; i < wraps_.size(); ++i) {
+    if (!state.touches(static_cast<int>(i))) continue;
+    const ArcPlace place = state.place(static_cast<int>(i));
+    const WrapShape& shape = wraps_[i].shape;
+    const RigidTransform X = wraps_[i].on_moving ? X_BA * wraps_[i].placement : wraps_[i].placement;
+    const SurfaceFrame start = frame_at(shape, place.P, place.t);
+    const double bend = std::abs(place.arc) / least_radius(shape);
+    const int chords = std::clamp(static_cast<int>(std::ceil(bend / kChord)), 1, 200);
+    for (int k = 0; k <= chords; ++k)
+      points.push_back(X * shoot(shape, start, place.arc * k / chords).to.x);
+  }
+  if (anchored(1)) points.push_back(X_BA * found.end[1].at);
+}
+
+bool has_size(const WrapShape& shape) {
+  if (const auto* torus = std::get_if<WrapTorus>(&shape))
+    return torus->tube > 0 && torus->ring > torus->tube;
+  return least_radius(shape) > 0;
+}
+
+}  // namespace
+
+std::shared_ptr<const WrappedPath> make_wrapped_path(std::vector<PathWrap> wraps,
+                                                     const Vector3d& x_C,
+                                                     const Vector3d& s_D,
+                                                     InsideRule inside) {
+  if (wraps.size() > kMostWraps) throw std::invalid_argument("more than 7 surfaces on a path");
+  for (const PathWrap& wrap : wraps)
+    if (!has_size(wrap.shape))
+      throw std::invalid_argument("a wrapping surface whose size is not positive: " + wrap.name);
+  const PathEnds ends = path_ends(wraps, x_C, s_D, inside);
+  return std::make_shared<SurfacesPath>(std::move(wraps), ends, inside);
+}
+
+}  // namespace condyle

@@ -1,0 +1,149 @@
+#include "condyle/wrapping/touching_line.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/wrapping/shape_geometry.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+/// M of a quadric xᵀMx = 1, diagonal.
+Vector3d quadric(const WrapSphere& s) { return Vector3d::Constant(1 / (s.radius * s.radius)); }
+Vector3d quadric(const WrapCylinder& c) { return Vector3d(1, 1, 0) / (c.radius * c.radius); }
+Vector3d quadric(const WrapEllipsoid& e) { return e.semi_axes.cwiseAbs2().cwiseInverse(); }
+
+/// Of xᵀMx along the line, M d . d = 0 being a cylinder's axis.
+double lowest(const Vector3d& M, const Vector3d& U, const Vector3d& d) {
+  const Vector3d Md = M.cwiseProduct(d);
+  const double dMd = d.dot(Md);
+  return dMd > 0 ? std::clamp(-U.dot(Md) / dMd, 0.0, 1.0) : 0.5;
+}
+
+template <class Quadric>
+double clearance_of(
+    const Quadric& solid, const WrapShape&, const Vector3d& U, const Vector3d& V, double* foot) {
+  const Vector3d M = quadric(solid);
+  const double at = lowest(M, U, V - U);
+  if (foot != nullptr) *foot = at;
+  const Vector3d x = U + at * (V - U);
+  const Vector3d Mx = M.cwiseProduct(x);
+  const double level = std::sqrt(x.dot(Mx)), steep = Mx.norm();
+  return steep > 0 ? (level - 1) * level / steep : -1 / std::sqrt(M.maxCoeff());
+}
+
+/// Depth on a line that may have several deepest points: the deepest of samples, then golden section.
+double clearance_of(
+    const WrapTorus&, const WrapShape& shape, const Vector3d& U, const Vector3d& V, double* foot) {
+  constexpr int kSamples = 48;
+  constexpr double kGolden = 0.6180339887498949;
+  const auto height = [&](double at) { return signed_distance(shape, U + at * (V - U)); };
+  int best = 0;
+  double least = height(0);
+  for (int k = 1; k <= kSamples; ++k) {
+    const double h = height(static_cast<double>(k) / kSamples);
+    if (h < least) least = h, best = k;
+  }
+  double low = std::max(0, best - 1) / static_cast<double>(kSamples);
+  double high = std::min(kSamples, best + 1) / static_cast<double>(kSamples);
+  for (int k = 0; k < 40; ++k) {
+    const double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+    (height(left) < height(right) ? high : low) = height(left) < height(right) ? right : left;
+  }
+  const double at = 0.5 * (low + high), h = height(at);
+  if (foot != nullptr) *foot = h < least ? at : static_cast<double>(best) / kSamples;
+  return std::min(h, least);
+}
+
+/// Seen along the line the quadric is the ellipse xᵀNx = 1, N = M - M d dᵀM/dᵀMd, and the line is a point.
+template <class Quadric>
+std::optional<TouchingLine> touching(const Quadric& solid,
+                                     const WrapShape&,
+                                     const Vector3d& U,
+                                     const Vector3d& V,
+                                     const Vector3d& w) {
+  const Vector3d M = quadric(solid), d = V - U, Md = M.cwiseProduct(d);
+  const double dMd = d.dot(Md);
+  const auto N = [&](const Vector3d& u, const Vector3d& v) {
+    return u.dot(M.cwiseProduct(v)) - (dMd > 0 ? u.dot(Md) * v.dot(Md) / dMd : 0);
+  };
+  const double a = N(w, w), b = N(U, w), c = N(U, U) - 1, root = b * b - a * c;
+  if (!(a > 0) || !(root > 0)) return std::nullopt;
+  TouchingLine line{w, (-b + std::sqrt(root)) / a, {}, 0.5};
+  const Vector3d shifted = U + line.shift * w;
+  if (dMd > 0) line.foot = -shifted.dot(Md) / dMd;
+  line.point = shifted + line.foot * d;
+  return line;
+}
+
+/// Pushed along w by what it still lies inside until it is clear.
+std::optional<TouchingLine> touching(const WrapTorus& torus,
+                                     const WrapShape& shape,
+                                     const Vector3d& U,
+                                     const Vector3d& V,
+                                     const Vector3d& w) {
+  TouchingLine line{w, 0, {}, 0.5};
+  for (int k = 0; k < 100; ++k) {
+    const Vector3d aside = line.shift * w;
+    const double height = clearance_of(torus, shape, U + aside, V + aside, &line.foot);
+    line.point = U + aside + line.foot * (V - U);
+    if (std::abs(height) < 1e-9 * torus.tube) break;
+    const double steep = normal_at(shape, line.point).dot(w);
+    const double newton = steep > 0.2 ? -height / steep : -height;
+    line.shift += std::min(newton, 0.5 * torus.tube);
+    if (line.shift > 2 * (torus.ring + torus.tube)) return std::nullopt;
+  }
+  line.point = onto_surface(shape, line.point);
+  if (!(frame_at(shape, line.point, V - U).kappa < 0)) return std::nullopt;
+  return line;
+}
+
+}  // namespace
+
+double clearance(const WrapShape& shape, const Vector3d& U, const Vector3d& V, double* foot) {
+  return std::visit([&](const auto& solid) { return clearance_of(solid, shape, U, V, foot); },
+                    shape);
+}
+
+std::optional<TouchingLine> touching_line(const WrapShape& shape,
+                                          const Vector3d& U,
+                                          const Vector3d& V,
+                                          const Vector3d& w) {
+  return std::visit([&](const auto& solid) { return touching(solid, shape, U, V, w); }, shape);
+}
+
+std::optional<TouchingLine> nearest_touching_line(const WrapShape& shape,
+                                                  const Vector3d& U,
+                                                  const Vector3d& V) {
+  const Vector3d d = (V - U).normalized(), w1 = d.unitOrthogonal(), w2 = d.cross(w1);
+  const bool torus = std::holds_alternative<WrapTorus>(shape);
+  std::optional<TouchingLine> best;
+  double best_angle = 0;
+  const auto between = [](const TouchingLine& line) {
+    return line.foot > 0.01 && line.foot < 0.99;
+  };
+  const auto try_angle = [&](double angle) {
+    const auto line = touching_line(shape, U, V, std::cos(angle) * w1 + std::sin(angle) * w2);
+    if (!line) return;
+    const bool better = !best || (between(*line) && !between(*best)) ||
+                        (between(*line) == between(*best) && line->shift < best->shift);
+    if (better) {
+      best = line;
+      best_angle = angle;
+    }
+  };
+  const int directions = torus ? 24 : 48;
+  for (int k = 0; k < directions; ++k) try_angle(2 * M_PI * k / directions);
+  for (double step = M_PI / directions; step > (torus ? 0.02 : 1e-4); step *= 0.5) {
+    const double middle = best_angle;
+    try_angle(middle - step);
+    try_angle(middle + step);
+  }
+  return best;
+}
+
+}  // namespace condyle
