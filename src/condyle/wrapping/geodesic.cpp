@@ -122,6 +122,12 @@ double off_surface(const WrapTorus& torus, const GeodesicState& s) {
   return std::hypot(std::hypot(s.y[0], s.y[1]) - torus.ring, s.y[2]) / torus.tube - 1;
 }
 
+/// Of the normal curvature κ, only a torus has any but negative ones.
+bool presses(const WrapEllipsoid&, const WrapShape&, const GeodesicState&) { return true; }
+bool presses(const WrapTorus&, const WrapShape& shape, const GeodesicState& s) {
+  return frame_at(shape, {s.y[0], s.y[1], s.y[2]}, {s.v[0], s.v[1], s.v[2]}).kappa < 0;
+}
+
 double largest_curvature(const SurfaceFrame& f) {
   return std::max(std::abs(f.kappa), std::abs(f.kappa_b)) + std::abs(f.tau);
 }
@@ -140,6 +146,7 @@ Geodesic integrate(const Shape& solid,
                       {from.t.x(), from.t.y(), from.t.z(), 0, 1}};
   Geodesic g;
   g.from = from;
+  g.presses = from.kappa < 0;
   double left = arc, longest = kTurn / largest_curvature(from);
   double last_off = off_surface(solid, at), last_wronskian = 1;
   int steps = 0;
@@ -156,6 +163,7 @@ Geodesic integrate(const Shape& solid,
       continue;
     }
     if (next.y[4] * arc <= 0) g.first_of_kind = false;
+    g.presses = g.presses && presses(solid, shape, next);
     at = next;
     last_off = off;
     last_wronskian = wronskian;

@@ -15,6 +15,7 @@ struct Geodesic {
   double a = 1, da = 0, r = 0, dr = 1;  ///< at `to`; r [mm], da [1/mm]
   /// r does not vanish within the arc: no conjugate point of `from` there.
   bool first_of_kind = true;
+  bool presses = true;        ///< the surface curves away from it all along: κ < 0
   bool found = true;  ///< false where the integration gave up
 };
 

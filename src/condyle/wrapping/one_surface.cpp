@@ -148,7 +148,8 @@ OneSurfacePath over(
     path.b_Q = f_Q.b;
     path.length = path.l1 + place.arc + path.l2;
     path.found = path.e_X.dot(f.t) > 0 && path.e_Y.dot(f_Q.t) > 0;
-    path.shortest = path.B > 0 && (place.arc <= 0 || (g.first_of_kind && l1 * g.a + g.r > 0));
+    path.shortest =
+        path.B > 0 && g.presses && (place.arc <= 0 || (g.first_of_kind && l1 * g.a + g.r > 0));
     return path;
   }
   return path;

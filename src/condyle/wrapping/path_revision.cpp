@@ -192,6 +192,22 @@ bool change_one(const PathPose& pose, PathChain& chain, PathState& state, bool f
   return true;
 }
 
+/// A torus that one straight piece of a path over it runs through again, if any.
+int runs_through(const PathChain& chain) {
+  constexpr double kDeep = -1e-7;
+  for (int i = 0; i < chain.n; ++i) {
+    const ChainLink& link = chain.links[i];
+    if (!std::holds_alternative<WrapTorus>(*link.shape)) continue;
+    const RigidTransform X_SG = link.X_GS.inverse();
+    const auto deep = [&](const Vector3d& U, const Vector3d& V) {
+      return clearance(*link.shape, X_SG * U, X_SG * V) < kDeep;
+    };
+    if (!link.starts_here && deep(before(chain, i), link.g.from.x)) return link.wrap;
+    if (!link.ends_here && deep(link.g.to.x, after(chain, i))) return link.wrap;
+  }
+  return -1;
+}
+
 /// Until nothing changes, in as many changes at most as there are ways to.
 bool settle(const PathPose& pose, PathChain& chain, PathState& state, bool first) {
   bool changed = false;
@@ -200,6 +216,8 @@ bool settle(const PathPose& pose, PathChain& chain, PathState& state, bool first
     changed = true;
     if (state.finding().outcome == Outcome::kNotFound) break;
   }
+  const int through = runs_through(chain);
+  if (through >= 0) state.set(Outcome::kNotFound, through, 0);
   return changed;
 }
 
@@ -338,7 +356,7 @@ double pull_chain(const PathPose& pose, PathState& state, Wrench* unit) {
 }  // namespace
 
 double pull_path(const PathPose& pose, PathState state, Wrench* unit) {
-  if (!state.known()) {
+  if (!state.known() || state.finding().outcome == Outcome::kNotFound) {
     start(pose, state);
     if (state.finding().outcome == Outcome::kNotFound) return 0;
   }

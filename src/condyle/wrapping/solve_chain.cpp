@@ -120,7 +120,7 @@ double conjugate(const PathChain& chain) {
     const Geodesic& g = link.g;
     const double l1 = link.starts_here ? 0 : (g.from.x - before(chain, i)).norm();
     const double l2 = link.ends_here ? 0 : (after(chain, i) - g.to.x).norm();
-    least = least && (link.arc <= 0 || g.first_of_kind);
+    least = least && g.presses && (link.arc <= 0 || g.first_of_kind);
     const double short_arc = 1e-7 * L;
     const bool has_P = !link.starts_here, has_Q = !link.ends_here;
     if (has_P) product *= l1;

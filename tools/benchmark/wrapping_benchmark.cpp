@@ -1,0 +1,47 @@
+/// What a wrapped strand costs in one Newton iteration: its ends a little further than at the call
+/// before, the path warm, wrench and blocks included. Argument: minus the power of ten of the step [mm].
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+#include "condyle/wrapping/wrapped_path.h"
+
+namespace condyle::benchmarks {
+namespace {
+
+const Eigen::Vector3d kX(-24, 20, 3), kY(22, -6, 15);
+
+void warm_pull(benchmark::State& state, const std::vector<PathWrap>& wraps) {
+  const double step = std::pow(10.0, -static_cast<double>(state.range(0)));
+  const auto path = make_wrapped_path(wraps, kX, kY);
+  auto kept = unknown_path();
+  RigidTransform X;
+  Wrench unit;
+  double L = 0, sign = 1;
+  for (auto _ : state) {
+    sign = -sign;
+    X.p = Eigen::Vector3d(sign * step, -sign * step, sign * step);
+    L = path->pull({kX, X.p + kY, kY}, X, kept.data(), unit);
+    benchmark::DoNotOptimize(unit);
+  }
+  if (!path->touches({kX, X.p + kY, kY}, X, kept.data()).at(0).touching)
+    state.SkipWithError("it does not touch");
+  state.counters["length"] = L;
+}
+
+std::vector<PathWrap> one(const WrapShape& shape, bool on_A = false) {
+  return {{"surface", shape, {}, on_A, {}}};
+}
+
+BENCHMARK_CAPTURE(warm_pull, sphere, one(WrapSphere{14}))->Arg(1)->Arg(4);
+BENCHMARK_CAPTURE(warm_pull, cylinder, one(WrapCylinder{13}))->Arg(1)->Arg(4);
+BENCHMARK_CAPTURE(warm_pull, ellipsoid, one(WrapEllipsoid{{30, 18, 12}}))->Arg(1)->Arg(3)->Arg(6);
+BENCHMARK_CAPTURE(warm_pull, ellipsoid_on_A, one(WrapEllipsoid{{30, 18, 12}}, true))
+    ->Arg(1)
+    ->Arg(3)
+    ->Arg(6);
+BENCHMARK_CAPTURE(warm_pull, torus, one(WrapTorus{12, 8}))->Arg(1)->Arg(3)->Arg(6);
+
+}  // namespace
+}  // namespace condyle::benchmarks
