@@ -132,14 +132,14 @@ double largest_curvature(const SurfaceFrame& f) {
   return std::max(std::abs(f.kappa), std::abs(f.kappa_b)) + std::abs(f.tau);
 }
 
-/// Steps that turn by 0.4 rad at most where they begin, halved where one loses the surface or the
+/// Steps that turn by 0.5 rad at most where they begin, halved where one loses the surface or the
 /// Wronskian a r' - a' r = 1.
 template <class Field, class Shape>
 Geodesic integrate(const Shape& solid,
                    const WrapShape& shape,
                    const SurfaceFrame& from,
                    double arc) {
-  constexpr double kTurn = 0.4, kTolerance = 5e-13;
+  constexpr double kTurn = 0.5, kTolerance = 5e-13;
   constexpr int kMostSteps = 400;
   const Field field(solid, from);
   GeodesicState at = {{from.x.x(), from.x.y(), from.x.z(), 1, 0},

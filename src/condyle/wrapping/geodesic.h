@@ -15,12 +15,12 @@ struct Geodesic {
   double a = 1, da = 0, r = 0, dr = 1;  ///< at `to`; r [mm], da [1/mm]
   /// r does not vanish within the arc: no conjugate point of `from` there.
   bool first_of_kind = true;
-  bool presses = true;        ///< the surface curves away from it all along: κ < 0
-  bool found = true;  ///< false where the integration gave up
+  bool presses = true;  ///< the surface curves away from it all along: κ < 0
+  bool found = true;    ///< false where the integration gave up
 };
 
 /// From a frame on the surface along its t. Sphere and cylinder in closed form, ellipsoid and torus
-/// by steps of order 16, each of which keeps surface and Wronskian to 5e-13.
+/// by steps of order 12, each of which keeps surface and Wronskian to 5e-13.
 [[nodiscard]] Geodesic shoot(const WrapShape& shape, const SurfaceFrame& from, double arc);
 
 }  // namespace condyle

@@ -1,9 +1,11 @@
 #pragma once
 
 /// One step of y'' = f(y), y = (x, a, r): a point that runs along a geodesic, with its two Jacobi
-/// fields. Störmer's rule with h/1 .. h/8, extrapolated to h = 0: order 16, the global errors being
-/// even in h [Hairer, Nørsett, Wanner 1993, II.14]. Four of the eight run side by side. Only for .cpp
+/// fields. Störmer's rule with h/1 .. h/6, extrapolated to h = 0: order 12, the global errors being
+/// even in h [Hairer, Nørsett, Wanner 1993, II.14]. Four of them run side by side. Only for .cpp
 /// files.
+
+#include <algorithm>
 
 #include "condyle/math/simd.h"
 
@@ -15,10 +17,12 @@ struct GeodesicState {
 
 namespace nystrom {
 
-/// Π_{k≠n} n²/(n² - k²) over k = 1..8.
+inline constexpr int kMost = 6;  ///< steps of the finest
+
+/// Π_{k≠n} n²/(n² - k²) over k = 1..kMost.
 constexpr double weight(int n) {
   double w = 1;
-  for (int k = 1; k <= 8; ++k)
+  for (int k = 1; k <= kMost; ++k)
     if (k != n) w *= static_cast<double>(n * n) / (n * n - k * k);
   return w;
 }
@@ -31,7 +35,7 @@ inline __attribute__((always_inline)) void add_lanes(const Field& field,
                                                      const double (&f0)[5],
                                                      Four (&u_sum)[5],
                                                      Four (&v_sum)[5]) {
-  const Four n = {first, first - 1, first - 2, first - 3};
+  const Four n = {first, std::max(1, first - 1), std::max(1, first - 2), std::max(1, first - 3)};
   const Four H = h / n, half = 0.5 * H, HH = H * H, per_H = n / h;
   Four u[5], d[5];
   for (int i = 0; i < 5; ++i) u[i] = d[i] = H * (from.v[i] + half * f0[i]);
@@ -65,8 +69,8 @@ inline __attribute__((always_inline)) void step(const Field& field, double h, Ge
   for (int i = 0; i < 5; ++i) y[i] = s.y[i] - Four{};
   field(y, f);
   const double f0[5] = {f[0][0], f[1][0], f[2][0], f[3][0], f[4][0]};
-  add_lanes<8>(field, h, s, f0, u, v);
-  add_lanes<4>(field, h, s, f0, u, v);
+  add_lanes<kMost>(field, h, s, f0, u, v);
+  add_lanes<kMost - 4>(field, h, s, f0, u, v);
   for (int i = 0; i < 5; ++i) {
     s.y[i] += sum(u[i]);
     s.v[i] = sum(v[i]);

@@ -18,7 +18,8 @@ OneSurfacePath over(const WrapSphere& sphere,
                     const WrapShape&,
                     const Vector3d& X,
                     const Vector3d& Y,
-                    ArcPlace& place) {
+                    ArcPlace& place,
+                    std::optional<ArcEnd>&) {
   OneSurfacePath path;
   const double R = sphere.radius, xx = X.squaredNorm(), yy = Y.squaredNorm();
   if (!(xx > R * R) || !(yy > R * R)) return path;
@@ -59,7 +60,8 @@ OneSurfacePath over(const WrapCylinder& cylinder,
                     const WrapShape&,
                     const Vector3d& X,
                     const Vector3d& Y,
-                    ArcPlace& place) {
+                    ArcPlace& place,
+                    std::optional<ArcEnd>&) {
   OneSurfacePath path;
   const double R = cylinder.radius;
   const double xx = X.x() * X.x() + X.y() * X.y(), yy = Y.x() * Y.x() + Y.y() * Y.y();
@@ -96,16 +98,33 @@ double largest_curvature(const SurfaceFrame& f) {
   return std::max(std::abs(f.kappa), std::abs(f.kappa_b)) + std::abs(f.tau);
 }
 
+Geodesic geodesic_between(const WrapShape& shape, const SurfaceFrame& start, const ArcEnd& end) {
+  Geodesic g;
+  g.from = start;
+  g.to = frame_at(shape, end.Q, end.t);
+  g.a = end.a;
+  g.da = end.da;
+  g.r = end.r;
+  g.dr = end.dr;
+  return g;
+}
+
 /// Step (δθ, δb, δt, δℓ) from the path errors; singular only where the path does not press or B = 0.
 template <class Solid>
-OneSurfacePath over(
-    const Solid&, const WrapShape& shape, const Vector3d& X, const Vector3d& Y, ArcPlace& place) {
-  constexpr double kLongest = 0.3, kSmall = 1e-9;
+OneSurfacePath over(const Solid&,
+                    const WrapShape& shape,
+                    const Vector3d& X,
+                    const Vector3d& Y,
+                    ArcPlace& place,
+                    std::optional<ArcEnd>& end) {
+  constexpr double kLongest = 0.3, kSmall = 1e-9, kSame = 1e-11;
   constexpr int kMostSteps = 60;
   OneSurfacePath path;
   for (int iteration = 0; iteration < kMostSteps; ++iteration) {
     const SurfaceFrame start = frame_at(shape, place.P, place.t);
-    const Geodesic g = shoot(shape, start, place.arc);
+    const bool known = iteration == 0 && end;
+    const Geodesic g =
+        known ? geodesic_between(shape, start, *end) : shoot(shape, start, place.arc);
     if (!g.found || !g.to.x.allFinite()) return path;
     const SurfaceFrame &f = g.from, &f_Q = g.to;
     const Vector3d d1 = f.x - X, d2 = Y - f_Q.x;
@@ -133,9 +152,11 @@ OneSurfacePath over(
     place.P = onto_surface(shape, f.x + ahead * f.t + aside * f.b);
     place.t = f.t + turn * f.b + (f.kappa * ahead + f.tau * aside) * f.n;
     place.arc += slide - ahead;
-    if (size > kSmall) continue;
+    if (size > (known ? kSame : kSmall)) continue;
     // What is left of the step is too small to show in frames and Jacobi fields.
-    const Vector3d Q = f_Q.x + slide * f_Q.t + (g.a * aside + g.r * turn) * f_Q.b;
+    const double y = g.a * aside + g.r * turn, dy = g.da * aside + g.dr * turn;
+    const Vector3d Q = f_Q.x + slide * f_Q.t + y * f_Q.b;
+    end = {Q, f_Q.t + dy * f_Q.b + (f_Q.kappa * slide + f_Q.tau * y) * f_Q.n, g.a, g.da, g.r, g.dr};
     path.e_X = place.P - X;
     path.e_Y = Y - Q;
     path.l1 = path.e_X.norm();
@@ -160,8 +181,9 @@ OneSurfacePath over(
 OneSurfacePath path_over(const WrapShape& shape,
                          const Vector3d& X,
                          const Vector3d& Y,
-                         ArcPlace& place) {
-  return std::visit([&](const auto& solid) { return over(solid, shape, X, Y, place); }, shape);
+                         ArcPlace& place,
+                         std::optional<ArcEnd>& end) {
+  return std::visit([&](const auto& solid) { return over(solid, shape, X, Y, place, end); }, shape);
 }
 
 }  // namespace condyle

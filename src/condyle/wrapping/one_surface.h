@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <optional>
+
 #include "condyle/wrapping/wrap_shape.h"
 
 namespace condyle {
@@ -13,6 +15,12 @@ namespace condyle {
 struct ArcPlace {
   Eigen::Vector3d P, t;
   double arc;
+};
+
+/// Where the geodesic of a place ends: with it the next pose's first step needs none to be followed.
+struct ArcEnd {
+  Eigen::Vector3d Q, t;
+  double a, da, r, dr;
 };
 
 struct OneSurfacePath {
@@ -34,10 +42,12 @@ struct OneSurfacePath {
 };
 
 /// From the place as it is: of a sphere only its plane is looked at where the ends leave it open, of a
-/// cylinder the sense and the nearest angle. The place is that of the path afterwards.
+/// cylinder the sense and the nearest angle. The place is that of the path afterwards. `end`, if any,
+/// belongs to the place, before and after; of sphere and cylinder there is none.
 [[nodiscard]] OneSurfacePath path_over(const WrapShape& shape,
                                        const Eigen::Vector3d& X,
                                        const Eigen::Vector3d& Y,
-                                       ArcPlace& place);
+                                       ArcPlace& place,
+                                       std::optional<ArcEnd>& end);
 
 }  // namespace condyle

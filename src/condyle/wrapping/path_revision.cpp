@@ -304,9 +304,11 @@ double pull_over_one(const PathPose& pose, int wrap, PathState& state, Wrench* u
   const Vector3d X =
       surface.X_SW * (surface.on_A ? Vector3d(X_BA.R.transpose() * (C - X_BA.p)) : C);
   const Vector3d Y = surface.X_SW * (surface.on_A ? D : x_D);
-  const OneSurfacePath path = path_over(surface.shape, X, Y, place);
+  std::optional<ArcEnd> end = state.end(wrap);
+  const OneSurfacePath path = path_over(surface.shape, X, Y, place, end);
   if (!path.found || !path.shortest) return 0;
   state.touch(wrap, place);
+  if (end) state.set_end(wrap, *end);
   state.set(Outcome::kFound, -1, path.B / path.length);
   if (unit == nullptr) return path.length;
   if (surface.on_A) {

@@ -3,7 +3,9 @@
 /// What a wrapped path keeps, as doubles: the outcome of the last pull, and of each surface its status and
 /// the geodesic on it, or, while it is off it, the normal at the side where it passes.
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "condyle/wrapping/one_surface.h"
 #include "condyle/wrapping/wrapped_path.h"
@@ -12,13 +14,13 @@ namespace condyle {
 
 class PathState {
  public:
-  static constexpr int kHead = 3, kPerWrap = 8;
-  static_assert(kHead + 7 * kPerWrap <= kMostPathNumbers);
   static constexpr int numbers(std::size_t wraps) {
-    return kHead + kPerWrap * static_cast<int>(wraps);
+    const int n = static_cast<int>(wraps);
+    return kHead + kPerWrap * n + (n <= kMostWithEnd ? kEnd : 0);
   }
 
-  explicit PathState(double* numbers) : d_(numbers) {}
+  PathState(double* numbers, std::size_t wraps)
+      : d_(numbers), end_(wraps <= kMostWithEnd ? numbers + kHead + kPerWrap * wraps : nullptr) {}
 
   [[nodiscard]] bool known() const { return !std::isnan(d_[0]); }
   [[nodiscard]] WrappedPath::Finding finding() const {
@@ -43,6 +45,28 @@ class PathState {
       w[4 + i] = at.t[i];
     }
     w[7] = at.arc;
+    if (end_ == nullptr) return;
+    if (std::isnan(end_[0])) std::fill(end_, end_ + kEnd, -1.0);
+    end_[0] = -1;
+  }
+  /// Where the geodesic on the surface ends, if that is kept: of one surface, that was touched alone.
+  [[nodiscard]] std::optional<ArcEnd> end(int wrap) const {
+    if (end_ == nullptr || end_[0] != wrap) return std::nullopt;
+    const double* e = end_ + 1;
+    return ArcEnd{{e[0], e[1], e[2]}, {e[3], e[4], e[5]}, e[6], e[7], e[8], e[9]};
+  }
+  /// To be told after the place.
+  void set_end(int wrap, const ArcEnd& end) {
+    if (end_ == nullptr) return;
+    end_[0] = wrap;
+    for (int i = 0; i < 3; ++i) {
+      end_[1 + i] = end.Q[i];
+      end_[4 + i] = end.t[i];
+    }
+    end_[7] = end.a;
+    end_[8] = end.da;
+    end_[9] = end.r;
+    end_[10] = end.dr;
   }
   /// Off the surface; `side`: the normal there, 0 where it is not known.
   void leave(int wrap, const Eigen::Vector3d& side) {
@@ -52,10 +76,16 @@ class PathState {
   [[nodiscard]] Eigen::Vector3d side(int wrap) const { return place(wrap).P; }
 
  private:
+  static constexpr int kHead = 3, kPerWrap = 8, kEnd = 11;
+  static constexpr int kMostWithEnd = 6;
+  static_assert(kHead + 7 * kPerWrap <= kMostPathNumbers);
+  static_assert(kHead + kMostWithEnd * kPerWrap + kEnd <= kMostPathNumbers);
+
   [[nodiscard]] double* of(int wrap) { return d_ + kHead + kPerWrap * wrap; }
   [[nodiscard]] const double* of(int wrap) const { return d_ + kHead + kPerWrap * wrap; }
 
   double* d_;
+  double* end_;
 };
 
 }  // namespace condyle

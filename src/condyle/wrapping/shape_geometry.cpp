@@ -30,30 +30,49 @@ Vector3d unit_or(const Vector3d& v, const Vector3d& otherwise) {
   return length > 0 ? Vector3d(v / length) : otherwise;
 }
 
-/// uᵀKv of the tangents u and v at x.
+/// Normal, and -K of tangents as a product with a vector.
+struct DiagonalCurvature {
+  Vector3d n, minus_K;
+  [[nodiscard]] Vector3d of(const Vector3d& t) const { return minus_K.cwiseProduct(t); }
+};
 struct Curvature {
   Vector3d n;
-  Eigen::Matrix3d minus_K;  ///< right for tangents only
+  Eigen::Matrix3d minus_K;
+  [[nodiscard]] Vector3d of(const Vector3d& t) const { return minus_K * t; }
 };
 
-Curvature curvature_at(const WrapSphere& sphere, const Vector3d& x) {
-  return {unit_or(x, Vector3d::UnitZ()), Eigen::Matrix3d::Identity() / sphere.radius};
+DiagonalCurvature curvature_at(const WrapSphere& sphere, const Vector3d& x) {
+  return {unit_or(x, Vector3d::UnitZ()), Vector3d::Constant(1 / sphere.radius)};
 }
-Curvature curvature_at(const WrapCylinder& cylinder, const Vector3d& x) {
+DiagonalCurvature curvature_at(const WrapCylinder& cylinder, const Vector3d& x) {
   const double k = 1 / cylinder.radius;
-  return {radial(x), Vector3d(k, k, 0).asDiagonal()};
+  return {radial(x), Vector3d(k, k, 0)};
 }
-Curvature curvature_at(const WrapEllipsoid& ellipsoid, const Vector3d& x) {
+DiagonalCurvature curvature_at(const WrapEllipsoid& ellipsoid, const Vector3d& x) {
   const Vector3d D = ellipsoid.semi_axes.cwiseAbs2().cwiseInverse();
   const Vector3d g = D.cwiseProduct(x);
   const double inverse = 1 / g.norm();
-  return {g * inverse, (inverse * D).asDiagonal()};
+  return {g * inverse, inverse * D};
 }
 Curvature curvature_at(const WrapTorus& torus, const Vector3d& x) {
   const Vector3d out = radial(x), n = unit_or(x - torus.ring * out, out);
   const Vector3d round(-out.y(), out.x(), 0), up = n.cross(round);
   const double rho = std::max(1e-300, torus.ring + torus.tube * n.dot(out));
   return {n, n.dot(out) / rho * round * round.transpose() + up * up.transpose() / torus.tube};
+}
+
+template <class CurvatureOf>
+SurfaceFrame frame_of(const CurvatureOf& c, const Vector3d& x, const Vector3d& along) {
+  SurfaceFrame frame;
+  frame.x = x;
+  frame.n = c.n;
+  frame.t = (along - c.n.dot(along) * c.n).normalized();
+  frame.b = frame.t.cross(frame.n);
+  const Vector3d Kt = c.of(frame.t);
+  frame.kappa = -frame.t.dot(Kt);
+  frame.tau = -frame.b.dot(Kt);
+  frame.kappa_b = -frame.b.dot(c.of(frame.b));
+  return frame;
 }
 
 /// t with Σ (a x/(t + a²))² = 1: the closest point is a² x/(t + a²) [Eberly]. Newton from the left on
@@ -112,17 +131,7 @@ Vector3d closest_on_ellipsoid(const Vector3d& a, const Vector3d& point) {
 }  // namespace
 
 SurfaceFrame frame_at(const WrapShape& shape, const Vector3d& x, const Vector3d& along) {
-  const Curvature c = std::visit([&](const auto& s) { return curvature_at(s, x); }, shape);
-  SurfaceFrame frame;
-  frame.x = x;
-  frame.n = c.n;
-  frame.t = (along - c.n.dot(along) * c.n).normalized();
-  frame.b = frame.t.cross(frame.n);
-  const Vector3d Kt = c.minus_K * frame.t, Kb = c.minus_K * frame.b;
-  frame.kappa = -frame.t.dot(Kt);
-  frame.tau = -frame.b.dot(Kt);
-  frame.kappa_b = -frame.b.dot(Kb);
-  return frame;
+  return std::visit([&](const auto& s) { return frame_of(curvature_at(s, x), x, along); }, shape);
 }
 
 Vector3d normal_at(const WrapShape& shape, const Vector3d& x) {

@@ -36,8 +36,9 @@ class SurfacesPath final : public WrappedPath {
     return at(ends, X_BA, kept, nullptr);
   }
   bool revise(const LineEnds& ends, const RigidTransform& X_BA, double* kept) const override {
-    const PathEnds found = ends_at(ends, X_BA);
-    return revise_path({surfaces_, found, X_BA}, PathState(kept));
+    PathEnds other;
+    const PathEnds& found = ends_at(ends, X_BA, other);
+    return revise_path({surfaces_, found, X_BA}, PathState(kept, wraps_.size()));
   }
   void add_points(const LineEnds& ends,
                   const RigidTransform& X_BA,
@@ -51,7 +52,7 @@ class SurfacesPath final : public WrappedPath {
   [[nodiscard]] Finding finding(const LineEnds& ends,
                                 const RigidTransform& X_BA,
                                 const double* kept) const override {
-    return PathState(known(ends, X_BA, kept).data()).finding();
+    return PathState(known(ends, X_BA, kept).data(), wraps_.size()).finding();
   }
 
  private:
@@ -62,11 +63,14 @@ class SurfacesPath final : public WrappedPath {
   }
 
   /// Those that were given when the path was made need not be looked at again.
-  [[nodiscard]] PathEnds ends_at(const LineEnds& ends, const RigidTransform& X_BA) const {
+  [[nodiscard]] const PathEnds& ends_at(const LineEnds& ends,
+                                        const RigidTransform& X_BA,
+                                        PathEnds& other) const {
     const Vector3d s_D = X_BA.R.transpose() * ends.q;
     const bool same = ends.x_C == ends_.end[0].given &&
                       (s_D - ends_.end[1].given).squaredNorm() <= 1e-26 * (1 + s_D.squaredNorm());
-    return same ? ends_ : path_ends(wraps_, ends.x_C, s_D, inside_);
+    if (same) return ends_;
+    return other = path_ends(wraps_, ends.x_C, s_D, inside_);
   }
 
   /// `kept`, found where it is unknown.
@@ -80,8 +84,9 @@ class SurfacesPath final : public WrappedPath {
   }
 
   double at(const LineEnds& ends, const RigidTransform& X_BA, double* kept, Wrench* unit) const {
-    const PathEnds found = ends_at(ends, X_BA);
-    return pull_path({surfaces_, found, X_BA}, PathState(kept), unit);
+    PathEnds other;
+    const PathEnds& found = ends_at(ends, X_BA, other);
+    return pull_path({surfaces_, found, X_BA}, PathState(kept, wraps_.size()), unit);
   }
 
   std::vector<PathWrap> wraps_;
@@ -94,7 +99,7 @@ std::vector<WrappedPath::Touch> SurfacesPath::touches(const LineEnds& ends,
                                                       const RigidTransform& X_BA,
                                                       const double* kept) const {
   auto numbers = known(ends, X_BA, kept);
-  const PathState state(numbers.data());
+  const PathState state(numbers.data(), wraps_.size());
   std::vector<Touch> result(wraps_.size());
   for (std::size_t i = 0; i < wraps_.size(); ++i) {
     if (!state.touches(static_cast<int>(i))) continue;
@@ -115,8 +120,9 @@ void SurfacesPath::add_points(const LineEnds& ends,
                               std::vector<Vector3d>& points) const {
   constexpr double kChord = 0.05;
   auto numbers = known(ends, X_BA, kept);
-  const PathState state(numbers.data());
-  const PathEnds found = ends_at(ends, X_BA);
+  const PathState state(numbers.data(), wraps_.size());
+  PathEnds other;
+  const PathEnds& found = ends_at(ends, X_BA, other);
   const auto anchored = [&](int end) {
     return found.end[end].wrap >= 0 && !state.touches(found.end[end].wrap);
   };
