@@ -181,7 +181,6 @@ void describe_pose(const Linearization& at,
   if (options.stability) {
     const Stability s = stability(at);
     result.lowest_stiffness = s.lowest_stiffness;
-    result.softest_motion = s.motion;
     result.stability = s.stable() ? 1 : 0;
     result.remark = stability_remark(at, s);
     for (std::size_t k = 0; k < at.contacts().size(); ++k)

@@ -66,7 +66,6 @@ void clear(PoseResult& result) {
   result.joint = JointCoordinates();
   result.stability = -1;
   result.lowest_stiffness = std::numeric_limits<double>::quiet_NaN();
-  result.softest_motion.setZero();
   result.joint_stiffness.reset();
 }
 

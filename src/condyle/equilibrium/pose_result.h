@@ -57,10 +57,7 @@ struct PoseResult {
   std::vector<std::vector<Eigen::Vector3d>> paths;
   int stability = -1;  ///< 1 stable, 0 neutral or unstable, -1 not computed
   double lowest_stiffness =
-      std::numeric_limits<double>::quiet_NaN();  ///< of the reduced stiffness [N/mm]
-  Eigen::Matrix<double, 6, 1> softest_motion =
-      Eigen::Matrix<double, 6, 1>::Zero();  ///< (da, L dπ) that belongs to it, unit; da of the
-                                            ///< point of A that the model is computed about
+      std::numeric_limits<double>::quiet_NaN();   ///< of the reduced stiffness [N/mm]
   std::optional<JointStiffness> joint_stiffness;  ///< on request; needs joint frames
   int iterations = 0;                             ///< Newton iterations
   double residual = 0;  ///< largest out-of-balance force [N], moments divided by the model's length
