@@ -66,8 +66,8 @@ TEST(LinePath, AWeightHangsFromItLikeAPendulum) {
     EXPECT_LT((pose.X_BA.p - Vector3d(0, 0, -20)).norm(), 1e-10);
     EXPECT_NEAR(pose.ligaments[0].length, 70, 1e-10);
     EXPECT_NEAR(pose.ligaments[0].force, 100, 1e-9);
-    ASSERT_EQ(pose.paths[0].size(), 1U);
-    EXPECT_LT(pose.paths[0][0].norm(), 1e-10);
+    ASSERT_EQ(pose.paths[0].points.size(), 1U);
+    EXPECT_LT(pose.paths[0].points[0].norm(), 1e-10);
     EXPECT_NEAR(pose.lowest_stiffness, slides ? 100. / 70 : 100. / 20, 1e-9);
     EXPECT_EQ(pose.stability, 1);
   }
@@ -147,8 +147,8 @@ TEST(LinePath, LiesOnItsEdgeOrNotAndIsTheSameUpAndDown) {
     const PoseResult &a = rising.poses[k], &b = falling.poses[up.size() - 1 - k];
     EXPECT_LT((a.X_BA.p - b.X_BA.p).norm(), 1e-9) << k;
     for (const std::size_t strand : {4, 5}) {
-      EXPECT_EQ(a.paths[strand].size(), b.paths[strand].size()) << k;
-      (a.paths[strand].empty() ? straight : over) += 1;
+      EXPECT_EQ(a.paths[strand].points.size(), b.paths[strand].points.size()) << k;
+      (a.paths[strand].points.empty() ? straight : over) += 1;
     }
   }
   EXPECT_GT(over, 0);

@@ -54,13 +54,20 @@ TEST(KneeShapes, OpenContactsHaveNoMark) {
   EXPECT_EQ(contact_marks(run.scene, run.sweep.poses[0]).size(), 1u);
 }
 
+/// A pose of which all ligaments have these numbers.
+PoseResult pose_with(const LigamentResult& all) {
+  PoseResult pose;
+  pose.ligaments.assign(2, all);
+  return pose;
+}
+
 TEST(KneeShapes, ATautLigamentIsStraightAndASlackOneHasItsSlackLength) {
   const auto run = block_run();
   const auto X_P = body_poses(run.scene, {});
-  EXPECT_EQ(ligament_line(run.scene, X_P, 0, {40, 0.05, 30}).size(), 2u);
+  EXPECT_EQ(ligament_line(run.scene, X_P, 0, pose_with({40, 0.05, 30})).size(), 2u);
   // At -5 % strain the ligament is 40 / 0.95 = 42.105 mm long; the parabola meets that to second
   // order.
-  const auto slack = ligament_line(run.scene, X_P, 1, {40, -0.05, 0});
+  const auto slack = ligament_line(run.scene, X_P, 1, pose_with({40, -0.05, 0}));
   EXPECT_NEAR(length_of(slack), 42.105, 0.15);
   EXPECT_LT(slack[slack.size() / 2].z(), -36) << "a medial ligament bows away from the knee";
 }
@@ -69,7 +76,7 @@ TEST(KneeShapes, AVerySlackLigamentStaysNearTheKnee) {
   const auto run = block_run();
   for (const double strain : {-0.3, -0.7, -0.99, -5.0}) {
     for (const Vector3d& p :
-         ligament_line(run.scene, body_poses(run.scene, {}), 1, {40, strain, 0})) {
+         ligament_line(run.scene, body_poses(run.scene, {}), 1, pose_with({40, strain, 0}))) {
       EXPECT_TRUE(p.allFinite());
       EXPECT_LT(p.norm(), 60);
     }

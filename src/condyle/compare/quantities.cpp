@@ -29,10 +29,8 @@ double place_on_tibia(const Scene& scene,
                       std::size_t index,
                       bool anterior) {
   const ContactResult& contact = pose.contacts.at(index);
-  const ContactPointResult* best = nullptr;
-  for (const ContactPointResult& point : contact.points)
-    if (contact.closed && (best == nullptr || point.force > best->force)) best = &point;
-  if (best == nullptr) return kNone;
+  const ContactPointResult* best = strongest_point(contact);
+  if (!contact.closed || best == nullptr) return kNone;
   const AnatomicalFrame& tibia = scene.joint->tibia;
   const bool moves = tibia.body == scene.moving_body();
   const Eigen::Vector3d at = (moves ? best->point_moving : best->point_ground) - tibia.origin;

@@ -1,5 +1,7 @@
 #include "condyle/contact/contact_result.h"
 
+#include <algorithm>
+
 #include "condyle/contact/contact.h"
 
 namespace condyle {
@@ -25,6 +27,13 @@ void set_resultant(ContactResult& contact) {
   }
   contact.resultant_ground =
       contact.force != 0 ? Eigen::Vector3d(moment / contact.force) : contact.points[0].point_ground;
+}
+
+const ContactPointResult* strongest_point(const ContactResult& contact) {
+  const auto strongest = std::max_element(
+      contact.points.begin(), contact.points.end(),
+      [](const ContactPointResult& a, const ContactPointResult& b) { return a.force < b.force; });
+  return strongest == contact.points.end() ? nullptr : &*strongest;
 }
 
 void clear(ContactResult& contact) {

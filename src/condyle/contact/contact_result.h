@@ -100,6 +100,10 @@ struct ContactResult {
 /// Force and resultant of a closed contact from its points.
 void set_resultant(ContactResult& contact);
 
+/// The point of a contact that carries most; of an open contact the nearest one. Null where it holds
+/// none.
+[[nodiscard]] const ContactPointResult* strongest_point(const ContactResult& contact);
+
 /// Empty as a new one, in the memory of before.
 void clear(ContactResult& contact);
 

@@ -22,6 +22,8 @@ const char* name(PoseStatus status) {
       return "overlap";
     case PoseStatus::kNotComputed:
       return "not computed";
+    case PoseStatus::kNoPath:
+      return "no path";
   }
   return "unknown";
 }

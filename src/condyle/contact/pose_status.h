@@ -18,9 +18,10 @@ enum class PoseStatus {
   kNoEquilibrium = 5,  ///< a load that nothing carries
   kZeroLength = 6,     ///< a line element of zero length
   kOverlap = 7,  ///< the surfaces overlap elsewhere and no admissible set of contacts was found
-  kNotComputed = 8
+  kNotComputed = 8,
+  kNoPath = 9  ///< a ligament has no shortest path over what it wraps on
 };
-inline constexpr int kPoseStatusCount = 9;
+inline constexpr int kPoseStatusCount = 10;
 
 /// A short name: "converged", "iteration limit", ...
 [[nodiscard]] const char* name(PoseStatus status);

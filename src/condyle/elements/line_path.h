@@ -7,6 +7,7 @@
 
 #include <array>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "condyle/elements/wrench.h"
@@ -18,6 +19,18 @@ namespace condyle {
 /// O_A.
 struct LineEnds {
   Eigen::Vector3d x_C, x_D, q;
+};
+
+/// How a path lies at a pose on one of the surfaces that it may touch, frame of that surface's body.
+struct LineTouch {
+  bool touching = false;
+  bool on_moving = false;  ///< the surface is fixed to A, else to B
+  Eigen::Vector3d P = Eigen::Vector3d::Zero(),
+                  Q = Eigen::Vector3d::Zero();  ///< comes to it, from C, and leaves it [mm]
+  Eigen::Vector3d t_P = Eigen::Vector3d::Zero(),
+                  t_Q = Eigen::Vector3d::Zero();  ///< unit tangents there, from C to D
+  double arc = 0;                                 ///< length on the surface [mm]
+  double turn = 0;                                ///< angle between t_P and t_Q [rad]
 };
 
 /// Constant, and shared by threads. What a path keeps from pose to pose (places, tangents, arcs,
@@ -53,6 +66,22 @@ class LinePath {
                           const RigidTransform&,
                           const double*,
                           std::vector<Eigen::Vector3d>&) const {}
+
+  /// One for each surface that the path may touch, in order from C to D.
+  virtual void add_touches(const LineEnds&,
+                           const RigidTransform&,
+                           const double*,
+                           std::vector<LineTouch>&) const {}
+  /// The numbers of a path that was told by add_touches.
+  virtual void keep(const std::vector<LineTouch>&, double*) const {}
+
+  /// What speaks against calling a pose converged whose path this is, or says why the path could not
+  /// be found: half a sentence; empty where nothing does.
+  [[nodiscard]] virtual std::string objection(const LineEnds&,
+                                              const RigidTransform&,
+                                              const double*) const {
+    return {};
+  }
 };
 
 /// Most numbers that one path keeps.

@@ -2,16 +2,11 @@
 
 #include "condyle/contact/layer_contact.h"
 #include "condyle/equilibrium/model_origins.h"
+#include "condyle/scene/ligament_path.h"
 #include "condyle/scene/start_pose.h"
 
 namespace condyle {
 namespace {
-
-/// Orders two ends as (on B, on A).
-std::array<Eigen::Vector3d, 2> fixed_then_moving(const std::array<Attachment, 2>& ends, int fixed) {
-  if (ends[0].body == fixed) return {ends[0].at, ends[1].at};
-  return {ends[1].at, ends[0].at};
-}
 
 ContactMode mode_of(ContactState state) {
   switch (state) {
@@ -33,6 +28,12 @@ void set_laws(const Scene& scene, Model& model) {
   }
 }
 
+/// The paths of ligaments that wrap, on bodies whose origins stay where they are from now on.
+void set_paths(const Scene& scene, Model& model) {
+  for (std::size_t i = 0; i < scene.ligaments.size(); ++i)
+    model.elements[i].path = ligament_path(scene, scene.ligaments[i], model.origins);
+}
+
 }  // namespace
 
 Model build_model(const Scene& scene, const std::vector<FittedSurface>& surfaces) {
@@ -41,7 +42,7 @@ Model build_model(const Scene& scene, const std::vector<FittedSurface>& surfaces
   model.start = start_pose(scene);
   if (scene.joint) model.joint = joint_frames(scene);
   for (const LigamentDescription& ligament : scene.ligaments) {
-    const auto [x_C, s_D] = fixed_then_moving(ligament.ends, fixed);
+    const auto [x_C, s_D] = fixed_then_moving(scene, ligament.ends);
     model.elements.push_back({x_C, s_D, ligament.law});
     model.element_names.push_back(ligament.name);
   }
@@ -53,7 +54,7 @@ Model build_model(const Scene& scene, const std::vector<FittedSurface>& surfaces
     condition.cardan_axis = description.cardan_axis;
     if (model.joint) condition.frames = *model.joint;
     if (description.kind == ConditionKind::kDistance) {
-      const auto [x_C, s_D] = fixed_then_moving(description.ends, fixed);
+      const auto [x_C, s_D] = fixed_then_moving(scene, description.ends);
       condition.x_C = x_C;
       condition.s_D = s_D;
     }
@@ -86,6 +87,7 @@ Model build_model(const Scene& scene, const std::vector<FittedSurface>& surfaces
   }
   move_origins(middle_of_forces(model), model);
   set_laws(scene, model);
+  set_paths(scene, model);
   model.length = characteristic_length(model);
   return model;
 }

@@ -151,6 +151,23 @@ void describe_open(const ContactPair& pair,
   contact.closed = pair.law && lowest.gap < 0;
 }
 
+/// A path of which something speaks against it lowers the status.
+void judge_paths(const Linearization& at, PoseResult& result) {
+  const std::vector<LineElement>& elements = at.system.parameters().elements;
+  if (result.paths.empty()) return;
+  std::vector<double> kept = at.state.paths;
+  KeptPaths next(elements, kept);
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const double* numbers = next.of(elements[i]);
+    if (!elements[i].path) continue;
+    const std::string words =
+        elements[i].path->objection(ends_of(elements[i], at.state.X), at.state.X, numbers);
+    if (words.empty()) continue;
+    set_status(result, {PoseStatus::kNoPath,
+                        "ligament " + quoted(at.model.element_names[i]) + ": " + words});
+  }
+}
+
 }  // namespace
 
 void describe_pose(const Linearization& at,
@@ -166,6 +183,7 @@ void describe_pose(const Linearization& at,
   for (std::size_t i = 0; i < model.conditions.size(); ++i)
     result.conditions.push_back({at.conditions()[i].coordinate, at.state.sigma[i]});
   describe_closed(at, options.edge_margin, result);
+  judge_paths(at, result);
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
     if (result.contacts[p].closed) continue;
     if (ContactPotential* potential = at.system.potentials().of(p)) {

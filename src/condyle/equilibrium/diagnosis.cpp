@@ -147,9 +147,28 @@ std::string conforming(const Failure& f) {
 
 std::string asked_out_of_range(const Failure& f) { return angle_out_of_range(f.model, f.drive); }
 
+/// The line element on which the pose failed that has no length, or none that could be found.
+int blamed_element(const Failure& f) {
+  return f.system.assemble(f.state, f.drive) ? f.attempt.zero_element : f.system.zero_element();
+}
+
+std::string without_path(const Failure& f) {
+  const int index = blamed_element(f);
+  const std::vector<LineElement>& elements = f.system.parameters().elements;
+  if (index < 0 || !elements[static_cast<std::size_t>(index)].path) return {};
+  const LineElement& element = elements[static_cast<std::size_t>(index)];
+  auto kept = unknown_path();
+  const LineEnds ends = ends_of(element, f.state.X);
+  const double length = element.path->length(ends, f.state.X, kept.data());
+  const std::string words = element.path->objection(ends, f.state.X, kept.data());
+  return "ligament " + quoted(f.model.element_names[static_cast<std::size_t>(index)]) + ": " +
+         (words.empty() || length > kLeastLength
+              ? "no shortest path was found on the way from the pose before"
+              : words);
+}
+
 std::string without_length(const Failure& f) {
-  const int element =
-      f.system.assemble(f.state, f.drive) ? f.attempt.zero_element : f.system.zero_element();
+  const int element = blamed_element(f);
   if (element < 0) return {};
   return "line element " + quoted(f.model.element_names[static_cast<std::size_t>(element)]) +
          " has no length";
@@ -255,6 +274,7 @@ constexpr Cause kCauses[] = {
     {PoseStatus::kLeftPatch, touch_without_answer<PoseStatus::kLeftPatch>},
     {PoseStatus::kSingular, conforming},
     {PoseStatus::kNoEquilibrium, asked_out_of_range},
+    {PoseStatus::kNoPath, without_path},
     {PoseStatus::kZeroLength, without_length},
     {PoseStatus::kNoEquilibrium, at_an_edge},
     {PoseStatus::kNoEquilibrium, runs_away},

@@ -25,10 +25,23 @@ bool beyond_edge(const PoseResult& pose, std::size_t contact) {
                      [](const ContactPointResult& point) { return point.edge_distance < 0; });
 }
 
+bool touches(const PoseResult& pose, std::size_t ligament, std::size_t wrap) {
+  return pose.paths[ligament].touches[wrap].touching;
+}
+
+/// Do the ligaments lie on the same surfaces?
+bool same_touches(const PoseResult& a, const PoseResult& b) {
+  for (std::size_t i = 0; i < a.paths.size(); ++i)
+    for (std::size_t w = 0; w < a.paths[i].touches.size(); ++w)
+      if (touches(a, i, w) != touches(b, i, w)) return false;
+  return true;
+}
+
+/// Do the same points carry, and ligaments lie on the same surfaces?
 bool same_contacts(const PoseResult& a, const PoseResult& b) {
   for (std::size_t c = 0; c < a.contacts.size(); ++c)
     if (points_of(a, c) != points_of(b, c) || beyond_edge(a, c) != beyond_edge(b, c)) return false;
-  return true;
+  return same_touches(a, b);
 }
 
 /// How far the points of a contact moved on either body, where their number is the same [mm]; of a
@@ -71,6 +84,13 @@ void append_changes(const SolvedPose& before,
     const bool was_out = beyond_edge(before.result, c), is_out = beyond_edge(after.result, c);
     if (was_out != is_out) add(is_out ? EventKind::kLeavingPatch : EventKind::kReturningToPatch);
   }
+  for (std::size_t i = 0; i < after.result.paths.size(); ++i)
+    for (std::size_t w = 0; w < after.result.paths[i].touches.size(); ++w) {
+      const bool is = touches(after.result, i, w);
+      if (is == touches(before.result, i, w)) continue;
+      events.push_back({value, is ? EventKind::kTouching : EventKind::kLifting, -1,
+                        static_cast<int>(i), static_cast<int>(w)});
+    }
 }
 
 void append_limit(const SolvedPose& before, const SolvedPose& after, std::vector<Event>& events) {

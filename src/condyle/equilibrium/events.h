@@ -1,7 +1,8 @@
 #pragma once
 
 /// Events on a sweep, located on the swept value: a point of contact closes or opens, a contact
-/// jumps from one place to another, or passes the edge of the known surface.
+/// jumps from one place to another, or passes the edge of the known surface; a ligament comes to lie
+/// on a surface that it wraps on, or leaves it.
 ///
 /// Two neighbouring poses whose contacts differ enclose an event. Bisection, each trial solved from
 /// the pose on the left, closes in until the bracket is shorter than the tolerance; several events

@@ -21,16 +21,19 @@ void tell_with_paths(const PoseFacts& facts, PoseResult& result) {
   result.paths.resize(facts.elements.size());
   for (std::size_t i = 0; i < facts.elements.size(); ++i) {
     const LineElement& element = facts.elements[i];
-    result.paths[i].clear();
+    LigamentPath& path = result.paths[i];
+    path.points.clear();
+    path.touches.clear();
     auto kept = unknown_path();
     if (element.path && known) {
       std::copy_n(paths, element.path->numbers(), kept.begin());
       paths += element.path->numbers();
     }
     result.ligaments.push_back(told(element, facts.X_BA, kept.data()));
-    if (element.path)
-      element.path->add_points(ends_of(element, facts.X_BA), facts.X_BA, kept.data(),
-                               result.paths[i]);
+    if (!element.path) continue;
+    const LineEnds ends = ends_of(element, facts.X_BA);
+    element.path->add_points(ends, facts.X_BA, kept.data(), path.points);
+    element.path->add_touches(ends, facts.X_BA, kept.data(), path.touches);
   }
 }
 
@@ -50,6 +53,10 @@ const char* name(EventKind kind) {
       return "returning to patch";
     case EventKind::kLimitPoint:
       return "limit point";
+    case EventKind::kTouching:
+      return "touching";
+    case EventKind::kLifting:
+      return "lifting off";
   }
   return "unknown";
 }
@@ -107,8 +114,13 @@ void to_file_frames(const BodyOrigins& origins, PoseResult& pose) {
     if (contact.layer)
       contact.layer->moment += (pose.X_BA.R * origins.A).cross(contact.layer->force);
   }
-  for (std::vector<Eigen::Vector3d>& path : pose.paths)
-    for (Eigen::Vector3d& corner : path) corner += origins.B;
+  for (LigamentPath& path : pose.paths) {
+    for (Eigen::Vector3d& corner : path.points) corner += origins.B;
+    for (LineTouch& touch : path.touches) {
+      touch.P += touch.on_moving ? origins.A : origins.B;
+      touch.Q += touch.on_moving ? origins.A : origins.B;
+    }
+  }
 }
 
 }  // namespace condyle

@@ -15,6 +15,7 @@
 #include "condyle/contact/pose_status.h"
 #include "condyle/elements/body_origins.h"
 #include "condyle/elements/joint_coordinates.h"
+#include "condyle/elements/line_path.h"
 #include "condyle/equilibrium/pose_trace.h"
 #include "condyle/math/rigid_transform.h"
 
@@ -25,6 +26,12 @@ struct LineElement;
 struct LigamentResult {
   double length = 0, strain = 0,
          force = 0;  ///< [mm], [-] (0 where the law has no slack length), [N]
+};
+
+/// How a ligament goes from its end on the fixed body to that on the moving one.
+struct LigamentPath {
+  std::vector<Eigen::Vector3d> points;  ///< corners between the ends, ground frame [mm]
+  std::vector<LineTouch> touches;       ///< one for each surface that it wraps on
 };
 
 struct ConditionResult {
@@ -52,9 +59,7 @@ struct PoseResult {
   std::vector<ContactResult> contacts;      ///< as in Scene::contacts
   std::vector<LigamentResult> ligaments;    ///< as in Scene::ligaments
   std::vector<ConditionResult> conditions;  ///< as in Scene::conditions
-  /// Corners of the ligaments' paths between their ends, from the fixed body's, ground frame [mm]:
-  /// one for each ligament, empty for a straight one; none where all are straight.
-  std::vector<std::vector<Eigen::Vector3d>> paths;
+  std::vector<LigamentPath> paths;  ///< as in Scene::ligaments; none where all are straight
   int stability = -1;  ///< 1 stable, 0 neutral or unstable, -1 not computed
   double lowest_stiffness =
       std::numeric_limits<double>::quiet_NaN();   ///< of the reduced stiffness [N/mm]
@@ -97,16 +102,18 @@ void set_nearest_point(const ContactPointResult& point, ContactResult& contact);
 /// At last, from the frames of a model to those of the files: X_BA and all points.
 void to_file_frames(const BodyOrigins& origins, PoseResult& pose);
 
-/// What happens to a contact at one value of a sweep; the values are those of /events/kind.
+/// What happens to a contact or a ligament at one value of a sweep; the values are those of /events/kind.
 enum class EventKind {
   kClosing = 0,           ///< a point of contact begins to carry
   kOpening = 1,           ///< a point of contact ceases to carry
   kJump = 2,              ///< the contact goes from one place to another
   kLeavingPatch = 3,      ///< the contact passes the edge of the known surface outwards
   kReturningToPatch = 4,  ///< and inwards
-  kLimitPoint = 5         ///< the path of equilibria turns back: the joint snaps through
+  kLimitPoint = 5,        ///< the path of equilibria turns back: the joint snaps through
+  kTouching = 6,          ///< a ligament comes to lie on a surface that it wraps on
+  kLifting = 7            ///< and leaves it
 };
-inline constexpr int kEventKindCount = 6;
+inline constexpr int kEventKindCount = 8;
 
 /// "closing", "opening", "jump", ...
 [[nodiscard]] const char* name(EventKind kind);
@@ -115,6 +122,8 @@ struct Event {
   double value = 0;  ///< of what is swept [rad], [mm] or [-]
   EventKind kind = EventKind::kClosing;
   int contact = 0;  ///< index into Scene::contacts; -1 where no contact is meant
+  int ligament = -1;  ///< index into Scene::ligaments, and
+  int wrap = -1;      ///< of the surface among those of its path, from the fixed body on
 };
 
 struct SweepResult {

@@ -1,6 +1,7 @@
 #include "condyle/equilibrium/restore_state.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace condyle {
 namespace {
@@ -14,6 +15,23 @@ bool tells_points(const ContactResult& contact) {
 
 Place place_on(const Surface& surface, const Eigen::Vector3d& point) {
   return surface.closest(point, surface.seed(point));
+}
+
+/// What the paths of ligaments kept, where the pose tells how they lay.
+std::vector<double> kept_paths(const Model& model, const PoseResult& pose) {
+  std::vector<double> kept(path_numbers(model.elements), std::numeric_limits<double>::quiet_NaN());
+  if (kept.empty() || pose.paths.size() != model.elements.size()) return kept;
+  KeptPaths next(model.elements, kept);
+  for (std::size_t i = 0; i < model.elements.size(); ++i) {
+    std::vector<LineTouch> touches = pose.paths[i].touches;
+    for (LineTouch& touch : touches) {
+      touch.P -= touch.on_moving ? model.origins.A : model.origins.B;
+      touch.Q -= touch.on_moving ? model.origins.A : model.origins.B;
+    }
+    double* numbers = next.of(model.elements[i]);
+    if (numbers != nullptr && !touches.empty()) model.elements[i].path->keep(touches, numbers);
+  }
+  return kept;
 }
 
 }  // namespace
@@ -41,6 +59,7 @@ EquilibriumState restore_state(const Model& model, const PoseResult& pose) {
            place_on(*pair.on_A, point.point_moving - model.origins.A), point.force});
     }
   }
+  state.paths = kept_paths(model, pose);
   return state;
 }
 

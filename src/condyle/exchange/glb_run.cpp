@@ -1,5 +1,7 @@
 #include "condyle/exchange/glb_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -136,13 +138,42 @@ class GlbRun {
     }
   }
 
-  /// A cylinder of unit length along y, stretched from end to end. It rolls as little as can be.
-  [[nodiscard]] std::vector<GlbPlace> ligament_track(const LigamentDescription& ligament) const {
+  /// The places at equal parts of a ligament's length, from the first end to the second [mm].
+  [[nodiscard]] std::vector<Vector3d> course(const PoseResult& p,
+                                             std::size_t ligament,
+                                             std::size_t pieces) const {
+    const LigamentDescription& described = scene_.ligaments[ligament];
+    std::vector<Vector3d> line = path_corners(scene_, p, ligament);
+    line.insert(line.begin(), insertion(scene_, p, described.ends[0]));
+    line.push_back(insertion(scene_, p, described.ends[1]));
+    double length = 0;
+    for (std::size_t k = 1; k < line.size(); ++k) length += (line[k] - line[k - 1]).norm();
+    std::vector<Vector3d> places = {line.front()};
+    double before = 0;
+    for (std::size_t k = 1; k < line.size(); ++k) {
+      const double piece = (line[k] - line[k - 1]).norm();
+      while (places.size() < pieces) {
+        const double at = length * static_cast<double>(places.size()) / static_cast<double>(pieces);
+        if (!(at <= before + piece) || piece == 0) break;
+        places.push_back(line[k - 1] + (at - before) / piece * (line[k] - line[k - 1]));
+      }
+      before += piece;
+    }
+    places.resize(pieces, line.back());
+    places.push_back(line.back());
+    return places;
+  }
+
+  /// A cylinder of unit length along y, stretched over one of the equal pieces of a ligament. It
+  /// rolls as little as can be.
+  [[nodiscard]] std::vector<GlbPlace> ligament_track(std::size_t ligament,
+                                                     std::size_t piece,
+                                                     std::size_t pieces) const {
     std::vector<GlbPlace> track;
     Quaterniond turned = Quaterniond::Identity();
     for (const ShownPose& shown : shown_) {
-      const Vector3d a = insertion(scene_, pose(shown), ligament.ends[0]);
-      const Vector3d ab = insertion(scene_, pose(shown), ligament.ends[1]) - a;
+      const std::vector<Vector3d> places = course(pose(shown), ligament, pieces);
+      const Vector3d a = places[piece], ab = places[piece + 1] - a;
       turned = (Quaterniond::FromTwoVectors(turned * Vector3d::UnitY(), ab) * turned).normalized();
       track.push_back({kMetre * a, turned, {1, kMetre * ab.norm(), 1}});
     }
@@ -154,17 +185,28 @@ class GlbRun {
     const int cylinder =
         add_mesh(unit_cylinder("ligament", kLigament, kMetre * ligament_radius(scene_)));
     for (std::size_t i = 0; i < scene_.ligaments.size(); ++i) {
+      constexpr std::size_t kPieces = 16;  // of a ligament that wraps
+      const std::size_t pieces = scene_.ligaments[i].path.wraps.empty() ? 1 : kPieces;
       GlbNode node;
       node.name = "ligament " + scene_.ligaments[i].name;
       node.mesh = cylinder;
-      node.track = ligament_track(scene_.ligaments[i]);
+      node.track = ligament_track(i, 0, pieces);
       node.moves_scale = true;
       const auto number = [&](double LigamentResult::*part) {
         return of_poses([&](const PoseResult& p) { return p.ligaments[i].*part; });
       };
       node.extras = {{"strain", number(&LigamentResult::strain)},
                      {"force_N", number(&LigamentResult::force)}};
+      const std::string name = node.name;
       add_node(std::move(node), 0);
+      for (std::size_t piece = 1; piece < pieces; ++piece) {
+        GlbNode further;
+        further.name = fmt::format("{}, piece {}", name, piece + 1);
+        further.mesh = cylinder;
+        further.track = ligament_track(i, piece, pieces);
+        further.moves_scale = true;
+        add_node(std::move(further), 0);
+      }
     }
   }
 

@@ -272,6 +272,7 @@ class KneeFinder {
 
   void find_ligaments() {
     OsimStrands strands = find_strands(model_, frames_, in_femur_, in_tibia_);
+    knee_.wraps = std::move(strands.wraps);
     knee_.ligaments = std::move(strands.strands);
     if (knee_.ligaments.empty())
       fail(fmt::format("no ligament leads straight across {}", knee_.joint));

@@ -43,6 +43,7 @@ struct OsimKnee {
   OsimBody femur, tibia;
   RigidTransform X_FT;  ///< tibia in the femur's frame at the model's default coordinates
   std::vector<OsimPair> contacts;
+  std::vector<OsimPlacedWrap> wraps;
   std::vector<OsimStrand> ligaments;
   std::vector<std::string> notes;  ///< what was left out or changed, one line each
 };

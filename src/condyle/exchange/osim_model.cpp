@@ -55,6 +55,8 @@ class OsimReader {
     for (const auto& found : model.select_nodes(".//PhysicalOffsetFrame")) read_frame(found.node());
     for (const auto& found : model.select_nodes(".//attached_geometry/Mesh"))
       read_bone_mesh(found.node());
+    for (const auto& found : model.select_nodes(".//WrapObjectSet/objects/*"))
+      read_wrap(found.node());
     for (const xml_node joint : objects(model, "JointSet")) read_joint(joint);
     for (const xml_node mesh : objects(model, "ContactGeometrySet")) read_contact_mesh(mesh);
     for (const xml_node force : objects(model, "ForceSet")) read_force(force);
@@ -172,6 +174,26 @@ class OsimReader {
     out_.bone_meshes.push_back(mesh);
   }
 
+  /// The frame that a wrap object is fixed to holds it.
+  void read_wrap(const xml_node& node) {
+    OsimWrap wrap;
+    wrap.type = node.name();
+    wrap.name = node.attribute("name").value();
+    wrap.frame = path_of(node.parent().parent().parent());
+    wrap.X_frame = {rotation_xyz(vector_or(node, "xyz_body_rotation", Vector3d::Zero())),
+                    kMillimetre * vector_or(node, "translation", Vector3d::Zero())};
+    wrap.quadrant = text(node, "quadrant");
+    wrap.active = text(node, "active") != "false";
+    if (wrap.type == "WrapEllipsoid")
+      wrap.sizes = vector_or(node, "dimensions", Vector3d::Zero());
+    else if (wrap.type == "WrapTorus")
+      wrap.sizes = {number(node, "inner_radius"), number(node, "outer_radius"), 0};
+    else if (wrap.type == "WrapSphere" || wrap.type == "WrapCylinder")
+      wrap.sizes.x() = number(node, "radius");
+    wrap.sizes *= kMillimetre;
+    out_.wraps.push_back(wrap);
+  }
+
   void read_joint(const xml_node& node) {
     OsimJoint joint;
     joint.type = node.name();
@@ -261,8 +283,8 @@ class OsimReader {
     ligament.transition_strain = number_or(node, "transition_strain", ligament.transition_strain);
     ligament.slack_length = kMillimetre * number(node, "slack_length");
     const xml_node path = node.child("GeometryPath");
-    ligament.wraps = !path.child("PathWrapSet").child("objects").empty() &&
-                     path.child("PathWrapSet").child("objects").first_child();
+    for (const xml_node wrap : path.child("PathWrapSet").child("objects").children())
+      ligament.wraps.push_back(text(wrap, "wrap_object"));
     for (const xml_node point : path.child("PathPointSet").child("objects").children()) {
       if (!point.child("location")) fail(point, "has no location");
       ligament.points.push_back({point.name(), path_of(point), socket(point, "parent_frame"),

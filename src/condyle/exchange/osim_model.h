@@ -52,10 +52,22 @@ struct OsimPathPoint {
   Eigen::Vector3d at;  ///< [mm]
 };
 
+/// A surface that paths wrap on, fixed to a frame. `sizes` [mm]: radius of a sphere or a cylinder,
+/// whose axis is z; semi-axes of an ellipsoid; inner and outer radius of a torus about z, by which
+/// OpenSim means those of its tube and of its ring.
+struct OsimWrap {
+  std::string type, name, frame;
+  RigidTransform X_frame;  ///< [mm]
+  Eigen::Vector3d sizes = Eigen::Vector3d::Zero();
+  std::string quadrant;  ///< "all", or the half on which paths pass: "x", "-y"
+  bool active = true;
+};
+
 /// Blankevoort1991Ligament.
 struct OsimLigament {
   std::string name;
-  bool applies = true, wraps = false;
+  bool applies = true;
+  std::vector<std::string> wraps;  ///< names of wrap objects
   std::vector<OsimPathPoint> points;
   double stiffness = 0;             ///< [N] per unit strain
   double transition_strain = 0.06;  ///< the plugin's default
@@ -70,6 +82,7 @@ struct OsimModel {
   std::vector<OsimMesh> bone_meshes;  ///< what is drawn
   std::vector<OsimMesh> contact_meshes;
   std::vector<OsimContact> contacts;
+  std::vector<OsimWrap> wraps;
   std::vector<OsimLigament> ligaments;
   std::map<std::string, int> other_forces;  ///< how many of each type
 };

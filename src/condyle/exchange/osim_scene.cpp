@@ -49,6 +49,7 @@ class SceneText {
     add_bodies();
     add_joint();
     add_contacts();
+    for (const OsimPlacedWrap& wrap : knee_.wraps) add_wrap(wrap);
     for (const OsimStrand& strand : knee_.ligaments) add_ligament(strand);
     add_motion();
     out_.text = head() + body_;
@@ -239,12 +240,49 @@ class SceneText {
     }
   }
 
+  void add_wrap(const OsimPlacedWrap& placed) {
+    const OsimWrap& wrap = placed.wrap;
+    line("\n[[wrap]]\nname = {}\nbody = \"{}\"", quoted(wrap.name),
+         placed.on_femur ? "femur" : "tibia");
+    const std::string center = numbers(placed.X.p), axis = numbers(placed.X.R.col(2));
+    if (wrap.type == "WrapEllipsoid")
+      line("kind = \"ellipsoid\"\ncenter = {}\naxes = {}\nsemi_axes = {}", center,
+           numbers(log_rotation(placed.X.R) * 180 / M_PI), numbers(wrap.sizes));
+    else if (wrap.type == "WrapTorus")
+      line("kind = \"torus\"\ncenter = {}\naxis = {}\nmajor = {}\nminor = {}", center, axis,
+           number(wrap.sizes.y()), number(wrap.sizes.x()));
+    else if (wrap.type == "WrapCylinder")
+      line("kind = \"cylinder\"\npoint = {}\naxis = {}\nradius = {}", center, axis,
+           number(wrap.sizes.x()));
+    else
+      line("kind = \"sphere\"\ncenter = {}\nradius = {}", center, number(wrap.sizes.x()));
+  }
+
+  /// An end within a surface of its own bone leaves that out, as OpenSim does.
+  void add_path(const OsimStrand& strand) {
+    if (strand.wraps.empty()) return;
+    std::string names, sides;
+    bool all = true;
+    for (const std::size_t index : strand.wraps) {
+      const OsimPlacedWrap& placed = knee_.wraps[index];
+      names += (names.empty() ? "" : ", ") + quoted(placed.wrap.name);
+      all &= placed.side.has_value();
+      if (placed.side) sides += (sides.empty() ? "" : ", ") + numbers(*placed.side);
+    }
+    line("wraps = [{}]\ninside = \"straight\"", names);
+    if (all) line("side = [{}]", sides);
+    if (!all && !sides.empty())
+      out_.notes.push_back(
+          fmt::format("the quadrants of the wrap objects of {}: not all have one", strand.name));
+  }
+
   void add_ligament(const OsimStrand& strand) {
     line("\n[[ligament]]\nname = {}", quoted(strand.name));
     line("ends = [ {{ body = \"femur\", at = {} }},\n         {{ body = \"tibia\", at = {} }} ]",
          numbers(strand.femur), numbers(strand.tibia));
     line("law = \"toe-linear\"\nstiffness = {}\ntransition_strain = {}\nslack_length = {}",
          number(strand.stiffness), number(strand.transition_strain), number(strand.slack_length));
+    add_path(strand);
   }
 
   void add_motion() {

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace condyle {
@@ -25,8 +26,11 @@ double length(const std::vector<Vector3d>& points) {
 
 class StrandFinder {
  public:
-  StrandFinder(const OsimFrames& frames, const Poses& in_femur, const Poses& in_tibia)
-      : frames_(frames), in_femur_(in_femur), in_tibia_(in_tibia) {}
+  StrandFinder(const OsimModel& model,
+               const OsimFrames& frames,
+               const Poses& in_femur,
+               const Poses& in_tibia)
+      : model_(model), frames_(frames), in_femur_(in_femur), in_tibia_(in_tibia) {}
 
   void add(const OsimLigament& ligament) {
     Crossing path;
@@ -37,15 +41,16 @@ class StrandFinder {
       left_out_.push_back(ligament.name);
       return;
     }
-    if (ligament.wraps) straightened_.push_back(ligament.name);
     if (taut < ligament.slack_length) shortened_.push_back(ligament.name);
     const double part = taut / ligament.slack_length;
     out_.strands.push_back({ligament.name, path.femur.back(), path.tibia.front(),
-                            ligament.stiffness * part, ligament.transition_strain / part, taut});
+                            ligament.stiffness * part, ligament.transition_strain / part, taut,
+                            find_wraps(ligament)});
   }
 
   [[nodiscard]] OsimStrands result() {
-    note("with a wrap object, taken as straight lines", straightened_);
+    note("with a wrap object that is on another bone, not active or of another kind, taken without",
+         straightened_);
     note("with points along a bone, replaced by their free part", shortened_);
     note("to other bones, over both bones twice, or without force", left_out_);
     out_.notes.emplace_back("damping of the ligaments");
@@ -53,6 +58,55 @@ class StrandFinder {
   }
 
  private:
+  /// The wraps of a ligament on the two bones, those on the femur first.
+  std::vector<std::size_t> find_wraps(const OsimLigament& ligament) {
+    std::vector<std::size_t> wraps;
+    bool all = true;
+    for (const std::string& name : ligament.wraps) {
+      const std::optional<std::size_t> index = placed(name, ligament.name);
+      if (index && std::find(wraps.begin(), wraps.end(), *index) == wraps.end())
+        wraps.push_back(*index);
+      all &= index.has_value();
+    }
+    if (!all) straightened_.push_back(ligament.name);
+    std::stable_partition(wraps.begin(), wraps.end(),
+                          [&](std::size_t i) { return out_.wraps[i].on_femur; });
+    return wraps;
+  }
+
+  /// The wrap object of that name among those of the scene; nothing where it cannot be one.
+  std::optional<std::size_t> placed(const std::string& name, const std::string& ligament) {
+    for (std::size_t i = 0; i < out_.wraps.size(); ++i)
+      if (out_.wraps[i].wrap.name == name) return i;
+    const auto found = std::find_if(model_.wraps.begin(), model_.wraps.end(),
+                                    [&](const OsimWrap& wrap) { return wrap.name == name; });
+    if (found == model_.wraps.end() || !found->active || !known(*found)) return std::nullopt;
+    const OsimPlace place =
+        frames_.find(found->frame, "", "wrap object \"" + name + "\" of \"" + ligament + "\"");
+    const bool on_femur = in_femur_.count(place.body) > 0;
+    if (!on_femur && in_tibia_.count(place.body) == 0) return std::nullopt;
+    const RigidTransform X =
+        (on_femur ? in_femur_ : in_tibia_).at(place.body) * place.X * found->X_frame;
+    out_.wraps.push_back({*found, on_femur, X, side_of(*found, X)});
+    return out_.wraps.size() - 1;
+  }
+
+  static bool known(const OsimWrap& wrap) {
+    if (wrap.type == "WrapEllipsoid") return wrap.sizes.minCoeff() > 0;
+    if (wrap.type == "WrapTorus") return wrap.sizes.x() > 0 && wrap.sizes.x() < wrap.sizes.y();
+    return (wrap.type == "WrapSphere" || wrap.type == "WrapCylinder") && wrap.sizes.x() > 0;
+  }
+
+  /// "x", "+x", "-y": a point twice as far out as the surface goes.
+  static std::optional<Vector3d> side_of(const OsimWrap& wrap, const RigidTransform& X) {
+    std::string axis = wrap.quadrant;
+    const double sign = axis.rfind('-', 0) == 0 ? -1 : 1;
+    if (!axis.empty() && (axis[0] == '-' || axis[0] == '+')) axis.erase(0, 1);
+    if (axis != "x" && axis != "y" && axis != "z") return std::nullopt;
+    const Vector3d out = sign * 2 * wrap.sizes.cwiseAbs().sum() * Vector3d::Unit(axis[0] - 'x');
+    return X * out;
+  }
+
   /// False where the path does not go from one bone to the other, once.
   bool find_crossing(const OsimLigament& ligament, Crossing& path) const {
     if (!ligament.applies) return false;
@@ -84,6 +138,7 @@ class StrandFinder {
                                      fmt::join(names, ", ")));
   }
 
+  const OsimModel& model_;
   const OsimFrames& frames_;
   const Poses &in_femur_, &in_tibia_;
   std::vector<std::string> straightened_, shortened_, left_out_;
@@ -102,7 +157,7 @@ OsimStrands find_strands(const OsimModel& model,
                          const OsimFrames& frames,
                          const Poses& in_femur,
                          const Poses& in_tibia) {
-  StrandFinder finder(frames, in_femur, in_tibia);
+  StrandFinder finder(model, frames, in_femur, in_tibia);
   for (const OsimLigament& ligament : model.ligaments) finder.add(ligament);
   return finder.result();
 }

@@ -1,9 +1,10 @@
 #pragma once
 
-/// The ligaments of an OpenSim-JAM model that lead from one bone of the knee to the other, as
-/// straight strands.
+/// The ligaments of an OpenSim-JAM model that lead from one bone of the knee to the other, and the
+/// surfaces on these bones that they wrap on.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,15 +13,25 @@
 
 namespace condyle {
 
+/// A surface that strands wrap on, in the frame of its bone.
+struct OsimPlacedWrap {
+  OsimWrap wrap;
+  bool on_femur = false;
+  RigidTransform X;                     ///< [mm]
+  std::optional<Eigen::Vector3d> side;  ///< a point on the half that its quadrant names [mm]
+};
+
 struct OsimStrand {
   std::string name;
   Eigen::Vector3d femur, tibia;                    ///< ends in the frames of the two bodies [mm]
   double stiffness = 0;                            ///< [N] per unit strain
   double transition_strain = 0, slack_length = 0;  ///< [-], [mm]
+  std::vector<std::size_t> wraps = {};  ///< indices into OsimStrands::wraps, from femur to tibia
 };
 
 struct OsimStrands {
   std::vector<OsimStrand> strands;
+  std::vector<OsimPlacedWrap> wraps;
   std::vector<std::string> notes;  ///< what was left out or changed, one line each
 };
 

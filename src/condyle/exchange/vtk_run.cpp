@@ -110,13 +110,17 @@ std::string ligaments_vtp(const Run& run, const PoseResult& pose) {
   for (std::size_t i = 0; i < run.scene.ligaments.size(); ++i) {
     const LigamentDescription& ligament = run.scene.ligaments[i];
     const int first = static_cast<int>(data.points.size());
-    for (const Attachment& end : ligament.ends)
-      data.points.push_back(insertion(run.scene, pose, end));
-    data.lines.push_back({first, first + 1});
-    data.cell_names.push_back(ligament.name);
-    strain.values.push_back(pose.ligaments[i].strain);
-    force.values.push_back(pose.ligaments[i].force);
-    length.values.push_back(pose.ligaments[i].length);
+    data.points.push_back(insertion(run.scene, pose, ligament.ends[0]));
+    for (const Eigen::Vector3d& corner : path_corners(run.scene, pose, i))
+      data.points.push_back(corner);
+    data.points.push_back(insertion(run.scene, pose, ligament.ends[1]));
+    for (int k = first; k + 1 < static_cast<int>(data.points.size()); ++k) {
+      data.lines.push_back({k, k + 1});
+      data.cell_names.push_back(ligament.name);
+      strain.values.push_back(pose.ligaments[i].strain);
+      force.values.push_back(pose.ligaments[i].force);
+      length.values.push_back(pose.ligaments[i].length);
+    }
   }
   data.cell_data = {strain, force, length};
   return vtp_bytes(data);

@@ -48,12 +48,12 @@ struct PictureScales {
 /// Colour of a ligament; slack ones are grey.
 [[nodiscard]] Rgb ligament_color(const PictureScales& scales, const LigamentResult& ligament);
 
-/// A ligament's line in P, end to end: straight when taut; when slack, bowed away from the joint
-/// until it is as long as its slack length (within reason).
+/// A ligament's line in P, end to end: along its path where it wraps; else straight when taut; when
+/// slack, bowed away from the joint until it is as long as its slack length (within reason).
 [[nodiscard]] std::vector<Eigen::Vector3d> ligament_line(const Scene& scene,
                                                          const std::vector<RigidTransform>& X_P,
                                                          std::size_t ligament,
-                                                         const LigamentResult& result);
+                                                         const PoseResult& pose);
 
 [[nodiscard]] ShadedMesh ligament_tubes(const Run& run,
                                         const PoseResult& pose,

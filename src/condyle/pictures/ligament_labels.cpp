@@ -22,7 +22,7 @@ std::vector<Vector3d> line_of(const Scenery& scenery, std::size_t strand) {
     return {end_in_P(ligament.ends[first ? 0 : 1])};
   }
   if (scenery.staging.apart()) return {end_in_P(ligament.ends[0]), end_in_P(ligament.ends[1])};
-  return ligament_line(scenery.run.scene, X_P, strand, scenery.pose.ligaments[strand]);
+  return ligament_line(scenery.run.scene, X_P, strand, scenery.pose);
 }
 
 bool on_page(const Scenery& scenery, const Vector3d& p, const Frame& page) {

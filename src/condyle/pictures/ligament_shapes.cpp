@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "condyle/pictures/solids.h"
+#include "condyle/results/run_view.h"
 
 namespace condyle {
 namespace {
@@ -57,8 +58,16 @@ Rgb ligament_color(const PictureScales& scales, const LigamentResult& ligament) 
 std::vector<Vector3d> ligament_line(const Scene& scene,
                                     const std::vector<RigidTransform>& X_P,
                                     std::size_t ligament,
-                                    const LigamentResult& result) {
+                                    const PoseResult& pose) {
   const auto [a, b] = ends_of(scene.ligaments[ligament], X_P);
+  const LigamentResult& result = pose.ligaments[ligament];
+  if (const std::vector<Vector3d> corners = path_corners(scene, pose, ligament); !corners.empty()) {
+    const RigidTransform& ground = X_P[static_cast<std::size_t>(scene.fixed_body())];
+    std::vector<Vector3d> line = {a};
+    for (const Vector3d& corner : corners) line.push_back(ground * corner);
+    line.push_back(b);
+    return line;
+  }
   if (!is_slack(result) || !(result.strain < 0) || !(result.strain > -0.9)) return {a, b};
   const Vector3d axis = (b - a).normalized();
   Vector3d out = 0.5 * (a + b) - middle_of(scene, X_P);
@@ -83,7 +92,7 @@ ShadedMesh ligament_tubes(const Run& run,
     const bool slack = is_slack(result);
     const Paint paint = {ligament_color(scales, result), slack ? 0.7 * kThroughBone : kThroughBone};
     std::vector<TubePoint> line;
-    for (const Vector3d& p : ligament_line(run.scene, X_P, i, result)) {
+    for (const Vector3d& p : ligament_line(run.scene, X_P, i, pose)) {
       line.push_back({p, slack ? 0.45 * scales.tube_radius : scales.tube_radius, paint});
     }
     append(mesh, tube(line));

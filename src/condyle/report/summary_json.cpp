@@ -8,6 +8,7 @@
 #include "condyle/results/motion_view.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/run_view.h"
+#include "condyle/scene/ligament_path.h"
 
 namespace condyle {
 namespace {
@@ -96,6 +97,14 @@ Json events_of(const Run& run, const SweptQuantity& swept) {
     row["contact"] = event.contact < 0
                          ? Json()
                          : Json(run.scene.contacts[static_cast<std::size_t>(event.contact)].name);
+    if (event.ligament >= 0) {
+      const LigamentDescription& ligament =
+          run.scene.ligaments[static_cast<std::size_t>(event.ligament)];
+      row["ligament"] = ligament.name;
+      row["wrap"] = run.scene.wraps[static_cast<std::size_t>(
+                                        wrap_on_path(run.scene, ligament, event.wrap))]
+                        .name;
+    }
     events.push_back(std::move(row));
   }
   return events;

@@ -64,6 +64,45 @@ struct Taker {
   }
 };
 
+constexpr std::string_view kPaths = " paths";
+
+/// How ligaments lie on what they wrap on.
+void put_paths(std::string& out, const std::vector<LigamentPath>& paths) {
+  if (paths.empty()) return;
+  out += kPaths;
+  put(out, paths.size());
+  for (const LigamentPath& path : paths) {
+    put(out, path.touches.size());
+    for (const LineTouch& touch : path.touches) {
+      put(out, static_cast<int>(touch.touching));
+      put(out, static_cast<int>(touch.on_moving));
+      for (const Eigen::Vector3d* v : {&touch.P, &touch.Q, &touch.t_P, &touch.t_Q})
+        put(out, v->data(), 3);
+      put(out, touch.arc);
+      put(out, touch.turn);
+    }
+  }
+}
+
+void take_paths(Taker& take, PoseResult& pose) {
+  constexpr std::size_t kMost = 100000;
+  if (!take.rest.starts_with(kPaths)) return;
+  take.rest.remove_prefix(kPaths.size());
+  pose.paths.resize(take.index(kMost));
+  for (LigamentPath& path : pose.paths) {
+    const std::size_t count = take.index(kMostPathNumbers);
+    for (std::size_t k = 0; take.ok && k < count; ++k) {
+      LineTouch& touch = path.touches.emplace_back();
+      touch.touching = take.index(2) == 1;
+      touch.on_moving = take.index(2) == 1;
+      for (Eigen::Vector3d* v : {&touch.P, &touch.Q, &touch.t_P, &touch.t_Q})
+        take.numbers(v->data(), 3);
+      touch.arc = take.number<double>();
+      touch.turn = take.number<double>();
+    }
+  }
+}
+
 constexpr std::string_view kTrace = " trace";
 
 void put_trace(std::string& out, const PoseTrace& trace) {
@@ -105,6 +144,10 @@ void take_contacts(Taker& take, std::size_t contacts, PoseResult& pose) {
   }
 }
 
+bool of_ligament(EventKind kind) {
+  return kind == EventKind::kTouching || kind == EventKind::kLifting;
+}
+
 void take_events(Taker& take, std::size_t contacts, KnownPose& known) {
   const double from = take.number<double>();
   known.from = std::isnan(from) ? std::nullopt : std::optional<double>(from);
@@ -115,6 +158,11 @@ void take_events(Taker& take, std::size_t contacts, KnownPose& known) {
     event.kind = static_cast<EventKind>(take.index(kEventKindCount));
     event.contact = take.number<int>();
     take.ok &= event.contact >= -1 && event.contact < static_cast<int>(contacts);
+    if (of_ligament(event.kind)) {
+      event.ligament = take.number<int>();
+      event.wrap = take.number<int>();
+      take.ok &= event.ligament >= 0 && event.wrap >= 0;
+    }
     known.events.push_back(event);
   }
 }
@@ -178,8 +226,12 @@ void write_journal_line(const KnownPose& known, std::string& out) {
     put(out, event.value);
     put(out, static_cast<int>(event.kind));
     put(out, event.contact);
+    if (!of_ligament(event.kind)) continue;
+    put(out, event.ligament);
+    put(out, event.wrap);
   }
   put_trace(out, pose.trace);
+  put_paths(out, pose.paths);
   out += " \"" + pose.reason + "\" \"" + pose.remark + "\"";
   put(out, pose.remark.size());
   put(out, static_cast<int>(known.from_elsewhere));
@@ -212,6 +264,7 @@ bool read_journal_line(std::string_view line,
   take_contacts(take, contacts, pose);
   take_events(take, contacts, known);
   take_trace(take, pose.trace);
+  take_paths(take, pose);
   return take.ok && take_words(take.rest, known);
 }
 

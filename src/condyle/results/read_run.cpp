@@ -9,11 +9,13 @@
 #include "condyle/results/estimates.h"
 #include "condyle/results/hdf5_file.h"
 #include "condyle/results/layer_group.h"
+#include "condyle/results/path_group.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/run_view.h"
 #include "condyle/results/simulation_group.h"
 #include "condyle/results/sweep_group.h"
 #include "condyle/results/trace_columns.h"
+#include "condyle/scene/ligament_path.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/surface/bspline_basis.h"
 
@@ -132,6 +134,7 @@ void read_elements(const Hdf5Group& sweep, const Scene& scene, Poses& poses) {
       take(group, column.name, n, poses,
            [&](PoseResult& p, const double* row) { p.ligaments[i].*column.member = *row; });
     }
+    read_path(group, scene, poses, i);
   }
   const Hdf5Group conditions = sweep.open("conditions");
   for (std::size_t i = 0; i < scene.conditions.size(); ++i) {
@@ -172,6 +175,25 @@ RunStudy read_study(const Hdf5Group& root, const Scene& scene) {
   return FitStudy{};
 }
 
+/// Which ligament came to lie on which surface, or left it.
+void read_touch_events(const Hdf5Group& group, Run& run) {
+  const Shape n = {run.sweep.events.size()};
+  const std::vector<int> ligaments = group.read_integers("ligament", n),
+                         wraps = group.read_integers("wrap", n);
+  for (std::size_t i = 0; i < ligaments.size(); ++i) {
+    if (ligaments[i] < 0) continue;
+    if (ligaments[i] >= static_cast<int>(run.scene.ligaments.size()))
+      group.fail("holds an event of no known ligament");
+    const LigamentDescription& ligament =
+        run.scene.ligaments[static_cast<std::size_t>(ligaments[i])];
+    Event& event = run.sweep.events[i];
+    event.ligament = ligaments[i];
+    for (int k = 0; k < static_cast<int>(ligament.path.wraps.size()); ++k)
+      if (wrap_on_path(run.scene, ligament, k) == wraps[i]) event.wrap = k;
+    if (event.wrap < 0) group.fail("holds an event of no known wrap");
+  }
+}
+
 void read_events(const Hdf5Group& group, const Unit& unit, Run& run) {
   const std::vector<double> values = group.read("value").values;
   const Shape n = {values.size()};
@@ -184,6 +206,7 @@ void read_events(const Hdf5Group& group, const Unit& unit, Run& run) {
     run.sweep.events.push_back(
         {values[i] * unit.factor, static_cast<EventKind>(kinds[i]), contacts[i]});
   }
+  if (group.has("wrap")) read_touch_events(group, run);
 }
 
 std::vector<Eigen::Vector3d> read_points(const Hdf5Group& group, const char* name, Shape& shape) {

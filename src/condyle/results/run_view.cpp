@@ -8,6 +8,7 @@
 
 #include "condyle/compare/compare.h"
 #include "condyle/input_error.h"
+#include "condyle/scene/ligament_path.h"
 
 namespace condyle {
 namespace {
@@ -43,6 +44,16 @@ double beyond_edge(const PoseResult& pose) {
   for (const ContactResult& contact : pose.contacts)
     farthest = std::max(farthest, beyond_edge(contact));
   return farthest;
+}
+
+std::string event_subject(const Scene& scene, const Event& event) {
+  if (event.ligament >= 0) {
+    const LigamentDescription& ligament =
+        scene.ligaments.at(static_cast<std::size_t>(event.ligament));
+    const int wrap = wrap_on_path(scene, ligament, event.wrap);
+    return ligament.name + " on " + scene.wraps.at(static_cast<std::size_t>(wrap)).name;
+  }
+  return event.contact < 0 ? "" : scene.contacts.at(static_cast<std::size_t>(event.contact)).name;
 }
 
 std::string short_time(double seconds, const std::string& micro) {
@@ -81,13 +92,6 @@ std::size_t nearest_pose_of(const Run& run, const std::string& file, double valu
       fmt::format("--at {:g}: {} holds {:g} to {:g} {}", value, file, low, high, swept.unit.name));
 }
 
-const ContactPointResult* strongest_point(const ContactResult& contact) {
-  const auto strongest = std::max_element(
-      contact.points.begin(), contact.points.end(),
-      [](const ContactPointResult& a, const ContactPointResult& b) { return a.force < b.force; });
-  return strongest == contact.points.end() ? nullptr : &*strongest;
-}
-
 double ligament_radius(const Scene& scene) {
   const auto strands = static_cast<double>(scene.ligaments.size());
   return 1.5 * std::min(1.0, std::sqrt(20 / std::max(1.0, strands)));
@@ -119,6 +123,16 @@ const RunPatch* patch_of(const Run& run, const std::string& surface) {
 
 RigidTransform body_pose(const Scene& scene, const RigidTransform& X_BA, int body) {
   return body == scene.moving_body() ? X_BA : RigidTransform();
+}
+
+std::vector<Eigen::Vector3d> path_corners(const Scene& scene,
+                                          const PoseResult& pose,
+                                          std::size_t ligament) {
+  if (ligament >= pose.paths.size()) return {};
+  std::vector<Eigen::Vector3d> corners = pose.paths[ligament].points;
+  if (scene.ligaments[ligament].ends[0].body != scene.fixed_body())
+    std::reverse(corners.begin(), corners.end());
+  return corners;
 }
 
 int tibia_body(const Scene& scene) {

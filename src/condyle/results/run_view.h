@@ -33,9 +33,8 @@ namespace condyle {
 /// of its range and, of angles and lengths, 0.5 deg or mm.
 [[nodiscard]] std::size_t nearest_pose_of(const Run& run, const std::string& file, double value);
 
-/// The point of a contact that carries most; of an open contact the nearest one. Null where the
-/// pose holds none.
-[[nodiscard]] const ContactPointResult* strongest_point(const ContactResult& contact);
+/// Whose event it is: the name of a contact, "LIGAMENT on WRAP", or nothing.
+[[nodiscard]] std::string event_subject(const Scene& scene, const Event& event);
 
 /// "7.5 us", "87.7 ms", "12.3 s": three digits, in a unit that suits them; `micro` is how
 /// microseconds are written.
@@ -55,6 +54,11 @@ namespace condyle {
 
 /// Pose of a body in the ground frame, where the moving body has the pose X_BA.
 [[nodiscard]] RigidTransform body_pose(const Scene& scene, const RigidTransform& X_BA, int body);
+/// Corners of a ligament's path between its ends, from the first end to the second, ground frame
+/// [mm]; empty for a straight one.
+[[nodiscard]] std::vector<Eigen::Vector3d> path_corners(const Scene& scene,
+                                                        const PoseResult& pose,
+                                                        std::size_t ligament);
 /// Index of the tibia's and the femur's body; without [joint] the moving and the fixed body.
 [[nodiscard]] int tibia_body(const Scene& scene);
 [[nodiscard]] int femur_body(const Scene& scene);

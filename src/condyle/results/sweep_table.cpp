@@ -131,11 +131,9 @@ std::vector<std::string> event_lines(const Scene& scene,
                                      const SweepResult& sweep) {
   std::vector<std::string> lines;
   for (const Event& event : sweep.events) {
-    const std::string contact =
-        event.contact < 0 ? ""
-                          : scene.contacts.at(static_cast<std::size_t>(event.contact)).name + ": ";
-    lines.push_back(fmt::format("{}{} at {:.6f} {}", contact, name(event.kind),
-                                swept.shown(event.value), swept.unit.name));
+    const std::string subject = event_subject(scene, event);
+    lines.push_back(fmt::format("{}{}{} at {:.6f} {}", subject, subject.empty() ? "" : ": ",
+                                name(event.kind), swept.shown(event.value), swept.unit.name));
   }
   return lines;
 }

@@ -10,11 +10,13 @@
 #include "condyle/results/hdf5_file.h"
 #include "condyle/results/layer_group.h"
 #include "condyle/results/output_file.h"
+#include "condyle/results/path_group.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/run_view.h"
 #include "condyle/results/simulation_group.h"
 #include "condyle/results/sweep_group.h"
 #include "condyle/results/trace_columns.h"
+#include "condyle/scene/ligament_path.h"
 #include "condyle/version.h"
 
 namespace condyle {
@@ -214,7 +216,9 @@ void write_elements(const Hdf5Group& sweep, const Scene& scene, const Poses& pos
     write_contact(contacts.create(scene.contacts[i].name), scene, poses, i);
   const Hdf5Group ligaments = sweep.create("ligaments");
   for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
-    write_ligament(ligaments.create(scene.ligaments[i].name), poses, i);
+    const Hdf5Group ligament = ligaments.create(scene.ligaments[i].name);
+    write_ligament(ligament, poses, i);
+    write_path(ligament, scene, poses, i);
   }
   const Hdf5Group conditions = sweep.create("conditions");
   for (std::size_t i = 0; i < scene.conditions.size(); ++i) {
@@ -246,11 +250,17 @@ void write_solver(const Hdf5Group& sweep, const Poses& poses) {
 void write_events(const Hdf5Group& group, const Run& run, const Unit& unit) {
   const std::vector<Event>& events = run.sweep.events;
   std::vector<double> values;
-  std::vector<int> kinds, contacts;
+  std::vector<int> kinds, contacts, ligaments, wraps;
   for (const Event& event : events) {
     values.push_back(event.value / unit.factor);
     kinds.push_back(static_cast<int>(event.kind));
     contacts.push_back(event.contact);
+    ligaments.push_back(event.ligament);
+    wraps.push_back(event.ligament < 0
+                        ? -1
+                        : wrap_on_path(run.scene,
+                                       run.scene.ligaments[static_cast<std::size_t>(event.ligament)],
+                                       event.wrap));
   }
   const Shape n = {events.size()};
   group.write("value", values, n, unit.name);
@@ -261,6 +271,15 @@ void write_events(const Hdf5Group& group, const Run& run, const Unit& unit) {
   for (const ContactDescription& contact : run.scene.contacts) names.push_back(contact.name);
   group.write_attribute("kind", "meaning", meanings);
   group.write_attribute("contact", "meaning", names);
+  if (run.scene.wraps.empty()) return;
+  group.write("ligament", ligaments, n, "1");
+  group.write("wrap", wraps, n, "1");
+  std::vector<std::string> ligament_names, wrap_names;
+  for (const LigamentDescription& ligament : run.scene.ligaments)
+    ligament_names.push_back(ligament.name);
+  for (const WrapDescription& wrap : run.scene.wraps) wrap_names.push_back(wrap.name);
+  group.write_attribute("ligament", "meaning", ligament_names);
+  group.write_attribute("wrap", "meaning", wrap_names);
 }
 
 void write_fit(const Hdf5Group& patch, const FitReport& report) {

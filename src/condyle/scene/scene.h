@@ -22,6 +22,7 @@
 #include "condyle/elements/kinematic_condition.h"
 #include "condyle/math/rigid_transform.h"
 #include "condyle/surface/exact_surfaces.h"
+#include "condyle/wrapping/wrap_shape.h"
 
 namespace condyle {
 
@@ -124,10 +125,30 @@ struct Attachment {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< body frame [mm]
 };
 
+/// A smooth surface that ligaments wrap on.
+struct WrapDescription {
+  std::string name;
+  int body = -1;
+  WrapShape shape;
+  RigidTransform placement;  ///< from the surface's frame to that of the body [mm]
+};
+
+/// What a ligament wraps on, and how.
+struct LigamentWraps {
+  std::vector<int> wraps;  ///< indices into Scene::wraps, from the first end to the second
+  /// A point on the side that is passed, frame of the wrap's body [mm]: one for each of `wraps`, or
+  /// none.
+  std::vector<Eigen::Vector3d> sides;
+  bool anchors_inside = true;  ///< an end inside its own body's wrap is moved onto it; else that wrap
+                               ///< is passed over
+  double thickness = 0;        ///< of the ligament [mm]; half of it is added to the radii
+};
+
 struct LigamentDescription {
   std::string name;
   std::array<Attachment, 2> ends;
   ForceLaw law;
+  LigamentWraps path;  ///< no wraps: straight
   /// toe-linear or quadratic with `reference_strain` and no `reference_length`: the slack length
   /// follows from the length at the start pose; reading the scene fills it in.
   std::optional<double> reference_strain;
@@ -211,6 +232,7 @@ struct Scene {
   std::optional<JointDescription> joint;
   std::vector<SurfaceDescription> surfaces;
   std::vector<ContactDescription> contacts;
+  std::vector<WrapDescription> wraps;
   std::vector<LigamentDescription> ligaments;
   std::vector<ConditionDescription> conditions;
   std::vector<LoadDescription> loads;

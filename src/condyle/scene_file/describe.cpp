@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "condyle/scene/ligament_path.h"
 #include "condyle/scene/start_pose.h"
 #include "condyle/scene/swept_quantity.h"
 
@@ -128,7 +129,7 @@ void describe_contacts(const Scene& scene, Out out) {
 void describe_ligaments(const Scene& scene, Out out) {
   const RigidTransform X_BA = start_pose(scene);
   for (const LigamentDescription& ligament : scene.ligaments) {
-    const double length = distance_between(scene, ligament.ends, X_BA);
+    const double length = ligament_length(scene, ligament, X_BA);
     const double slack = slack_length(ligament.law);
     fmt::format_to(out, "ligament   {}: {}, {:.4g} mm at the start pose", ligament.name,
                    word(ligament.law), length);

@@ -138,10 +138,11 @@ LigamentDescription read_ligament(const Section& section,
   LigamentDescription ligament;
   ligament.name = read_name(section, names_of(scene.ligaments));
   ligament.ends = read_ends(section, scene);
-  start_length = distance_between(scene, ligament.ends, start_pose(scene));
   constexpr double kLeast = 1e-9;  // [mm]
-  if (!(start_length > kLeast))
+  if (!(distance_between(scene, ligament.ends, start_pose(scene)) > kLeast))
     section.fail("ends", "ends that lie apart at the start pose (their distance is 0)");
+  read_path(section, scene, ligament);
+  start_length = start_length_of(section, scene, ligament);
   ligament.law = read_law(section, scene, start_length, ligament);
   section.finish();
   check_sizes(section, scene, ligament, start_length);
@@ -158,6 +159,7 @@ void read_ligaments(const Section& root, Scene& scene) {
     scene.ligaments.push_back(read_ligament(section, scene, start_length));
     longest = std::max(longest, start_length);
   }
+  check_wraps_used(root, scene);
   constexpr double kShortest = 0.5;  // [mm]
   if (!sections.empty() && longest < kShortest) {
     sections.front().fail_with(

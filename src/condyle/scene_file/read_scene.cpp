@@ -46,6 +46,7 @@ Scene parse(const std::string& text, const std::filesystem::path& file, bool mes
   read_joint(root, scene);
   read_surfaces(root, scene);
   read_contacts(root, scene);
+  read_wraps(root, scene);
   read_ligaments(root, scene);
   read_conditions(root, scene);
   read_loads(root, scene);

@@ -18,6 +18,7 @@ void read_bodies(const Section& root, Scene& scene);
 void read_joint(const Section& root, Scene& scene);
 void read_surfaces(const Section& root, Scene& scene);
 void read_contacts(const Section& root, Scene& scene);
+void read_wraps(const Section& root, Scene& scene);
 void read_ligaments(const Section& root, Scene& scene);
 void read_conditions(const Section& root, Scene& scene);
 void read_loads(const Section& root, Scene& scene);
@@ -33,6 +34,21 @@ void read_layers(const Section& root,
                  const Section& section,
                  const Scene& scene,
                  ContactDescription& contact);
+
+/// The keys of a surface's kind: places, directions, radii.
+void read_shape(const Section& section, const Scene& scene, SurfaceDescription& surface);
+
+/// The keys `wraps`, `side`, `inside` and `thickness` of a ligament whose ends are known.
+void read_path(const Section& section, const Scene& scene, LigamentDescription& ligament);
+
+/// Throws for an end that lies too deep in a surface that its ligament wraps on, and where there is
+/// no path at the start pose; its length [mm] there.
+[[nodiscard]] double start_length_of(const Section& section,
+                                     const Scene& scene,
+                                     const LigamentDescription& ligament);
+
+/// Throws for a surface that no ligament wraps on.
+void check_wraps_used(const Section& root, const Scene& scene);
 
 /// The keys `mesh` and `mesh_units`, where given.
 [[nodiscard]] std::optional<MeshFile> read_mesh_file(const Section& section, const Scene& scene);

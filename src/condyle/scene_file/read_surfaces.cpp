@@ -176,6 +176,8 @@ void read_ellipsoid(const Section& section, const Scene& scene, SurfaceDescripti
   if (surface.semi_axes.minCoeff() <= 0) section.fail("semi_axes", "three lengths > 0");
 }
 
+}  // namespace
+
 void read_shape(const Section& section, const Scene& scene, SurfaceDescription& surface) {
   const auto point = [&](const std::string& key) {
     return Eigen::Vector3d(scene.length_to_mm * section.vector(key, "a point"));
@@ -212,6 +214,8 @@ void read_shape(const Section& section, const Scene& scene, SurfaceDescription& 
       return read_polynomial(section, scene, surface);
   }
 }
+
+namespace {
 
 void read_elastic(const Section& section, const Scene& scene, SurfaceDescription& surface) {
   if (!section.has("modulus")) {

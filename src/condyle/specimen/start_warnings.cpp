@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "condyle/scene/ligament_path.h"
 #include "condyle/scene/start_pose.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/surface/mesh_distance.h"
@@ -80,7 +81,7 @@ void warn_of_strains(const Scene& scene, double limit, std::vector<std::string>&
   for (const LigamentDescription& ligament : scene.ligaments) {
     const double slack = slack_length(ligament.law);
     if (!(slack > 0) || ligament.reference_strain) continue;
-    const double strain = distance_between(scene, ligament.ends, X_BA) / slack - 1;
+    const double strain = ligament_length(scene, ligament, X_BA) / slack - 1;
     if (std::abs(strain) > limit)
       lines.push_back(
           fmt::format("warning: ligament \"{}\": its slack length of {:.2f} mm means a strain of "

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "condyle/verify/coordinates.h"
+#include "condyle/verify/course.h"
 #include "condyle/verify/laws.h"
 #include "condyle/verify/pose_checks.h"
 
@@ -48,12 +49,9 @@ Vector3d middle_of(const Scene& scene, const PoseResult& pose) {
 
 void add_ligaments(const Scene& scene, const PoseResult& pose, Sums& sums) {
   for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
-    const std::array<Attachment, 2>& ends = scene.ligaments[i].ends;
-    const bool first = ends[0].body == scene.moving_body();
-    const Vector3d on_A = in_ground(scene, ends[first ? 0 : 1], pose.X_BA),
-                   on_B = in_ground(scene, ends[first ? 1 : 0], pose.X_BA);
-    const Vector3d way = on_B - on_A;
-    if (way.norm() > 0) sums.pull(on_A, pose.ligaments[i].force * way.normalized());
+    const Course course = course_of(scene, pose, i);
+    const Vector3d way = course.on_B - course.on_A;
+    if (way.norm() > 0) sums.pull(course.on_A, pose.ligaments[i].force * way.normalized());
   }
 }
 

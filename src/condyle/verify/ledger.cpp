@@ -39,6 +39,7 @@ constexpr std::array<Kind, kCheckCount> kKinds = {{
     {"sums of pressures", "relative", 1e-8},
     {"force of layers on another grid", "relative", 0.013},
     {"depth that layers bear", "mm", 3},
+    {"wrapped paths", "mm", 1e-6},
 }};
 
 }  // namespace

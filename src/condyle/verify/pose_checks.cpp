@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "condyle/verify/coordinates.h"
+#include "condyle/verify/course.h"
 #include "condyle/verify/laws.h"
 
 namespace condyle::verification {
@@ -52,7 +53,7 @@ double load_scale(const Subject& subject, std::size_t load, const PoseResult& po
 
 void check_slack_lengths(const Scene& scene, Ledger& ledger) {
   for (const LigamentDescription& ligament : scene.ligaments) {
-    if (!ligament.reference_strain) continue;
+    if (!ligament.reference_strain || !ligament.path.wraps.empty()) continue;
     const RigidTransform X = start_of(scene);
     const Vector3d a = in_ground(scene, ligament.ends[0], X),
                    b = in_ground(scene, ligament.ends[1], X);
@@ -95,9 +96,11 @@ void check_ligaments(const Subject& subject, const PoseResult& pose, Ledger& led
     const LigamentDescription& ligament = scene.ligaments[i];
     const LigamentResult& stored = pose.ligaments[i];
     const std::string element = named("ligament", ligament.name);
+    const bool wraps = !ligament.path.wraps.empty();
+    if (wraps) check_path(subject, pose, i, ledger);
     const Vector3d a = in_ground(scene, ligament.ends[0], pose.X_BA),
                    b = in_ground(scene, ligament.ends[1], pose.X_BA);
-    const double length = (a - b).norm();
+    const double length = wraps ? course_of(scene, pose, i).length : (a - b).norm();
     const double rounding = round_off(a, b);
     ledger.note(Check::kLength, std::abs(stored.length - length), element, "",
                 1e-9 + 10 * rounding);

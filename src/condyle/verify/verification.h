@@ -30,9 +30,10 @@ enum class Check {
   kPressure,    ///< stored pressures, from the depths
   kLayerSums,   ///< force and moment of a layer, from its pressures
   kLayerForce,  ///< force of a layer on a grid of the verifier's own
-  kLayerDepth   ///< depth that layers bear
+  kLayerDepth,  ///< depth that layers bear
+  kPath         ///< ligaments that wrap: on their surfaces, geodesic there, straight between
 };
-inline constexpr int kCheckCount = 22;
+inline constexpr int kCheckCount = 23;
 
 /// One kind of check over the whole run.
 struct CheckSummary {

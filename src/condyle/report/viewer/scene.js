@@ -41,7 +41,8 @@ function sortMeshes(root, data) {
     }
     if (kind === 'ligament') {
       const holder = name.startsWith('ligament ') ? name : nameOf(node.parent);
-      meshes.ligaments.set(holder.slice('ligament '.length), node);
+      const ligament = holder.slice('ligament '.length).replace(/, piece \d+$/, '');  // one that wraps has several
+      meshes.ligaments.set(ligament, [...(meshes.ligaments.get(ligament) ?? []), node]);
     }
   });
   return meshes;
@@ -66,7 +67,7 @@ function jointBox(meshes, root) {
   for (const mesh of meshes.cartilage) box.expandByObject(mesh);
   if (box.isEmpty()) return box.setFromObject(root);
   const center = box.getCenter(new Vector3()), reach = NEAR * 0.5 * box.getSize(new Vector3()).length();
-  for (const ligament of meshes.ligaments.values()) {
+  for (const ligament of [...meshes.ligaments.values()].flat()) {
     for (const end of [new Vector3(0, 0, 0), new Vector3(0, 1, 0)]) {
       const p = ligament.localToWorld(end);
       if (p.distanceTo(center) < reach) box.expandByPoint(p);
@@ -134,14 +135,14 @@ export async function createScene(canvas, model, data) {
     // A step before the end, where an animation would begin again.
     mixer.setTime(Math.min(between(data.times, at), end - 1e-6 * Math.max(1e-6, end - first)));
     for (const ligament of data.ligaments) {
-      const mesh = meshes.ligaments.get(ligament.name);
-      if (!mesh) continue;
       const taut = between(ligament.force, at) > 0;
       const strain = between(ligament.strain, at);
       const rgb = taut ? colorAt(strain / data.strain_top) : SLACK;
-      mesh.material.color = new Color().setRGB(...rgb, SRGBColorSpace);
-      mesh.material.transparent = !taut;
-      mesh.material.opacity = taut ? 1 : 0.55;
+      for (const mesh of meshes.ligaments.get(ligament.name) ?? []) {
+        mesh.material.color = new Color().setRGB(...rgb, SRGBColorSpace);
+        mesh.material.transparent = !taut;
+        mesh.material.opacity = taut ? 1 : 0.55;
+      }
     }
     for (const paint of pressures) paint(Math.round(at));
     gltf.scene.updateMatrixWorld(true);

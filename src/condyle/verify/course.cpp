@@ -1,0 +1,161 @@
+#include "condyle/verify/course.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/verify/coordinates.h"
+#include "condyle/verify/wrap_field.h"
+
+namespace condyle::verification {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A wrap on the path of a ligament at a pose, from the end on the fixed body on.
+struct WrapAt {
+  const WrapDescription* wrap;
+  double larger;
+  RigidTransform X;  ///< from its frame to the ground frame
+  [[nodiscard]] Vector3d own(const Vector3d& ground) const { return X.inverse() * ground; }
+};
+
+std::vector<WrapAt> wraps_at(const Scene& scene, const PoseResult& pose, std::size_t ligament) {
+  const LigamentDescription& described = scene.ligaments[ligament];
+  std::vector<WrapAt> wraps;
+  for (const int index : described.path.wraps) {
+    const WrapDescription& wrap = scene.wraps[static_cast<std::size_t>(index)];
+    const RigidTransform body =
+        wrap.body == scene.moving_body() ? pose.X_BA : RigidTransform{};
+    wraps.push_back({&wrap, described.path.thickness / 2, body * wrap.placement});
+  }
+  if (described.ends[0].body != scene.fixed_body()) std::reverse(wraps.begin(), wraps.end());
+  return wraps;
+}
+
+/// Where the string begins: an end inside a wrap of its own body is on that, closest to it.
+Vector3d begin_of(const Scene& scene,
+                  const PoseResult& pose,
+                  std::size_t ligament,
+                  bool moving,
+                  const std::vector<WrapAt>& wraps) {
+  const LigamentDescription& described = scene.ligaments[ligament];
+  const bool first = (described.ends[0].body == scene.moving_body()) == moving;
+  const Attachment& end = described.ends[first ? 0 : 1];
+  const Vector3d at = in_ground(scene, end, pose.X_BA);
+  if (!described.path.anchors_inside) return at;
+  for (const WrapAt& wrap : wraps) {
+    if (wrap.wrap->body != end.body) continue;
+    if (field_at(wrap.wrap->shape, wrap.larger, wrap.own(at)).f < 0)
+      return wrap.X * closest_on(wrap.wrap->shape, wrap.larger, wrap.own(at));
+  }
+  return at;
+}
+
+/// Of a touch in the ground frame.
+struct TouchAt {
+  std::size_t wrap;
+  bool on_moving;
+  Vector3d P, Q, t_P, t_Q;
+  double arc;
+};
+
+std::vector<TouchAt> touches_at(const PoseResult& pose, std::size_t ligament) {
+  std::vector<TouchAt> touches;
+  if (ligament >= pose.paths.size()) return touches;
+  const std::vector<LineTouch>& told = pose.paths[ligament].touches;
+  for (std::size_t w = 0; w < told.size(); ++w) {
+    if (!told[w].touching) continue;
+    const RigidTransform X = told[w].on_moving ? pose.X_BA : RigidTransform{};
+    touches.push_back({w, told[w].on_moving, X * told[w].P, X * told[w].Q, X.R * told[w].t_P,
+                       X.R * told[w].t_Q, told[w].arc});
+  }
+  return touches;
+}
+
+/// Is the surface left out because the ligament's end lies inside it?
+bool passed_over(const LigamentDescription& ligament,
+                 const WrapAt& wrap,
+                 const PoseResult& pose,
+                 const Scene& scene) {
+  if (ligament.path.anchors_inside) return false;
+  return std::any_of(ligament.ends.begin(), ligament.ends.end(), [&](const Attachment& end) {
+    const Vector3d x = wrap.own(in_ground(scene, end, pose.X_BA));
+    return end.body == wrap.wrap->body && field_at(wrap.wrap->shape, wrap.larger, x).f < 0;
+  });
+}
+
+/// How far a straight piece runs into a surface, at most [mm], about.
+double runs_into(const WrapAt& wrap, const Vector3d& from, const Vector3d& to) {
+  constexpr int kPlaces = 200;
+  double deepest = 0;
+  for (int k = 1; k < kPlaces; ++k) {
+    const Vector3d x = wrap.own(from + (to - from) * k / kPlaces);
+    const Field field = field_at(wrap.wrap->shape, wrap.larger, x);
+    deepest = std::max(deepest, -field.f / std::max(1e-12, field.gradient.norm()));
+  }
+  return deepest;
+}
+
+}  // namespace
+
+Course course_of(const Scene& scene, const PoseResult& pose, std::size_t ligament) {
+  const std::vector<WrapAt> wraps = wraps_at(scene, pose, ligament);
+  Course course;
+  course.on_B = begin_of(scene, pose, ligament, false, wraps);
+  course.on_A = begin_of(scene, pose, ligament, true, wraps);
+  Vector3d last = course.on_B;
+  bool crossed = false;
+  for (const TouchAt& touch : touches_at(pose, ligament)) {
+    course.length += (touch.P - last).norm() + touch.arc;
+    if (!touch.on_moving) course.on_B = touch.Q;
+    if (touch.on_moving && !crossed) course.on_A = touch.P, crossed = true;
+    last = touch.Q;
+  }
+  course.length += (begin_of(scene, pose, ligament, true, wraps) - last).norm();
+  return course;
+}
+
+void check_path(const Subject& subject,
+                const PoseResult& pose,
+                std::size_t ligament,
+                Ledger& ledger) {
+  const Scene& scene = subject.run.scene;
+  const std::vector<WrapAt> wraps = wraps_at(scene, pose, ligament);
+  const std::string& name = scene.ligaments[ligament].name;
+  const auto note = [&](double off, const WrapAt& wrap, const char* what) {
+    ledger.note(Check::kPath, off,
+                fmt::format("ligament \"{}\" on \"{}\": {}", name, wrap.wrap->name, what));
+  };
+  // Of a piece of no length the direction is not known.
+  const auto bend = [](const Vector3d& piece, const Vector3d& tangent) {
+    return piece.norm() > 1e-6 ? (piece.normalized() - tangent).norm() * std::min(1.0, piece.norm())
+                               : 0.0;
+  };
+  const std::vector<TouchAt> touches = touches_at(pose, ligament);
+  const Vector3d end = begin_of(scene, pose, ligament, true, wraps);
+  Vector3d from = begin_of(scene, pose, ligament, false, wraps);
+  for (std::size_t k = 0; k <= touches.size(); ++k) {
+    const Vector3d to = k < touches.size() ? touches[k].P : end;
+    for (const WrapAt& wrap : wraps)
+      if (!passed_over(scene.ligaments[ligament], wrap, pose, scene))
+        note(runs_into(wrap, from, to), wrap, "a straight piece runs through it");
+    if (k > 0) note(bend(to - from, touches[k - 1].t_Q), wraps[touches[k - 1].wrap], "leaves it bent");
+    if (k == touches.size()) break;
+    const TouchAt& touch = touches[k];
+    const WrapAt& wrap = wraps[touch.wrap];
+    note(bend(to - from, touch.t_P), wrap, "comes to it bent");
+    Vector3d x = wrap.own(touch.P), t = wrap.X.R.transpose() * touch.t_P;
+    note(std::abs(field_at(wrap.wrap->shape, wrap.larger, x).f), wrap, "the first point is off it");
+    follow_geodesic(wrap.wrap->shape, wrap.larger, touch.arc, x, t);
+    note((x - wrap.own(touch.Q)).norm(), wrap, "the geodesic ends elsewhere");
+    note((t - wrap.X.R.transpose() * touch.t_Q).norm(), wrap, "the geodesic ends otherwise");
+    note(std::max(0.0, -touch.arc), wrap, "the arc is negative");
+    from = touch.Q;
+  }
+}
+
+}  // namespace condyle::verification
