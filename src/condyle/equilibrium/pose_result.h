@@ -59,8 +59,8 @@ struct PoseResult {
   std::vector<ContactResult> contacts;      ///< as in Scene::contacts
   std::vector<LigamentResult> ligaments;    ///< as in Scene::ligaments
   std::vector<ConditionResult> conditions;  ///< as in Scene::conditions
-  std::vector<LigamentPath> paths;  ///< as in Scene::ligaments; none where all are straight
-  int stability = -1;  ///< 1 stable, 0 neutral or unstable, -1 not computed
+  std::vector<LigamentPath> paths;          ///< as in Scene::ligaments; none where all are straight
+  int stability = -1;                       ///< 1 stable, 0 neutral or unstable, -1 not computed
   double lowest_stiffness =
       std::numeric_limits<double>::quiet_NaN();   ///< of the reduced stiffness [N/mm]
   std::optional<JointStiffness> joint_stiffness;  ///< on request; needs joint frames
@@ -121,7 +121,7 @@ inline constexpr int kEventKindCount = 8;
 struct Event {
   double value = 0;  ///< of what is swept [rad], [mm] or [-]
   EventKind kind = EventKind::kClosing;
-  int contact = 0;  ///< index into Scene::contacts; -1 where no contact is meant
+  int contact = 0;    ///< index into Scene::contacts; -1 where no contact is meant
   int ligament = -1;  ///< index into Scene::ligaments, and
   int wrap = -1;      ///< of the surface among those of its path, from the fixed body on
 };

@@ -133,11 +133,15 @@ std::string event_section(const Run& run) {
   if (run.sweep.events.empty())
     return section("events", "Events", "<p>No contact opened, closed or jumped.</p>\n");
   const SweptQuantity swept = swept_quantity(run);
-  HtmlTable table{"", {swept.heading(), "event", run.scene.wraps.empty() ? "contact" : "contact or ligament"}, {}, {1, 2}};
+  HtmlTable table{
+      "",
+      {swept.heading(), "event", run.scene.wraps.empty() ? "contact" : "contact or ligament"},
+      {},
+      {1, 2}};
   for (const Event& event : run.sweep.events) {
     const std::string subject = event_subject(run.scene, event);
-    table.rows.push_back({number(swept.shown(event.value), 4), name(event.kind),
-                          subject.empty() ? "-" : subject});
+    table.rows.push_back(
+        {number(swept.shown(event.value), 4), name(event.kind), subject.empty() ? "-" : subject});
   }
   return section("events", "Events", html(table));
 }

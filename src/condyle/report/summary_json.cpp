@@ -101,9 +101,9 @@ Json events_of(const Run& run, const SweptQuantity& swept) {
       const LigamentDescription& ligament =
           run.scene.ligaments[static_cast<std::size_t>(event.ligament)];
       row["ligament"] = ligament.name;
-      row["wrap"] = run.scene.wraps[static_cast<std::size_t>(
-                                        wrap_on_path(run.scene, ligament, event.wrap))]
-                        .name;
+      row["wrap"] =
+          run.scene.wraps[static_cast<std::size_t>(wrap_on_path(run.scene, ligament, event.wrap))]
+              .name;
     }
     events.push_back(std::move(row));
   }

@@ -90,9 +90,9 @@ void write_path(const Hdf5Group& ligament,
   group.write("touching", touching, {n, wraps}, "1");
   std::vector<std::string> names;
   for (std::size_t w = 0; w < wraps; ++w)
-    names.push_back(scene.wraps[static_cast<std::size_t>(
-                                    wrap_on_path(scene, described, static_cast<int>(w)))]
-                        .name);
+    names.push_back(
+        scene.wraps[static_cast<std::size_t>(wrap_on_path(scene, described, static_cast<int>(w)))]
+            .name);
   group.write_attribute("touching", "meaning", names);
   for (std::size_t c = 0; c < kColumns.size(); ++c)
     group.write(kColumns[c].name, values[c],
@@ -116,8 +116,8 @@ void read_path(const Hdf5Group& ligament, const Scene& scene, Poses& poses, std:
       touch.on_moving = scene.wraps[static_cast<std::size_t>(wrap)].body == scene.moving_body();
     }
   for (const TouchColumn& column : kColumns) {
-    const std::vector<double> values = group.read(
-        column.name, column.width > 1 ? Shape{n, wraps, column.width} : Shape{n, wraps});
+    const std::vector<double> values =
+        group.read(column.name, column.width > 1 ? Shape{n, wraps, column.width} : Shape{n, wraps});
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t w = 0; w < poses[i].paths[index].touches.size(); ++w) {
         LineTouch& touch = poses[i].paths[index].touches[w];

@@ -256,11 +256,11 @@ void write_events(const Hdf5Group& group, const Run& run, const Unit& unit) {
     kinds.push_back(static_cast<int>(event.kind));
     contacts.push_back(event.contact);
     ligaments.push_back(event.ligament);
-    wraps.push_back(event.ligament < 0
-                        ? -1
-                        : wrap_on_path(run.scene,
-                                       run.scene.ligaments[static_cast<std::size_t>(event.ligament)],
-                                       event.wrap));
+    wraps.push_back(
+        event.ligament < 0
+            ? -1
+            : wrap_on_path(run.scene, run.scene.ligaments[static_cast<std::size_t>(event.ligament)],
+                           event.wrap));
   }
   const Shape n = {events.size()};
   group.write("value", values, n, unit.name);

@@ -12,8 +12,8 @@
 namespace condyle {
 
 /// The ends of a ligament, that on the fixed body first.
-[[nodiscard]] std::array<Eigen::Vector3d, 2> fixed_then_moving(const Scene& scene,
-                                                               const std::array<Attachment, 2>& ends);
+[[nodiscard]] std::array<Eigen::Vector3d, 2> fixed_then_moving(
+    const Scene& scene, const std::array<Attachment, 2>& ends);
 
 /// The surfaces that a ligament may touch, from its end on the fixed body to that on the moving one,
 /// half its thickness larger, in the frames of the files.

@@ -139,9 +139,10 @@ struct LigamentWraps {
   /// A point on the side that is passed, frame of the wrap's body [mm]: one for each of `wraps`, or
   /// none.
   std::vector<Eigen::Vector3d> sides;
-  bool anchors_inside = true;  ///< an end inside its own body's wrap is moved onto it; else that wrap
-                               ///< is passed over
-  double thickness = 0;        ///< of the ligament [mm]; half of it is added to the radii
+  bool anchors_inside =
+      true;              ///< an end inside its own body's wrap is moved onto it; else that wrap
+                         ///< is passed over
+  double thickness = 0;  ///< of the ligament [mm]; half of it is added to the radii
 };
 
 struct LigamentDescription {

@@ -126,13 +126,48 @@ void describe_contacts(const Scene& scene, Out out) {
   }
 }
 
+std::string in_words(const WrapShape& shape) {
+  struct Words {
+    std::string operator()(const WrapSphere& s) const {
+      return fmt::format("sphere, radius {:.6g} mm", s.radius);
+    }
+    std::string operator()(const WrapCylinder& s) const {
+      return fmt::format("cylinder, radius {:.6g} mm", s.radius);
+    }
+    std::string operator()(const WrapEllipsoid& s) const {
+      return fmt::format("ellipsoid, semi-axes {:.6g}, {:.6g}, {:.6g} mm", s.semi_axes.x(),
+                         s.semi_axes.y(), s.semi_axes.z());
+    }
+    std::string operator()(const WrapTorus& s) const {
+      return fmt::format("torus, radii {:.6g} and {:.6g} mm", s.ring, s.tube);
+    }
+  };
+  return std::visit(Words{}, shape);
+}
+
+void describe_wraps(const Scene& scene, Out out) {
+  for (const WrapDescription& wrap : scene.wraps)
+    fmt::format_to(out, "wrap       {}: {} on {}\n", wrap.name, in_words(wrap.shape),
+                   body_name(scene, wrap.body));
+}
+
+/// ", over the medial rim, 2 mm thick"
+std::string path_of(const Scene& scene, const LigamentDescription& ligament) {
+  std::string words;
+  for (const int wrap : ligament.path.wraps)
+    words += fmt::format("{}{}", words.empty() ? ", over " : " and ",
+                         scene.wraps[static_cast<std::size_t>(wrap)].name);
+  if (ligament.path.thickness > 0) words += fmt::format(", {:g} mm thick", ligament.path.thickness);
+  return words;
+}
+
 void describe_ligaments(const Scene& scene, Out out) {
   const RigidTransform X_BA = start_pose(scene);
   for (const LigamentDescription& ligament : scene.ligaments) {
     const double length = ligament_length(scene, ligament, X_BA);
     const double slack = slack_length(ligament.law);
-    fmt::format_to(out, "ligament   {}: {}, {:.4g} mm at the start pose", ligament.name,
-                   word(ligament.law), length);
+    fmt::format_to(out, "ligament   {}: {}{}, {:.4g} mm at the start pose", ligament.name,
+                   word(ligament.law), path_of(scene, ligament), length);
     if (slack > 0) {
       const double strain = std::round(1000 * (length / slack - 1)) / 10 + 0.0;  // never "-0.0"
       fmt::format_to(out, ", slack length {:.4g} mm, strain {:+.1f} %", slack, strain);
@@ -184,6 +219,7 @@ std::string describe(const Scene& scene) {
   const Out out(text);
   describe_bodies(scene, out);
   describe_contacts(scene, out);
+  describe_wraps(scene, out);
   describe_ligaments(scene, out);
   describe_motion(scene, out);
   return text;

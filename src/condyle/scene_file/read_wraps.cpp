@@ -90,8 +90,8 @@ void read_sides(const Section& section, const Scene& scene, LigamentWraps& path)
       path.wraps.size() == 1 ? "a point [x, y, z] on the side that is passed"
                              : "a point on the side that is passed for each wrap [[x, y, z], ...]";
   const Value& value = section.value("side", expected);
-  const bool one = value.type == Value::Type::kArray && !value.items.empty() &&
-                   value.items.front().is_number();
+  const bool one =
+      value.type == Value::Type::kArray && !value.items.empty() && value.items.front().is_number();
   if (one)
     path.sides = {section.vector("side", expected)};
   else
@@ -148,9 +148,10 @@ double start_length_of(const Section& section,
       if (end.wrap < 0) continue;
       const PathWrap& wrap = wraps[static_cast<std::size_t>(end.wrap)];
       if (end.depth > most_depth(wrap.shape))
-        section.fail("ends", fmt::format("an end outside wrap \"{}\" or close under its surface (it "
-                                         "lies {:.3g} mm inside)",
-                                         wrap.name, end.depth));
+        section.fail("ends",
+                     fmt::format("an end outside wrap \"{}\" or close under its surface (it "
+                                 "lies {:.3g} mm inside)",
+                                 wrap.name, end.depth));
     }
   const double length = ligament_length(scene, ligament, start);
   if (!(length > 0))
@@ -167,7 +168,8 @@ void check_wraps_used(const Section& root, const Scene& scene) {
           return std::find(wraps.begin(), wraps.end(), static_cast<int>(i)) != wraps.end();
         });
     if (!used)
-      sections[i].fail_with("no ligament wraps on it, expected wraps = [..] of a ligament to name it");
+      sections[i].fail_with(
+          "no ligament wraps on it, expected wraps = [..] of a ligament to name it");
   }
 }
 

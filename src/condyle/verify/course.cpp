@@ -28,8 +28,7 @@ std::vector<WrapAt> wraps_at(const Scene& scene, const PoseResult& pose, std::si
   std::vector<WrapAt> wraps;
   for (const int index : described.path.wraps) {
     const WrapDescription& wrap = scene.wraps[static_cast<std::size_t>(index)];
-    const RigidTransform body =
-        wrap.body == scene.moving_body() ? pose.X_BA : RigidTransform{};
+    const RigidTransform body = wrap.body == scene.moving_body() ? pose.X_BA : RigidTransform{};
     wraps.push_back({&wrap, described.path.thickness / 2, body * wrap.placement});
   }
   if (described.ends[0].body != scene.fixed_body()) std::reverse(wraps.begin(), wraps.end());
@@ -143,7 +142,8 @@ void check_path(const Subject& subject,
     for (const WrapAt& wrap : wraps)
       if (!passed_over(scene.ligaments[ligament], wrap, pose, scene))
         note(runs_into(wrap, from, to), wrap, "a straight piece runs through it");
-    if (k > 0) note(bend(to - from, touches[k - 1].t_Q), wraps[touches[k - 1].wrap], "leaves it bent");
+    if (k > 0)
+      note(bend(to - from, touches[k - 1].t_Q), wraps[touches[k - 1].wrap], "leaves it bent");
     if (k == touches.size()) break;
     const TouchAt& touch = touches[k];
     const WrapAt& wrap = wraps[touch.wrap];

@@ -24,10 +24,7 @@ struct Field {
                                          const Eigen::Vector3d& x);
 
 /// Moves a point and a unit tangent along the geodesic through them by a length [mm].
-void follow_geodesic(const WrapShape& shape,
-                     double larger,
-                     double length,
-                     Eigen::Vector3d& x,
-                     Eigen::Vector3d& t);
+void follow_geodesic(
+    const WrapShape& shape, double larger, double length, Eigen::Vector3d& x, Eigen::Vector3d& t);
 
 }  // namespace condyle::verification
