@@ -2,12 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
-#include <string>
 
 #include "condyle/equilibrium/equilibrium_solver.h"
 #include "condyle/equilibrium/model_covers.h"
-#include "condyle/input_error.h"
 #include "condyle/math/rotation.h"
 #include "condyle/network/knee_network.h"
 #include "condyle/network/network_equations.h"
@@ -100,20 +99,45 @@ TEST(Statics, TheEnginesPoseIsAPositionOfRestOfTheNetwork) {
   EXPECT_EQ(closed, 2);
 }
 
-// What the network does not carry it does not leave out in silence.
-TEST(Statics, PathsOfTheirOwnAreRefused) {
-  const auto words_of = [](const Model& model) -> std::string {
-    try {
-      (void)make_knee_network(model, {});
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "nothing was thrown";
-  };
+// The position of rest of a knee whose ligaments go through pegs, and no longer that of straight ones.
+TEST(Statics, ALineWithAPathOfItsOwnPullsAsInTheEngine) {
   Model led = test::quadric_knee();
-  led.elements[1].path = std::make_shared<test::PegPath>(Eigen::Vector3d(0, 0, 0));
-  EXPECT_EQ(words_of(led),
-            "ligament \"pACL\" has a path of its own, expected a straight one in a motion");
+  for (const std::size_t i : {1U, 4U}) {
+    const Eigen::Vector3d middle = 0.5 * (led.elements[i].x_C + led.start * led.elements[i].s_D);
+    led.elements[i].path = std::make_shared<test::PegPath>(middle + Eigen::Vector3d(0.3, 0.2, 0.1));
+  }
+  EquilibriumSolver solver(led);
+  ASSERT_TRUE(solver.solve().converged());
+  const Vector6 balance = network_balance(led, solver.state());
+  EXPECT_LT(balance.head<3>().norm(), 1e-9);
+  EXPECT_LT(balance.tail<3>().norm(), 1e-9 * led.length);
+  const Vector6 straight = network_balance(test::quadric_knee(), solver.state());
+  EXPECT_GT(straight.norm(), 1e-3);
+}
+
+// The rate of a line's length is that of the pose.
+TEST(Statics, TheRateOfAPathIsItsDerivativeAlongTheMotion) {
+  Model led = test::quadric_knee();
+  led.elements[1].path = std::make_shared<test::PegPath>(Eigen::Vector3d(3, -8, 5));
+  EquilibriumSolver solver(led);
+  ASSERT_TRUE(solver.solve().converged());
+  const KneeNetwork knee = make_knee_network(led, {});
+  const NetworkState rest = state_at_rest(led, cover_pairs(led), knee, solver.state());
+  const Eigen::Vector3d v(3, -5, 2), omega(0.2, 0.1, -0.3);
+  const auto line_at = [&](double t) {
+    NetworkState state = rest;
+    BodyState& body = state.bodies[0];
+    body.X.R = exp_rotation(t * omega) * body.X.R;
+    body.X.p += t * v;
+    body.v = v;
+    body.omega = omega;
+    NetworkEquations equations(knee.network);
+    EXPECT_TRUE(equations.assemble(state));
+    return equations.lines()[1];
+  };
+  constexpr double h = 1e-5;
+  const double difference = (line_at(h).length - line_at(-h).length) / (2 * h);
+  EXPECT_NEAR(line_at(0).rate, difference, 1e-7 * std::abs(difference));
 }
 
 }  // namespace

@@ -18,18 +18,9 @@ void add_ligaments(const Model& model, Network& network) {
     line.from = add_port(network, name + ": fixed end", kGround, element.x_C);
     line.to = add_port(network, name + ": moving end", 0, element.s_D);
     line.law = element.law;
+    line.path = element.path;
     network.lines.push_back(line);
   }
-}
-
-/// A motion carries straight lines alone.
-void check_carried(const Model& model) {
-  for (std::size_t i = 0; i < model.elements.size(); ++i)
-    if (model.elements[i].path)
-      throw InputError(
-          fmt::format("ligament \"{}\" has a path of its own, expected a straight one "
-                      "in a motion",
-                      model.element_names[i]));
 }
 
 constexpr double kReach = 5.0 / 3;  // of L: how far an open pair is looked for
@@ -54,7 +45,6 @@ void close_next(const Model& model,
 }  // namespace
 
 KneeNetwork make_knee_network(const Model& model, const std::optional<MassProperties>& mass) {
-  check_carried(model);
   KneeNetwork knee;
   Network& network = knee.network;
   network.length = model.length;

@@ -16,7 +16,6 @@ namespace condyle {
 /// says which of Model::pairs each contact of the network is: a pair that can open has several
 /// contacts, for the points at which its surfaces may touch at once. `potentials` says it of those
 /// with a law of their own.
-/// Throws InputError for an element with a path of its own.
 struct KneeNetwork {
   Network network;
   std::vector<int> places, potentials;

@@ -36,7 +36,7 @@ class FrameTeller {
     begin_pose({frame.state.bodies[0].X,
                 model_.joint ? &*model_.joint : nullptr,
                 model_.elements,
-                {},
+                frame.paths,
                 model_.pairs.size()},
                pose);
     // What is viscous adds to the law.

@@ -14,6 +14,7 @@
 #include "condyle/contact/contact_law.h"
 #include "condyle/elements/force_law.h"
 #include "condyle/elements/kinematic_condition.h"
+#include "condyle/elements/line_path.h"
 #include "condyle/elements/load.h"
 #include "condyle/network/mass_properties.h"
 #include "condyle/surface/surface.h"
@@ -44,6 +45,8 @@ struct LineComponent {
   std::optional<ForceLaw> law;  ///< absent: a damper
   double damping = 0;           ///< c [N s/mm]
   double viscous_time = 0;      ///< τ [s]
+  /// Of a line from the ground to a body that is not straight.
+  std::shared_ptr<const LinePath> path = nullptr;
 };
 
 /// Through driver: a load on a body, times a function of time (absent: 1).

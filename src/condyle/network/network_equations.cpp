@@ -29,7 +29,7 @@ bool is_constraint(EdgeKind kind) { return kind == EdgeKind::kConstraint; }
 }  // namespace
 
 NetworkEquations::NetworkEquations(const Network& network)
-    : network_(network), graph_(make_graph(network)), at_(network, graph_) {
+    : network_(network), graph_(make_graph(network)), at_(network, graph_), path_lines_(network) {
   through_ = EdgeVariables::Zero(6, static_cast<Eigen::Index>(graph_.graph.edges.size()));
   inertia_.resize(network.bodies.size());
   inverse_P_.resize(network.bodies.size());
@@ -64,10 +64,25 @@ void NetworkEquations::require_mass() const {
   }
 }
 
+/// dL/dt = -w·(velocity of the port, angular velocity of the body), w the wrench of 1 N about the port.
+bool NetworkEquations::add_path_line(std::size_t line) {
+  const GraphEdge& edge = graph_.graph.edges[graph_.line_edge[line]];
+  const PathLines::Pull pull = path_lines_.pull(line, at_);
+  if (!(pull.length > kLeastLength)) return false;
+  const double rate = -pull.wrench.dot(at_.vertex_twist(edge.to));
+  lines_[line] = line_state(network_.lines[line], pull.length, rate);
+  through_.col(graph_.line_edge[line]) = -lines_[line].force * pull.wrench;
+  return true;
+}
+
 CONDYLE_FMA_CLONE
 bool NetworkEquations::add_lines() {
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     const LineComponent& line = network_.lines[i];
+    if (line.path) {
+      if (!add_path_line(i)) return false;
+      continue;
+    }
     const GraphEdge& edge = graph_.graph.edges[graph_.line_edge[i]];
     const Eigen::Vector3d d = at_.point(line.to) - at_.point(line.from);
     const double length = std::sqrt(d.squaredNorm());

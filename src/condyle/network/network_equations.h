@@ -17,6 +17,7 @@
 #include "condyle/network/constraint_row.h"
 #include "condyle/network/motion.h"
 #include "condyle/network/multiplier_solver.h"
+#include "condyle/network/path_lines.h"
 #include "condyle/network/settle_contacts.h"
 
 namespace condyle {
@@ -69,6 +70,8 @@ class NetworkEquations {
   /// w = Σ K_j y_j of all that is no constraint; the statics of a network is w - Jᵀ μ = 0.
   [[nodiscard]] const Eigen::VectorXd& wrenches() const { return wrenches_; }
   [[nodiscard]] const std::vector<LineState>& lines() const { return lines_; }
+  /// What the paths of lines keep (PathLines::kept).
+  [[nodiscard]] const std::vector<double>& paths() const { return path_lines_.kept(); }
   [[nodiscard]] const ContactLinearization& contact(std::size_t i) const { return contacts_[i].at; }
   /// n.(velocity of the contact point of the body) of any contact [mm/s]
   [[nodiscard]] double gap_rate(std::size_t contact) const;
@@ -96,6 +99,7 @@ class NetworkEquations {
   };
   void list_feeds();
   bool add_lines();
+  bool add_path_line(std::size_t line);
   void add_forces(const NetworkState& state);
   void add_potentials(const NetworkState& state);
   void collect_wrenches();
@@ -115,6 +119,7 @@ class NetworkEquations {
   std::vector<Eigen::Matrix3d> inverse_J_;  ///< of each body about its mass centre, body frame
   std::vector<Matrix6> inverse_P_;
   std::vector<LineState> lines_;
+  PathLines path_lines_;
   std::vector<SettledContact> contacts_;
   std::vector<ConstraintRow> rows_;
   MultiplierSolver solver_;

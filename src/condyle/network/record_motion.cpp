@@ -39,6 +39,7 @@ void record_frame(const NetworkEquations& equations,
   frame.state = state;
   add_contacts(equations, frame);
   frame.lines = equations.lines();
+  frame.paths = equations.paths();
   for (std::size_t k = 0; k < equations.rows().size(); ++k)
     if (equations.rows()[k].condition >= 0)
       frame.condition_multiplier.push_back(equations.multipliers()[static_cast<Eigen::Index>(k)]);
