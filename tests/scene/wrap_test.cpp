@@ -74,6 +74,9 @@ TEST(WrapOfAScene, ALigamentOverNoWrapIsStraight) {
 
 struct WrapMistake {
   std::string wrap, ligament, message;
+  friend std::ostream& operator<<(std::ostream& stream, const WrapMistake& mistake) {
+    return stream << mistake.wrap << "; " << mistake.ligament;
+  }
 };
 
 class BadWrap : public testing::TestWithParam<WrapMistake> {};
@@ -86,37 +89,38 @@ TEST_P(BadWrap, IsNamed) {
 const std::string kOn = "wraps = [\"rim\"]";
 const WrapMistake kMistakes[] = {
     {"body = \"shank\"\nkind = \"sphere\"\ncenter = [3, 5, 0]\nradius = 5", kOn,
-     "47: [[wrap]] \"rim\": body = \"shank\", expected the name of a body: \"femur\" or \"tibia\""},
+     "41: [[wrap]] \"rim\": body = \"shank\", expected the name of a body: \"femur\" or \"tibia\""},
     {"body = \"tibia\"\nkind = \"cone\"", kOn,
-     "48: [[wrap]] \"rim\": kind = \"cone\", expected \"sphere\", \"cylinder\", \"ellipsoid\" or "
+     "42: [[wrap]] \"rim\": kind = \"cone\", expected \"sphere\", \"cylinder\", \"ellipsoid\" or "
      "\"torus\""},
     {"body = \"tibia\"\nkind = \"sphere\"\ncenter = [3, 5, 0]\nradius = 0", kOn,
-     "50: [[wrap]] \"rim\": radius = 0, expected a radius > 0"},
+     "44: [[wrap]] \"rim\": radius = 0, expected a radius > 0"},
     {"body = \"tibia\"\nkind = \"cylinder\"\npoint = [3, 5, 0]\naxis = [0, 0, 1]\nradius = "
      "5\nlength = 4",
      kOn,
-     "52: [[wrap]] \"rim\": length = 4, expected no length: a cylinder that ligaments wrap on has "
+     "46: [[wrap]] \"rim\": length = 4, expected no length: a cylinder that ligaments wrap on has "
      "no "
      "ends"},
     {kSphere, "wraps = []",
-     "55: [[ligament]] \"aACL\": wraps = [], expected names of wraps [\"...\", ...], from the "
+     "49: [[ligament]] \"aACL\": wraps = [], expected names of wraps [\"...\", ...], from the "
      "first "
      "end to the second"},
     {kSphere, "wraps = [\"rib\"]",
-     "55: [[ligament]] \"aACL\": wraps = \"rib\", expected the name of a wrap: \"rim\""},
+     "49: [[ligament]] \"aACL\": wraps = \"rib\", expected the name of a wrap: \"rim\"; did you "
+     "mean \"rim\"?"},
     {kSphere, "wraps = [\"rim\", \"rim\"]",
-     "55: [[ligament]] \"aACL\": wraps = \"rim\", expected each wrap once"},
+     "49: [[ligament]] \"aACL\": wraps = \"rim\", expected each wrap once"},
     {kSphere, kOn + "\nside = [[1, 2, 3], [4, 5, 6]]",
-     "56: [[ligament]] \"aACL\": side = [[1, 2, 3], [4, 5, 6]], expected a point [x, y, z] on the "
+     "50: [[ligament]] \"aACL\": side = [[1, 2, 3], [4, 5, 6]], expected a point [x, y, z] on the "
      "side that is passed"},
     {kSphere, kOn + "\ninside = \"bent\"",
-     "56: [[ligament]] \"aACL\": inside = \"bent\", expected \"anchor\" or \"straight\""},
+     "50: [[ligament]] \"aACL\": inside = \"bent\", expected \"anchor\" or \"straight\""},
     {kSphere, "thickness = 2",
-     "55: [[ligament]] \"aACL\": thickness = 2, expected wraps beside it"},
+     "49: [[ligament]] \"aACL\": thickness = 2, expected wraps beside it"},
     {kSphere, kOn + "\nthickness = -1",
-     "56: [[ligament]] \"aACL\": thickness = -1, expected a thickness >= 0"},
+     "50: [[ligament]] \"aACL\": thickness = -1, expected a thickness >= 0"},
     {"body = \"tibia\"\nkind = \"sphere\"\ncenter = [3, -10, 0]\nradius = 7", kOn,
-     "54: [[ligament]] \"aACL\": ends = [{ body = \"femur\", at = [0, 20, 0] }, { body = "
+     "48: [[ligament]] \"aACL\": ends = [{ body = \"femur\", at = [0, 20, 0] }, { body = "
      "\"tibia\", at "
      "= [0, -10, 0] }], expected an end outside wrap \"rim\" or close under its surface (it lies 4 "
      "mm "
@@ -127,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(Scene, BadWrap, testing::ValuesIn(kMistakes));
 TEST(WrapOfAScene, ThatNoLigamentUsesIsNamed) {
   EXPECT_EQ(
       message_of(wrapped(kSphere, "")),
-      "some/knee.toml:45: [[wrap]] \"rim\": no ligament wraps on it, expected wraps = [..] of a "
+      "some/knee.toml:39: [[wrap]] \"rim\": no ligament wraps on it, expected wraps = [..] of a "
       "ligament to name it");
 }
 

@@ -39,6 +39,8 @@ char letter(PoseStatus status) {
       return 's';
     case PoseStatus::kZeroLength:
       return 'z';
+    case PoseStatus::kNoPath:
+      return 'p';
     case PoseStatus::kOverlap:
       return 'o';
     case PoseStatus::kIterationLimit:

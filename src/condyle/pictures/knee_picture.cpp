@@ -30,11 +30,6 @@ constexpr double kOutline = 0.16;                           // radius of its lin
 constexpr double kKneeRadius = 25;                    // what is smaller has smaller marks [mm]
 constexpr double kContactDot = 1.5, kSmallDot = 0.7;  // [mm]
 
-struct KeptShape {
-  int body;
-  Item item;
-};
-
 void check_size(const PictureOptions& options) {
   const auto good = [](int size) { return size >= 200 && size <= 8000; };
   if (good(options.width) && good(options.height)) return;
@@ -45,6 +40,11 @@ void check_size(const PictureOptions& options) {
 }  // namespace
 
 struct KneePictures::State {
+  struct KeptShape {
+    int body;
+    Item item;
+  };
+
   const Run& run;
   PictureOptions options;
   PageLayout page;
