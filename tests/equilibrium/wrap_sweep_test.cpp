@@ -52,7 +52,7 @@ TEST(WrappedSweep, HasTheClosedFormsOfAStringOverAPost) {
     EXPECT_NEAR(pose.ligaments[0].length, exact.length, 1e-11) << pose.value;
     const LineTouch& touch = pose.paths[0].touches[0];
     EXPECT_EQ(touch.touching, exact.turn > 0) << pose.value;
-    if (touch.touching) EXPECT_NEAR(touch.turn, exact.turn, 1e-10);
+    EXPECT_NEAR(touch.turn, exact.turn, 1e-10);
     // What holds y carries the pull of the strand.
     EXPECT_NEAR(std::abs(pose.conditions[1].multiplier),
                 std::abs(pose.ligaments[0].force * exact.e_y), 1e-9);

@@ -61,7 +61,7 @@ class StringOver {
     result.H_XX = -on_A.F1;
     return result;
   }
-  [[nodiscard]] std::vector<WrappedPath::Touch> touches(const Eigen::Vector3d& X,
+  [[nodiscard]] std::vector<LineTouch> touches(const Eigen::Vector3d& X,
                                                         const Eigen::Vector3d& Y) const {
     return path_->touches({X, Y, Y}, {}, kept_.data());
   }

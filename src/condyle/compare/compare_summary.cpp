@@ -133,6 +133,8 @@ Lines summary_lines(const Scene& scene,
       "of equal force at a strain of {:g}, two contacts that never open): {} of {}",
       ours.count_converged(), n, comparison.options.degree, comparison.options.strain,
       comparison.reference.count_converged(), n));
+  if (!scene.wraps.empty())
+    lines.emplace_back("its springs are straight, those of ligaments that wrap too");
   lines.emplace_back();
   add_fits(scene, surfaces, comparison, lines);
   lines.emplace_back();

@@ -29,8 +29,11 @@ struct LineTouch {
                   Q = Eigen::Vector3d::Zero();  ///< comes to it, from C, and leaves it [mm]
   Eigen::Vector3d t_P = Eigen::Vector3d::Zero(),
                   t_Q = Eigen::Vector3d::Zero();  ///< unit tangents there, from C to D
-  double arc = 0;                                 ///< length on the surface [mm]
-  double turn = 0;                                ///< angle between t_P and t_Q [rad]
+  /// Of a path that is off the surface: the normal at the place that it passes, unit; 0 where that is
+  /// not known.
+  Eigen::Vector3d side = Eigen::Vector3d::Zero();
+  double arc = 0;   ///< length on the surface [mm]
+  double turn = 0;  ///< angle between t_P and t_Q [rad]
 };
 
 /// Constant, and shared by threads. What a path keeps from pose to pose (places, tangents, arcs,

@@ -60,7 +60,9 @@ LineElement spring_of(const LigamentDescription& ligament, int fixed) {
 }  // namespace
 
 Scene with_quadratic_springs(Scene scene, double strain) {
+  scene.wraps.clear();
   for (LigamentDescription& ligament : scene.ligaments) {
+    ligament.path = {};
     const auto* law = std::get_if<ToeLinearLaw>(&ligament.law);
     if (law == nullptr) continue;
     const double stretch = strain * law->slack_length;

@@ -76,7 +76,7 @@ void put_paths(std::string& out, const std::vector<LigamentPath>& paths) {
     for (const LineTouch& touch : path.touches) {
       put(out, static_cast<int>(touch.touching));
       put(out, static_cast<int>(touch.on_moving));
-      for (const Eigen::Vector3d* v : {&touch.P, &touch.Q, &touch.t_P, &touch.t_Q})
+      for (const Eigen::Vector3d* v : {&touch.P, &touch.Q, &touch.t_P, &touch.t_Q, &touch.side})
         put(out, v->data(), 3);
       put(out, touch.arc);
       put(out, touch.turn);
@@ -95,7 +95,7 @@ void take_paths(Taker& take, PoseResult& pose) {
       LineTouch& touch = path.touches.emplace_back();
       touch.touching = take.index(2) == 1;
       touch.on_moving = take.index(2) == 1;
-      for (Eigen::Vector3d* v : {&touch.P, &touch.Q, &touch.t_P, &touch.t_Q})
+      for (Eigen::Vector3d* v : {&touch.P, &touch.Q, &touch.t_P, &touch.t_Q, &touch.side})
         take.numbers(v->data(), 3);
       touch.arc = take.number<double>();
       touch.turn = take.number<double>();

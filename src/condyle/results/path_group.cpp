@@ -22,13 +22,14 @@ struct TouchColumn {
 };
 
 /// Places and tangents in the frame of the wrap's body, from the end on the fixed body on.
-constexpr std::array<TouchColumn, 6> kColumns = {{
+constexpr std::array<TouchColumn, 7> kColumns = {{
     {"first_point", "mm", 3, [](LineTouch& touch) { return touch.P.data(); }},
     {"last_point", "mm", 3, [](LineTouch& touch) { return touch.Q.data(); }},
     {"first_tangent", "1", 3, [](LineTouch& touch) { return touch.t_P.data(); }},
     {"last_tangent", "1", 3, [](LineTouch& touch) { return touch.t_Q.data(); }},
     {"arc", "mm", 1, [](LineTouch& touch) { return &touch.arc; }},
     {"angle", "deg", 1, [](LineTouch& touch) { return &touch.turn; }, kDegree},
+    {"side", "1", 3, [](LineTouch& touch) { return touch.side.data(); }},
 }};
 
 /// How a ligament lay at a pose; null where that has no place.
@@ -81,7 +82,7 @@ void write_path(const Hdf5Group& ligament,
     for (std::size_t w = 0; path != nullptr && w < path->touches.size(); ++w) {
       LineTouch touch = path->touches[w];
       touching[i * wraps + w] = touch.touching ? 1 : 0;
-      for (std::size_t c = 0; touch.touching && c < kColumns.size(); ++c)
+      for (std::size_t c = 0; c < kColumns.size(); ++c)
         for (std::size_t k = 0; k < kColumns[c].width; ++k)
           values[c][(i * wraps + w) * kColumns[c].width + k] =
               kColumns[c].data(touch)[k] / kColumns[c].unit;
@@ -121,7 +122,7 @@ void read_path(const Hdf5Group& ligament, const Scene& scene, Poses& poses, std:
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t w = 0; w < poses[i].paths[index].touches.size(); ++w) {
         LineTouch& touch = poses[i].paths[index].touches[w];
-        for (std::size_t k = 0; touch.touching && k < column.width; ++k)
+        for (std::size_t k = 0; k < column.width; ++k)
           column.data(touch)[k] = values[(i * wraps + w) * column.width + k] * column.unit;
       }
   }

@@ -46,9 +46,14 @@ class SurfacesPath final : public WrappedPath {
                   std::vector<Vector3d>& points) const override;
 
   [[nodiscard]] const std::vector<PathWrap>& wraps() const override { return wraps_; }
-  [[nodiscard]] std::vector<Touch> touches(const LineEnds& ends,
-                                           const RigidTransform& X_BA,
-                                           const double* kept) const override;
+  void add_touches(const LineEnds& ends,
+                   const RigidTransform& X_BA,
+                   const double* kept,
+                   std::vector<LineTouch>& touches) const override;
+  void keep(const std::vector<LineTouch>& touches, double* kept) const override;
+  [[nodiscard]] std::string objection(const LineEnds& ends,
+                                      const RigidTransform& X_BA,
+                                      const double* kept) const override;
   [[nodiscard]] Finding finding(const LineEnds& ends,
                                 const RigidTransform& X_BA,
                                 const double* kept) const override {
@@ -95,22 +100,66 @@ class SurfacesPath final : public WrappedPath {
   std::vector<PathSurface> surfaces_;
 };
 
-std::vector<WrappedPath::Touch> SurfacesPath::touches(const LineEnds& ends,
-                                                      const RigidTransform& X_BA,
-                                                      const double* kept) const {
+void SurfacesPath::add_touches(const LineEnds& ends,
+                               const RigidTransform& X_BA,
+                               const double* kept,
+                               std::vector<LineTouch>& touches) const {
   auto numbers = known(ends, X_BA, kept);
   const PathState state(numbers.data(), wraps_.size());
-  std::vector<Touch> result(wraps_.size());
   for (std::size_t i = 0; i < wraps_.size(); ++i) {
-    if (!state.touches(static_cast<int>(i))) continue;
+    LineTouch& touch = touches.emplace_back();
+    touch.on_moving = wraps_[i].on_moving;
+    if (!state.touches(static_cast<int>(i))) {
+      touch.side = wraps_[i].placement.R * state.side(static_cast<int>(i));
+      continue;
+    }
     const ArcPlace place = state.place(static_cast<int>(i));
     const WrapShape& shape = wraps_[i].shape;
     const RigidTransform& X = wraps_[i].placement;
     const Geodesic g = shoot(shape, frame_at(shape, place.P, place.t), place.arc);
     const double turn = std::atan2(g.from.t.cross(g.to.t).norm(), g.from.t.dot(g.to.t));
-    result[i] = {true, X * g.from.x, X * g.to.x, X.R * g.from.t, X.R * g.to.t, place.arc, turn};
+    touch.touching = true;
+    touch.P = X * g.from.x;
+    touch.Q = X * g.to.x;
+    touch.t_P = X.R * g.from.t;
+    touch.t_Q = X.R * g.to.t;
+    touch.arc = place.arc;
+    touch.turn = turn;
   }
-  return result;
+}
+
+void SurfacesPath::keep(const std::vector<LineTouch>& touches, double* kept) const {
+  if (touches.size() != wraps_.size()) return;
+  PathState state(kept, wraps_.size());
+  state.set(Outcome::kFound, -1, 1);
+  for (std::size_t i = 0; i < wraps_.size(); ++i) {
+    const LineTouch& touch = touches[i];
+    const RigidTransform& X_SW = surfaces_[i].X_SW;
+    if (touch.touching)
+      state.touch(static_cast<int>(i), {X_SW * touch.P, X_SW.R * touch.t_P, touch.arc});
+    else
+      state.leave(static_cast<int>(i), X_SW.R * touch.side);
+  }
+}
+
+std::string SurfacesPath::objection(const LineEnds& ends,
+                                    const RigidTransform& X_BA,
+                                    const double* kept) const {
+  const Finding found = finding(ends, X_BA, kept);
+  const std::string name = found.wrap < 0
+                               ? "its wraps"
+                               : "\"" + wraps_[static_cast<std::size_t>(found.wrap)].name + "\"";
+  switch (found.outcome) {
+    case Outcome::kFound:
+      return {};
+    case Outcome::kNotShortest:
+      return "its path over " + name + " is not the shortest: it goes past a conjugate point";
+    case Outcome::kEndInside:
+      return "an end of it lies inside " + name;
+    case Outcome::kNotFound:
+      break;
+  }
+  return "no shortest path over " + name + " was found";
 }
 
 /// Anchors, and geodesics as chords that turn by 0.05 rad at most.

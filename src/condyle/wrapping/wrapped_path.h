@@ -41,14 +41,6 @@ enum class InsideRule {
 /// Constant and shared by threads.
 class WrappedPath : public LinePath {
  public:
-  /// How a path lies on one of its surfaces at a pose, frame of the surface's body.
-  struct Touch {
-    bool touching = false;
-    Eigen::Vector3d P, Q;      ///< where it comes to the surface, from C, and leaves it [mm]
-    Eigen::Vector3d t_P, t_Q;  ///< unit tangents there, from C to D
-    double arc = 0;            ///< length on the surface [mm]
-    double turn = 0;           ///< angle between t_P and t_Q [rad]
-  };
   enum class Outcome {
     kFound,
     kNotShortest,  ///< stationary, and at or past a conjugate point (B <= 0)
@@ -59,9 +51,13 @@ class WrappedPath : public LinePath {
   [[nodiscard]] virtual const std::vector<PathWrap>& wraps() const = 0;
   /// One for each of wraps(), in order; of a path that kept `kept` at this pose. Allocates for the
   /// caller.
-  [[nodiscard]] virtual std::vector<Touch> touches(const LineEnds& ends,
-                                                   const RigidTransform& X_BA,
-                                                   const double* kept) const = 0;
+  [[nodiscard]] std::vector<LineTouch> touches(const LineEnds& ends,
+                                               const RigidTransform& X_BA,
+                                               const double* kept) const {
+    std::vector<LineTouch> result;
+    add_touches(ends, X_BA, kept, result);
+    return result;
+  }
   struct Finding {
     Outcome outcome = Outcome::kFound;
     int wrap = -1;  ///< the surface that is to blame
