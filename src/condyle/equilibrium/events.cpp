@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "condyle/equilibrium/closing_event.h"
 #include "condyle/equilibrium/path_system.h"
@@ -36,6 +37,47 @@ bool same_touches(const PoseResult& a, const PoseResult& b) {
       if (touches(a, i, w) != touches(b, i, w)) return false;
   return true;
 }
+
+/// Foretells where an arc on a surface vanishes, from the poses that lie on it as they close in.
+class VanishingArc {
+ public:
+  /// Of the first ligament and surface on which two poses differ, if only one lies on it.
+  VanishingArc(const PoseResult& a, const PoseResult& b) {
+    for (std::size_t i = 0; i < a.paths.size(); ++i)
+      for (std::size_t w = 0; w < a.paths[i].touches.size(); ++w)
+        if (!found_ && touches(a, i, w) != touches(b, i, w)) found_ = {i, w};
+  }
+
+  void add(const SolvedPose& pose) {
+    if (!found_ || !touches(pose.result, found_->first, found_->second)) return;
+    before_ = last_;
+    last_ = {pose.value, pose.result.paths[found_->first].touches[found_->second].arc};
+  }
+
+  /// Where to try next between two values: just beyond where the arc vanishes on the line through the
+  /// last two, on the side of the end that is farther from there. Nothing where that says nothing.
+  std::optional<double> trial(double left, double right, double tolerance) {
+    if (!before_ || !last_ || before_->arc == last_->arc) return std::nullopt;
+    const double value =
+        last_->value - last_->arc * (before_->value - last_->value) / (before_->arc - last_->arc);
+    const double off = guess_ ? 2 * std::abs(value - *guess_) : INFINITY;
+    guess_ = value;
+    const double width = std::abs(right - left);
+    const double aside = std::clamp(off, 0.3 * tolerance, 0.25 * width);
+    const double to = std::abs(left - value) > std::abs(right - value) ? left : right;
+    const double next = value + std::copysign(aside, to - value);
+    const bool inside = (next - left) * (right - next) > 0;
+    return inside ? std::optional(next) : std::nullopt;
+  }
+
+ private:
+  struct Arc {
+    double value, arc;
+  };
+  std::optional<std::pair<std::size_t, std::size_t>> found_;
+  std::optional<Arc> before_, last_;
+  std::optional<double> guess_;
+};
 
 /// Do the same points carry, and ligaments lie on the same surfaces?
 bool same_contacts(const PoseResult& a, const PoseResult& b) {
@@ -125,10 +167,21 @@ class EventSearch {
   /// Closes in on the first change of contacts right of `left`; false where a trial has no
   /// equilibrium.
   bool bisect_change(SolvedPose& left, SolvedPose& right) {
-    while (std::abs(right.value - left.value) > options_.tolerance) {
-      std::optional<SolvedPose> middle = between(left, right);
+    VanishingArc arc(left.result, right.result);
+    arc.add(left);
+    arc.add(right);
+    bool halved = true;  // the last step was at least as good as bisection
+    for (double width = std::abs(right.value - left.value); width > options_.tolerance;) {
+      std::optional<SolvedPose> middle;
+      if (const auto value = arc.trial(left.value, right.value, options_.tolerance);
+          value && halved)
+        middle = pose_at(*value, left);
+      if (!middle) middle = between(left, right);
       if (!middle) return false;
+      arc.add(*middle);
       (same_contacts(left.result, middle->result) ? left : right) = *middle;
+      const double before = std::exchange(width, std::abs(right.value - left.value));
+      halved = !halved || width < 0.5 * before;
     }
     return true;
   }

@@ -6,11 +6,49 @@
 #include "condyle/pictures/surface_shapes.h"
 #include "condyle/results/run_view.h"
 #include "condyle/results/strain_scale.h"
+#include "condyle/scene/ligament_path.h"
 
 namespace condyle {
 namespace {
 
 constexpr Paint kBone = {{232, 222, 204}, 0};
+constexpr Paint kWrap = {{196, 206, 176}, 0};
+
+SurfaceDescription surface_of(const WrapDescription& wrap) {
+  SurfaceDescription surface;
+  surface.name = wrap.name;
+  surface.body = wrap.body;
+  surface.point = wrap.placement.p;
+  surface.direction = wrap.placement.R.col(2);
+  if (const auto* sphere = std::get_if<WrapSphere>(&wrap.shape)) {
+    surface.kind = SurfaceKind::kSphere;
+    surface.radius = sphere->radius;
+  } else if (const auto* cylinder = std::get_if<WrapCylinder>(&wrap.shape)) {
+    surface.kind = SurfaceKind::kCylinder;
+    surface.radius = cylinder->radius;
+  } else if (const auto* ellipsoid = std::get_if<WrapEllipsoid>(&wrap.shape)) {
+    surface.kind = SurfaceKind::kEllipsoid;
+    surface.semi_axes = ellipsoid->semi_axes;
+    surface.axes = wrap.placement.R;
+  } else if (const auto* torus = std::get_if<WrapTorus>(&wrap.shape)) {
+    surface.kind = SurfaceKind::kTorus;
+    surface.radius = torus->ring;
+    surface.minor_radius = torus->tube;
+  }
+  return surface;
+}
+
+/// Where ligaments first come to lie on it, body frame; its own place where none does.
+Eigen::Vector3d place_of_touch(const Run& run, std::size_t wrap) {
+  for (const PoseResult& pose : run.sweep.poses)
+    for (std::size_t i = 0; i < pose.paths.size(); ++i)
+      for (std::size_t k = 0; k < pose.paths[i].touches.size(); ++k) {
+        const LineTouch& touch = pose.paths[i].touches[k];
+        const int index = wrap_on_path(run.scene, run.scene.ligaments[i], static_cast<int>(k));
+        if (touch.touching && index == static_cast<int>(wrap)) return touch.P;
+      }
+  return run.scene.wraps[wrap].placement.p;
+}
 
 }  // namespace
 
@@ -38,6 +76,12 @@ std::vector<BodyShape> body_shapes(const Run& run, double spacing) {
                           ? patch_shape(Patch(patch->data), kCartilage, spacing)
                           : exact_shape(surface, kCartilage, place_of_interest(run, surface.body)),
                       static_cast<int>(i)});
+  }
+  for (std::size_t i = 0; i < run.scene.wraps.size(); ++i) {
+    const WrapDescription& wrap = run.scene.wraps[i];
+    const bool endless = std::holds_alternative<WrapCylinder>(wrap.shape);
+    shapes.push_back({wrap.body, Layer::kBone, 0.05, !endless,
+                      exact_shape(surface_of(wrap), kWrap, place_of_touch(run, i)), -1});
   }
   return shapes;
 }

@@ -16,6 +16,7 @@
 #include "condyle/results/contact_path.h"
 #include "condyle/results/motion_view.h"
 #include "condyle/results/run_view.h"
+#include "condyle/scene/ligament_path.h"
 
 namespace condyle {
 namespace {
@@ -73,6 +74,23 @@ double greatest_strain(const Scene& scene,
   for (const std::size_t i : strands) {
     if (i >= pose.ligaments.size() || !(slack_length(scene.ligaments[i].law) > 0)) continue;
     if (!(greatest >= pose.ligaments[i].strain)) greatest = pose.ligaments[i].strain;
+  }
+  return greatest;
+}
+
+/// On one surface, of the strands that may touch it [rad]; 0 off it.
+double greatest_turn(const Scene& scene,
+                     const PoseResult& pose,
+                     const std::vector<std::size_t>& strands,
+                     int wrap) {
+  double greatest = kUnknown;
+  for (const std::size_t i : strands) {
+    if (i >= pose.paths.size()) continue;
+    const std::vector<LineTouch>& touches = pose.paths[i].touches;
+    for (std::size_t k = 0; k < touches.size(); ++k)
+      if (wrap_on_path(scene, scene.ligaments[i], static_cast<int>(k)) == wrap &&
+          !(greatest >= touches[k].turn))
+        greatest = touches[k].turn;
   }
   return greatest;
 }
@@ -215,6 +233,22 @@ Chart ligament_strain_chart(const Run& run) {
   return chart;
 }
 
+Chart wrap_angle_chart(const Run& run) {
+  const Scene& scene = run.scene;
+  Chart chart = chart_of(run, "angle of wrapping (greatest of the strands)");
+  Panel panel{"Angle on the surface [°]", {}, true};
+  for (const LigamentBundle& group : ligament_groups(scene))
+    for (std::size_t w = 0; w < scene.wraps.size(); ++w) {
+      const auto angle = [&](const PoseResult& pose) {
+        return kDegrees * greatest_turn(scene, pose, group.members, static_cast<int>(w));
+      };
+      Curve curve = curve_of(run, group.name + " on " + scene.wraps[w].name, angle);
+      if (has_value(curve)) panel.curves.push_back(std::move(curve));
+    }
+  keep(chart, panel);
+  return chart;
+}
+
 Chart flexion_moment_chart(const Run& run) {
   Chart chart = chart_of(run, "flexion moment of the knee");
   if (run.kind() == RunKind::kSimulation) return chart;
@@ -269,6 +303,7 @@ std::vector<NamedChart> run_charts(const Run& run) {
           {"contact_pressures", contact_pressure_chart(run)},
           {"ligament_forces", ligament_force_chart(run)},
           {"ligament_strains", ligament_strain_chart(run)},
+          {"wrap_angles", wrap_angle_chart(run)},
           {"flexion_moment", flexion_moment_chart(run)},
           {"stability", stability_chart(run)},
           {"energy", energy_chart(run)}};

@@ -31,6 +31,8 @@ struct NamedChart {
 [[nodiscard]] Chart ligament_force_chart(const Run& run);
 /// Of the strands of one ligament the greatest strain; ligaments without a slack length have none.
 [[nodiscard]] Chart ligament_strain_chart(const Run& run);
+/// By how much ligaments that wrap are turned on each surface; nothing where none wraps.
+[[nodiscard]] Chart wrap_angle_chart(const Run& run);
 /// The multiplier of the flexion condition: the moment with which the knee itself would flex.
 [[nodiscard]] Chart flexion_moment_chart(const Run& run);
 /// The lowest eigenvalue of the reduced stiffness: below zero the position is unstable.
