@@ -9,6 +9,7 @@
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/exchange/osim_scene.h"
 #include "condyle/input_error.h"
+#include "condyle/math/rotation.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "scene/small_scene.h"
@@ -100,7 +101,9 @@ TEST(OsimImport, SaysWhatItLeavesOut) {
   const OsimScene scene = imported(kModel, kScene);
   for (const char* note : {
            "contact pf_contact: not between femur and tibia",
-           "4 strands with a wrap object, taken as straight lines: iMCL, pMCL, aDMCL, pDMCL",
+           "4 strands with a wrap object that is on another bone, not active or of another kind, "
+           "taken "
+           "without: iMCL, pMCL, aDMCL, pDMCL",
            "1 strand with points along a bone, replaced by their free part: aMCL",
            "1 strand to other bones, over both bones twice, or without force: PT1",
            "damping of the ligaments",
@@ -110,6 +113,60 @@ TEST(OsimImport, SaysWhatItLeavesOut) {
     EXPECT_TRUE(has_note(scene, note)) << note;
     EXPECT_NE(scene.text.find(std::string("# - ") + note), std::string::npos) << note;
   }
+}
+
+/// `text` with every occurrence of `from` replaced.
+std::string with_all(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+// Four strands of the model name an object that it does not hold. Here it does: an ellipsoid on the tibia
+// whose axes are turned about x, y and z, as turned so far, and a torus, by OpenSim's names of its radii.
+TEST(OsimImport, TakesWrapObjectsOver) {
+  std::ifstream stream(kModel);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  text = with_all(text, "../../meshes", CONDYLE_SOURCE_DIR "/meshes");
+  text = with(text, "<mass>1</mass></Body>\n<Body name=\"tibia_r\">",
+              "<WrapObjectSet name=\"wrapobjectset\"><objects>"
+              "<WrapEllipsoid name=\"Med_Lig_r\"><active>true</active>"
+              "<xyz_body_rotation>0.1 -0.2 0.3</xyz_body_rotation>"
+              "<translation>0.001 -0.0346 -0.0187</translation><quadrant>-y</quadrant>"
+              "<dimensions>0.03 0.018 0.012</dimensions></WrapEllipsoid>"
+              "<WrapTorus name=\"ring\"><inner_radius>0.004</inner_radius>"
+              "<outer_radius>0.02</outer_radius></WrapTorus></objects></WrapObjectSet>"
+              "<mass>1</mass></Body>\n<Body name=\"tibia_r\">");
+  text = with(text, "<wrap_object>Med_Lig_r</wrap_object>", "<wrap_object>ring</wrap_object>");
+  const fs::path folder = test::scratch_folder("osim_wraps");
+  const fs::path file = folder / "model.osim";
+  std::ofstream(file) << text;
+  const OsimScene scene_file = imported(file, folder / "knee.toml");
+  fs::remove_all(folder);
+  const Scene scene = parse_scene(scene_file.text, folder / "knee.toml");
+  ASSERT_EQ(scene.wraps.size(), 2U);
+  const WrapDescription &torus = scene.wraps[0], &ellipsoid = scene.wraps[1];
+  EXPECT_DOUBLE_EQ(std::get<WrapTorus>(torus.shape).ring, 20);
+  EXPECT_DOUBLE_EQ(std::get<WrapTorus>(torus.shape).tube, 4);
+  EXPECT_EQ(ellipsoid.name, "Med_Lig_r");
+  EXPECT_EQ(scene.bodies[static_cast<std::size_t>(ellipsoid.body)].name, "tibia");
+  EXPECT_LT(
+      (std::get<WrapEllipsoid>(ellipsoid.shape).semi_axes - Eigen::Vector3d(30, 18, 12)).norm(),
+      1e-9);
+  const Eigen::Matrix3d R =
+      exp_rotation({0.1, 0, 0}) * exp_rotation({0, -0.2, 0}) * exp_rotation({0, 0, 0.3});
+  EXPECT_LT((ellipsoid.placement.R - R).norm(), 1e-10);
+  EXPECT_LT((ellipsoid.placement.p - Eigen::Vector3d(1, -34.6, -18.7)).norm(), 1e-9);
+  int wrapped = 0;
+  for (const LigamentDescription& ligament : scene.ligaments) {
+    if (ligament.path.wraps.empty()) continue;
+    ++wrapped;
+    EXPECT_FALSE(ligament.path.anchors_inside);
+    EXPECT_EQ(ligament.path.sides.size(), ligament.path.wraps[0] == 1 ? 1U : 0U);
+    if (ligament.path.sides.empty()) continue;
+    EXPECT_LT(R.col(1).dot(ligament.path.sides[0] - ellipsoid.placement.p), -18);
+  }
+  EXPECT_EQ(wrapped, 4);
 }
 
 class BrokenModel : public testing::Test {

@@ -118,11 +118,7 @@ Course course_of(const Scene& scene, const PoseResult& pose, std::size_t ligamen
   return course;
 }
 
-void check_path(const Subject& subject,
-                const PoseResult& pose,
-                std::size_t ligament,
-                Ledger& ledger) {
-  const Scene& scene = subject.run.scene;
+void check_path(const Scene& scene, const PoseResult& pose, std::size_t ligament, Ledger& ledger) {
   const std::vector<WrapAt> wraps = wraps_at(scene, pose, ligament);
   const std::string& name = scene.ligaments[ligament].name;
   const auto note = [&](double off, const WrapAt& wrap, const char* what) {

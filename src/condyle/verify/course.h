@@ -3,8 +3,9 @@
 /// How a ligament goes at a pose, as the run tells it, and whether that is a string pulled taut:
 /// straight pieces that meet each surface along it, and a geodesic on it.
 
+#include "condyle/equilibrium/pose_result.h"
+#include "condyle/scene/scene.h"
 #include "condyle/verify/ledger.h"
-#include "condyle/verify/pose_checks.h"
 
 namespace condyle::verification {
 
@@ -18,9 +19,6 @@ struct Course {
 [[nodiscard]] Course course_of(const Scene& scene, const PoseResult& pose, std::size_t ligament);
 
 /// Of a ligament that wraps.
-void check_path(const Subject& subject,
-                const PoseResult& pose,
-                std::size_t ligament,
-                Ledger& ledger);
+void check_path(const Scene& scene, const PoseResult& pose, std::size_t ligament, Ledger& ledger);
 
 }  // namespace condyle::verification

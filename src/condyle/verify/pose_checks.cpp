@@ -97,7 +97,7 @@ void check_ligaments(const Subject& subject, const PoseResult& pose, Ledger& led
     const LigamentResult& stored = pose.ligaments[i];
     const std::string element = named("ligament", ligament.name);
     const bool wraps = !ligament.path.wraps.empty();
-    if (wraps) check_path(subject, pose, i, ledger);
+    if (wraps) check_path(scene, pose, i, ledger);
     const Vector3d a = in_ground(scene, ligament.ends[0], pose.X_BA),
                    b = in_ground(scene, ligament.ends[1], pose.X_BA);
     const double length = wraps ? course_of(scene, pose, i).length : (a - b).norm();
