@@ -139,6 +139,7 @@ TEST(OsimImport, TakesWrapObjectsOver) {
               "<mass>1</mass></Body>\n<Body name=\"tibia_r\">");
   text = with(text, "<wrap_object>Med_Lig_r</wrap_object>", "<wrap_object>ring</wrap_object>");
   const fs::path folder = test::scratch_folder("osim_wraps");
+  fs::create_directories(folder);
   const fs::path file = folder / "model.osim";
   std::ofstream(file) << text;
   const OsimScene scene_file = imported(file, folder / "knee.toml");

@@ -3,7 +3,7 @@
 /// How a ligament goes at a pose, as the run tells it, and whether that is a string pulled taut:
 /// straight pieces that meet each surface along it, and a geodesic on it.
 
-#include "condyle/equilibrium/pose_result.h"
+#include "condyle/results/run_file.h"
 #include "condyle/scene/scene.h"
 #include "condyle/verify/ledger.h"
 
