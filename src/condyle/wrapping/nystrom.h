@@ -2,7 +2,7 @@
 
 /// One step of y'' = f(y), y = (x, a, r): a point that runs along a geodesic, with its two Jacobi
 /// fields. Störmer's rule with h/1 .. h/6, extrapolated to h = 0: order 12, the global errors being
-/// even in h [Hairer, Nørsett, Wanner 1993, II.14]. Four of them run side by side. Only for .cpp
+/// even in h [Hairer 1993, II.14]. Four of them run side by side. Only for .cpp
 /// files.
 
 #include <algorithm>

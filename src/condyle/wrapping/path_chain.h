@@ -2,7 +2,7 @@
 
 /// A path over the surfaces that it touches, ground frame [mm]: straight pieces between geodesics. Its
 /// unknowns are, of each geodesic, the turn δθ of its first tangent towards b, the shifts δb and δt of its
-/// first point, and δℓ of its arc: natural geodesic variations [Scholz et al. 2015].
+/// first point, and δℓ of its arc: natural geodesic variations [Scholz 2015].
 
 #include <Eigen/Core>
 

@@ -77,28 +77,20 @@ bool insert_anchored(PathChain& chain, int i, const Vector3d& U, const Vector3d&
   return bring_back(chain, {i, aside, Vector3d::Zero(), Vector3d::Zero()});
 }
 
-/// Free ends beyond which the line touches are drawn out first, and drawn in when the surface is back.
-bool insert_free(
-    PathChain& chain, int i, const Vector3d& U, const Vector3d& V, const Vector3d* side) {
+/// From where it touches: free ends beyond which it does are drawn out first, and drawn in when the surface
+/// is back.
+bool bring_in(
+    PathChain& chain, int i, const Vector3d& U, const Vector3d& V, const TouchingLine& line) {
   ChainLink& link = chain.links[i];
-  const RigidTransform X_SG = link.X_GS.inverse();
-  const Vector3d U_S = X_SG * U, V_S = X_SG * V, d = V - U;
-  std::optional<TouchingLine> line;
-  if (side != nullptr) {
-    const auto w = across(*side, d);
-    if (w) line = touching_line(*link.shape, U_S, V_S, X_SG.R * *w);
-  } else {
-    line = nearest_touching_line(*link.shape, U_S, V_S);
-  }
-  if (!line) return false;
-  link.P = line->point;
-  link.t = V_S - U_S;
+  const Vector3d d = V - U;
+  link.P = line.point;
+  link.t = link.X_GS.R.transpose() * d;
   link.arc = 0;
-  const Vector3d aside = -line->shift * (link.X_GS.R * line->w);
-  const double beyond_U = std::max(0.0, 0.05 - line->foot);
-  const double beyond_V = std::max(0.0, line->foot - 0.95);
+  const Vector3d aside = -line.shift * (link.X_GS.R * line.w);
+  const double beyond_U = std::max(0.0, 0.05 - line.foot);
+  const double beyond_V = std::max(0.0, line.foot - 0.95);
   const bool can_draw_U = i == 0, can_draw_V = i + 1 == chain.n;
-  if ((line->foot < 0.001 && !can_draw_U) || (line->foot > 0.999 && !can_draw_V)) return false;
+  if ((line.foot < 0.001 && !can_draw_U) || (line.foot > 0.999 && !can_draw_V)) return false;
   const Vector3d draw_X = can_draw_U ? Vector3d(-beyond_U * d) : Vector3d::Zero();
   const Vector3d draw_Y = can_draw_V ? Vector3d(beyond_V * d) : Vector3d::Zero();
   chain.X += draw_X;
@@ -107,6 +99,33 @@ bool insert_free(
   if (!bring_back(chain, {i, aside, Vector3d::Zero(), Vector3d::Zero()})) return false;
   if (draw_X.isZero(0) && draw_Y.isZero(0)) return true;
   return bring_back(chain, {i, Vector3d::Zero(), draw_X, draw_Y});
+}
+
+/// On the side told, else on the nearest, else on the first of eight that leads to a path.
+bool insert_free(
+    PathChain& chain, int i, const Vector3d& U, const Vector3d& V, const Vector3d* side) {
+  const ChainLink& link = chain.links[i];
+  const RigidTransform X_SG = link.X_GS.inverse();
+  const Vector3d U_S = X_SG * U, V_S = X_SG * V;
+  const PathChain untouched = chain;
+  const auto come = [&](const std::optional<TouchingLine>& line) {
+    if (!line) return false;
+    chain = untouched;
+    return bring_in(chain, i, U, V, *line);
+  };
+  if (side != nullptr) {
+    const auto w = across(*side, V - U);
+    return w && come(touching_line(*link.shape, U_S, V_S, X_SG.R * *w));
+  }
+  const auto nearest = nearest_touching_line(*link.shape, U_S, V_S);
+  if (come(nearest)) return true;
+  if (!nearest) return false;
+  const Vector3d w2 = (V_S - U_S).normalized().cross(nearest->w);
+  for (const int k : {1, -1, 2, -2, 3, -3, 4}) {
+    const Vector3d w = std::cos(k * M_PI / 4) * nearest->w + std::sin(k * M_PI / 4) * w2;
+    if (come(touching_line(*untouched.links[i].shape, U_S, V_S, w))) return true;
+  }
+  return false;
 }
 
 }  // namespace

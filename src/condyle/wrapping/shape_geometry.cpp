@@ -75,7 +75,7 @@ SurfaceFrame frame_of(const CurvatureOf& c, const Vector3d& x, const Vector3d& a
   return frame;
 }
 
-/// t with Σ (a x/(t + a²))² = 1: the closest point is a² x/(t + a²) [Eberly]. Newton from the left on
+/// t with Σ (a x/(t + a²))² = 1: the closest point is a² x/(t + a²) [Eberly 2013]. Newton from the left on
 /// a function that is convex and falls where t > -a_min².
 Vector3d closest_on_ellipsoid(const Vector3d& a, const Vector3d& point) {
   int thin = 0;

@@ -2,12 +2,14 @@
 
 #include <Eigen/Geometry>
 
+#include <limits>
 #include <stdexcept>
 
 #include "condyle/wrapping/one_surface.h"
 #include "condyle/wrapping/path_ends.h"
 #include "condyle/wrapping/path_revision.h"
 #include "condyle/wrapping/path_state.h"
+#include "condyle/wrapping/pull_path.h"
 #include "condyle/wrapping/solve_chain.h"
 
 namespace condyle {

@@ -126,6 +126,15 @@ std::optional<TouchingLine> nearest_touching_line(const WrapShape& shape,
   const auto between = [](const TouchingLine& line) {
     return line.foot > 0.01 && line.foot < 0.99;
   };
+  if (torus) {
+    // The normal where the line lies deepest, if the tube is round there as the line runs.
+    double foot = 0;
+    (void)clearance(shape, U, V, &foot);
+    const Vector3d n = normal_at(shape, U + foot * (V - U)), w = n - n.dot(d) * d;
+    if (w.norm() > 0.5) best = touching_line(shape, U, V, w.normalized());
+    if (best && between(*best)) return best;
+    best.reset();
+  }
   const auto try_angle = [&](double angle) {
     const auto line = touching_line(shape, U, V, std::cos(angle) * w1 + std::sin(angle) * w2);
     if (!line) return;

@@ -3,7 +3,7 @@
 /// The shortest path of a line element over a sequence of smooth surfaces fixed to either body:
 /// straight pieces, and on each surface that it touches a geodesic, without friction. Length, its
 /// exact gradient and Hessian, the wrench and its blocks: natural geodesic variations
-/// [Scholz et al. 2015], one explicit Newton step where one surface is touched.
+/// [Scholz 2015], one explicit Newton step where one surface is touched.
 ///
 /// Whether a surface is touched is held while a pose is solved and revised at a pose that has been
 /// solved, as with contacts: a path that is off a surface comes to lie on it where the straight line
