@@ -12,9 +12,12 @@ namespace {
 
 const Eigen::Vector3d kX(-24, 20, 3), kY(22, -6, 15);
 
-void warm_pull(benchmark::State& state, const std::vector<PathWrap>& wraps) {
+void warm_pull(benchmark::State& state,
+               const std::vector<PathWrap>& wraps,
+               const Eigen::Vector3d& x_C = kX,
+               const Eigen::Vector3d& s_D = kY) {
   const double step = std::pow(10.0, -static_cast<double>(state.range(0)));
-  const auto path = make_wrapped_path(wraps, kX, kY);
+  const auto path = make_wrapped_path(wraps, x_C, s_D);
   auto kept = unknown_path();
   RigidTransform X;
   Wrench unit;
@@ -22,10 +25,10 @@ void warm_pull(benchmark::State& state, const std::vector<PathWrap>& wraps) {
   for (auto _ : state) {
     sign = -sign;
     X.p = Eigen::Vector3d(sign * step, -sign * step, sign * step);
-    L = path->pull({kX, X.p + kY, kY}, X, kept.data(), unit);
+    L = path->pull({x_C, X.p + s_D, s_D}, X, kept.data(), unit);
     benchmark::DoNotOptimize(unit);
   }
-  if (!path->touches({kX, X.p + kY, kY}, X, kept.data()).at(0).touching)
+  if (!path->touches({x_C, X.p + s_D, s_D}, X, kept.data()).at(0).touching)
     state.SkipWithError("it does not touch");
   state.counters["length"] = L;
 }
@@ -42,6 +45,20 @@ BENCHMARK_CAPTURE(warm_pull, ellipsoid_on_A, one(WrapEllipsoid{{30, 18, 12}}, tr
     ->Arg(3)
     ->Arg(6);
 BENCHMARK_CAPTURE(warm_pull, torus, one(WrapTorus{12, 8}))->Arg(1)->Arg(3)->Arg(6);
+
+const Eigen::Vector3d kInside(-6, 10, 9);
+const RigidTransform kBeside{Eigen::Matrix3d::Identity(), {30, -25, 0}};
+const std::vector<PathWrap> kTwo = {
+    {"first", WrapEllipsoid{{30, 18, 12}}, {}, false, {}},
+    {"second", WrapSphere{12}, kBeside, true, Eigen::Vector3d(30, -25, 20)}};
+
+BENCHMARK_CAPTURE(warm_pull, anchored_C, one(WrapEllipsoid{{30, 18, 12}}), kInside, kY)
+    ->Arg(1)
+    ->Arg(3);
+BENCHMARK_CAPTURE(warm_pull, anchored_D, one(WrapEllipsoid{{30, 18, 12}}, true), kY, kInside)
+    ->Arg(1)
+    ->Arg(3);
+BENCHMARK_CAPTURE(warm_pull, two_surfaces, kTwo, kX, Eigen::Vector3d(40, -45, 5))->Arg(1)->Arg(3);
 
 }  // namespace
 }  // namespace condyle::benchmarks

@@ -18,13 +18,14 @@ OneSurfacePath over(const WrapSphere& sphere,
                     const WrapShape&,
                     const Vector3d& X,
                     const Vector3d& Y,
+                    bool anchored,
                     ArcPlace& place,
                     std::optional<ArcEnd>&) {
   OneSurfacePath path;
   const double R = sphere.radius, xx = X.squaredNorm(), yy = Y.squaredNorm();
-  if (!(xx > R * R) || !(yy > R * R)) return path;
+  if (!(anchored || xx > R * R) || !(yy > R * R)) return path;
   const double x = std::sqrt(xx), y = std::sqrt(yy);
-  path.l1 = std::sqrt(xx - R * R);
+  path.l1 = anchored ? 0 : std::sqrt(xx - R * R);
   path.l2 = std::sqrt(yy - R * R);
   Vector3d m = X.cross(Y);
   const double mm = m.norm();
@@ -60,13 +61,14 @@ OneSurfacePath over(const WrapCylinder& cylinder,
                     const WrapShape&,
                     const Vector3d& X,
                     const Vector3d& Y,
+                    bool anchored,
                     ArcPlace& place,
                     std::optional<ArcEnd>&) {
   OneSurfacePath path;
   const double R = cylinder.radius;
   const double xx = X.x() * X.x() + X.y() * X.y(), yy = Y.x() * Y.x() + Y.y() * Y.y();
-  if (!(xx > R * R) || !(yy > R * R)) return path;
-  const double l1 = std::sqrt(xx - R * R), l2 = std::sqrt(yy - R * R);
+  if (!(anchored || xx > R * R) || !(yy > R * R)) return path;
+  const double l1 = anchored ? 0 : std::sqrt(xx - R * R), l2 = std::sqrt(yy - R * R);
   const double sense = place.P.x() * place.t.y() - place.P.y() * place.t.x() < 0 ? -1 : 1;
   const double kept = place.arc * std::hypot(place.t.x(), place.t.y()) / R;
   const double l1_s = sense * l1, l2_s = -sense * l2;
@@ -115,6 +117,7 @@ OneSurfacePath over(const Solid&,
                     const WrapShape& shape,
                     const Vector3d& X,
                     const Vector3d& Y,
+                    bool anchored,
                     ArcPlace& place,
                     std::optional<ArcEnd>& end) {
   constexpr double kLongest = 0.3, kSmall = 1e-9, kSame = 1e-11;
@@ -128,8 +131,8 @@ OneSurfacePath over(const Solid&,
     if (!g.found || !g.to.x.allFinite()) return path;
     const SurfaceFrame &f = g.from, &f_Q = g.to;
     const Vector3d d1 = f.x - X, d2 = Y - f_Q.x;
-    const double l1 = d1.norm(), l2 = d2.norm();
-    const double rho1 = d1.dot(f.n) / l1, rho2 = d1.dot(f.b);
+    const double l1 = anchored ? 0 : d1.norm(), l2 = d2.norm();
+    const double rho1 = anchored ? 0 : d1.dot(f.n) / l1, rho2 = anchored ? 0 : d1.dot(f.b);
     const double rho3 = d2.dot(f_Q.n) / l2, rho4 = d2.dot(f_Q.b);
     path.A = g.a + l2 * g.da;
     path.B = path.A * l1 + g.r + l2 * g.dr;
@@ -149,7 +152,7 @@ OneSurfacePath over(const Solid&,
       ahead *= part;
       slide *= part;
     }
-    place.P = onto_surface(shape, f.x + ahead * f.t + aside * f.b);
+    if (!anchored) place.P = onto_surface(shape, f.x + ahead * f.t + aside * f.b);
     place.t = f.t + turn * f.b + (f.kappa * ahead + f.tau * aside) * f.n;
     place.arc += slide - ahead;
     if (size > (known ? kSame : kSmall)) continue;
@@ -157,12 +160,10 @@ OneSurfacePath over(const Solid&,
     const double y = g.a * aside + g.r * turn, dy = g.da * aside + g.dr * turn;
     const Vector3d Q = f_Q.x + slide * f_Q.t + y * f_Q.b;
     end = {Q, f_Q.t + dy * f_Q.b + (f_Q.kappa * slide + f_Q.tau * y) * f_Q.n, g.a, g.da, g.r, g.dr};
-    path.e_X = place.P - X;
-    path.e_Y = Y - Q;
-    path.l1 = path.e_X.norm();
-    path.l2 = path.e_Y.norm();
-    path.e_X /= path.l1;
-    path.e_Y /= path.l2;
+    path.l1 = anchored ? 0 : (place.P - X).norm();
+    path.l2 = (Y - Q).norm();
+    path.e_X = anchored ? place.t : Vector3d((place.P - X) / path.l1);
+    path.e_Y = (Y - Q) / path.l2;
     path.n = f.n;
     path.b = f.b;
     path.n_Q = f_Q.n;
@@ -181,9 +182,11 @@ OneSurfacePath over(const Solid&,
 OneSurfacePath path_over(const WrapShape& shape,
                          const Vector3d& X,
                          const Vector3d& Y,
+                         bool anchored,
                          ArcPlace& place,
                          std::optional<ArcEnd>& end) {
-  return std::visit([&](const auto& solid) { return over(solid, shape, X, Y, place, end); }, shape);
+  return std::visit(
+      [&](const auto& solid) { return over(solid, shape, X, Y, anchored, place, end); }, shape);
 }
 
 }  // namespace condyle

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The path over one surface, both ends free of it, frame of the surface [mm]: closed forms for sphere
+/// The path over one surface, its end free of it, frame of the surface [mm]: closed forms for sphere
 /// and cylinder, else Newton with the explicit step.
 
 #include <Eigen/Core>
@@ -43,10 +43,12 @@ struct OneSurfacePath {
 
 /// From the place as it is: of a sphere only its plane is looked at where the ends leave it open, of a
 /// cylinder the sense and the nearest angle. The place is that of the path afterwards. `end`, if any,
-/// belongs to the place, before and after; of sphere and cylinder there is none.
+/// belongs to the place, before and after; of sphere and cylinder there is none. `anchored`: X is on
+/// the surface and the path begins there; then l1 = 0, and ∂²L/∂X² is not to be asked for.
 [[nodiscard]] OneSurfacePath path_over(const WrapShape& shape,
                                        const Eigen::Vector3d& X,
                                        const Eigen::Vector3d& Y,
+                                       bool anchored,
                                        ArcPlace& place,
                                        std::optional<ArcEnd>& end);
 

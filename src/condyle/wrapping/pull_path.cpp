@@ -24,8 +24,8 @@ double straight(const PathPose& pose, Wrench* unit) {
   return L;
 }
 
-/// The wrap that alone is touched, both ends of the path being free of it; -1 where there is none.
-int only_free_one(const PathPose& pose, const PathState& state, int& touched) {
+/// The wrap that alone is touched, its end D free of it; -1 where there is none.
+int only_one(const PathPose& pose, const PathState& state, int& touched) {
   int one = -1;
   touched = 0;
   for (int i = 0; i < count(pose); ++i) {
@@ -33,7 +33,7 @@ int only_free_one(const PathPose& pose, const PathState& state, int& touched) {
     one = i;
     ++touched;
   }
-  const bool free = pose.ends.end[0].wrap != one && pose.ends.end[1].wrap != one;
+  const bool free = pose.ends.end[1].wrap != one;
   return touched == 1 && free ? one : -1;
 }
 
@@ -43,12 +43,13 @@ double pull_over_one(const PathPose& pose, int wrap, PathState& state, Wrench* u
   const RigidTransform& X_BA = pose.X_BA;
   const Vector3d &C = pose.ends.end[0].at, &D = pose.ends.end[1].at;
   const Vector3d q = X_BA.R * D, x_D = X_BA.p + q;
+  const bool anchored = pose.ends.end[0].wrap == wrap;
   ArcPlace place = state.place(wrap);
   const Vector3d X =
       surface.X_SW * (surface.on_A ? Vector3d(X_BA.R.transpose() * (C - X_BA.p)) : C);
   const Vector3d Y = surface.X_SW * (surface.on_A ? D : x_D);
   std::optional<ArcEnd> end = state.end(wrap);
-  const OneSurfacePath path = path_over(surface.shape, X, Y, place, end);
+  const OneSurfacePath path = path_over(surface.shape, X, Y, anchored, place, end);
   if (!path.found || !path.shortest) return 0;
   state.touch(wrap, place);
   if (end) state.set_end(wrap, *end);
@@ -106,7 +107,7 @@ double pull_path(const PathPose& pose, PathState state, Wrench* unit) {
     if (state.finding().outcome == Outcome::kNotFound) return 0;
   }
   int touched = 0;
-  const int one = only_free_one(pose, state, touched);
+  const int one = only_one(pose, state, touched);
   if (touched == 0) return straight(pose, unit);
   if (one >= 0) {
     const double L = pull_over_one(pose, one, state, unit);
