@@ -198,6 +198,10 @@ std::optional<std::string> MovingNetwork::lost_contact() {
   constexpr double kAlike = 0.1;  // of the other direction's relative curvature
   evaluated_ = NAN;
   numbers_.unpack(ode_.y(), state_);
+  if (const auto& lost = equations_.lost_line(); lost.line >= 0 && lost.t >= state_.t) {
+    const LineComponent& line = network_.lines[static_cast<std::size_t>(lost.line)];
+    return fmt::format("line \"{}\" has no {}", line.name, line.path ? "shortest path" : "length");
+  }
   if (!equations_.assemble(state_)) return std::nullopt;
   for (std::size_t i = 0; i < network_.contacts.size(); ++i) {
     if (!state_.contacts[i].closed) continue;

@@ -76,17 +76,21 @@ bool NetworkEquations::add_path_line(std::size_t line) {
 }
 
 CONDYLE_FMA_CLONE
-bool NetworkEquations::add_lines() {
+bool NetworkEquations::add_lines(double t) {
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     const LineComponent& line = network_.lines[i];
     if (line.path) {
-      if (!add_path_line(i)) return false;
-      continue;
+      if (add_path_line(i)) continue;
+      lost_line_ = {static_cast<int>(i), t};
+      return false;
     }
     const GraphEdge& edge = graph_.graph.edges[graph_.line_edge[i]];
     const Eigen::Vector3d d = at_.point(line.to) - at_.point(line.from);
     const double length = std::sqrt(d.squaredNorm());
-    if (!(length > kLeastLength)) return false;
+    if (!(length > kLeastLength)) {
+      lost_line_ = {static_cast<int>(i), t};
+      return false;
+    }
     const Eigen::Vector3d e = d * (1 / length);
     const double rate = e.dot(at_.velocity(edge.to) - at_.velocity(edge.from));
     lines_[i] = line_state(line, length, rate);
@@ -141,7 +145,7 @@ bool NetworkEquations::assemble(NetworkState& state, bool open_contacts_too) {
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     if (state.contacts[i].followed) at_.set_contact_point(i, contacts_[i].at.A.c);
   at_.place(state);
-  if (!add_lines()) return false;
+  if (!add_lines(state.t)) return false;
   add_forces(state);
   add_potentials(state);
   constraint_rows(network_, graph_, at_, contacts_, state, rows_);

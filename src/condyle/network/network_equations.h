@@ -72,6 +72,12 @@ class NetworkEquations {
   [[nodiscard]] const std::vector<LineState>& lines() const { return lines_; }
   /// What the paths of lines keep (PathLines::kept).
   [[nodiscard]] const std::vector<double>& paths() const { return path_lines_.kept(); }
+  /// The last line for which an assembly failed, since it had no length or no path, and when [s].
+  struct LostLine {
+    int line = -1;
+    double t = 0;
+  };
+  [[nodiscard]] const LostLine& lost_line() const { return lost_line_; }
   [[nodiscard]] const ContactLinearization& contact(std::size_t i) const { return contacts_[i].at; }
   /// n.(velocity of the contact point of the body) of any contact [mm/s]
   [[nodiscard]] double gap_rate(std::size_t contact) const;
@@ -98,7 +104,7 @@ class NetworkEquations {
     double sign;
   };
   void list_feeds();
-  bool add_lines();
+  bool add_lines(double t);
   bool add_path_line(std::size_t line);
   void add_forces(const NetworkState& state);
   void add_potentials(const NetworkState& state);
@@ -120,6 +126,7 @@ class NetworkEquations {
   std::vector<Matrix6> inverse_P_;
   std::vector<LineState> lines_;
   PathLines path_lines_;
+  LostLine lost_line_;
   std::vector<SettledContact> contacts_;
   std::vector<ConstraintRow> rows_;
   MultiplierSolver solver_;

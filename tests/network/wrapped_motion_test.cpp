@@ -1,0 +1,67 @@
+/// Motions of a body that hangs on strands over surfaces of either body: its energy, while strands touch
+/// and leave.
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "condyle/equilibrium/build_model.h"
+#include "condyle/equilibrium/pose_result.h"
+#include "condyle/network/integrate.h"
+#include "condyle/network/knee_network.h"
+#include "condyle/scene_file/read_scene.h"
+#include "network/integration_options.h"
+#include "support/wrapped_scenes.h"
+
+namespace condyle {
+namespace {
+
+/// Thrown sideways from the start pose; [t], [mm], [s].
+Motion thrown(const Model& model, double viscous_time, double time) {
+  MassProperties mass;
+  mass.mass = 2e-4;
+  mass.center = {0, -65, 0};
+  mass.inertia = Eigen::Vector3d(0.1, 0.08, 0.12).asDiagonal();
+  KneeNetwork knee = make_knee_network(model, mass);
+  for (LineComponent& line : knee.network.lines) line.viscous_time = viscous_time;
+  NetworkState state;
+  state.bodies = {{model.start, {150, 40, -60}, {0, 0, 4}}};
+  return integrate(knee.network, state, options(time, 0.005, 1e-11));
+}
+
+TEST(WrappedMotion, KeepsItsEnergyWhileStrandsTouchAndLeave) {
+  const Scene scene = parse_scene(test::kHangingBody, "knee.toml");
+  const Model model = build_model(scene, {});
+  for (const double viscous_time : {0.0, 2e-3}) {
+    const Motion motion = thrown(model, viscous_time, 0.12);
+    ASSERT_TRUE(motion.completed) << motion.reason;
+    EXPECT_LT(motion.largest_imbalance, 1e-8 * motion.energy_scale);
+    std::set<std::size_t> touched, left;
+    for (const MotionFrame& frame : motion.frames) {
+      PoseResult pose;
+      begin_pose({frame.state.bodies[0].X, nullptr, model.elements, frame.paths, 0}, pose);
+      for (std::size_t i = 0; i < pose.paths.size(); ++i) {
+        EXPECT_NEAR(pose.ligaments[i].length, frame.lines[i].length, 1e-9);
+        for (const LineTouch& touch : pose.paths[i].touches)
+          (touch.touching ? touched : left).insert(i);
+      }
+    }
+    std::set<std::size_t> both;
+    for (const std::size_t strand : touched)
+      if (left.count(strand) > 0) both.insert(strand);
+    EXPECT_GE(both.size(), 1U) << "no strand touched and left";
+    EXPECT_EQ(motion.frames.back().dissipated > 0, viscous_time > 0);
+  }
+}
+
+// It turns until a strand slips off the end of the egg: there is no shortest path over it any more.
+TEST(WrappedMotion, EndsWhereAStrandSlipsOff) {
+  const Scene scene = parse_scene(test::kHangingBody, "knee.toml");
+  const Motion motion = thrown(build_model(scene, {}), 0, 0.5);
+  EXPECT_FALSE(motion.completed);
+  EXPECT_NE(motion.reason.find("line \"both\" has no shortest path"), std::string::npos)
+      << motion.reason;
+}
+
+}  // namespace
+}  // namespace condyle
