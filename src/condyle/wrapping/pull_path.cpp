@@ -45,6 +45,7 @@ double pull_over_one(const PathPose& pose, int wrap, PathState& state, Wrench* u
   const Vector3d q = X_BA.R * D, x_D = X_BA.p + q;
   const bool anchored = pose.ends.end[0].wrap == wrap;
   ArcPlace place = state.place(wrap);
+  if (anchored) place.P = pose.ends.end[0].anchor;
   const Vector3d X =
       surface.X_SW * (surface.on_A ? Vector3d(X_BA.R.transpose() * (C - X_BA.p)) : C);
   const Vector3d Y = surface.X_SW * (surface.on_A ? D : x_D);
