@@ -24,9 +24,9 @@ double lowest_gap(const Surface& on_B,
   double lowest = INFINITY;
   for (const Place& place : on_A.samples(spacing)) {
     const Eigen::Vector3d p = X * on_A.evaluate(place).c;
-    const Place foot = on_B.closest(p, on_B.seed(p));
-    if (on_B.edge_distance(foot) < 0) continue;
-    const SurfacePoint at = on_B.evaluate(foot);
+    const Place opposite = on_B.closest(p, on_B.seed(p));
+    if (on_B.edge_distance(opposite) < 0) continue;
+    const SurfacePoint at = on_B.evaluate(opposite);
     const double gap = (p - at.c).dot(at.n);
     if (gap > -10)
       lowest = std::min(lowest, gap);  // farther behind an open patch is not inside the bone

@@ -99,7 +99,7 @@ class BruteForce {
     std::vector<std::vector<Place>> places;
     std::vector<std::vector<Eigen::Vector3d>> points;
     std::vector<std::vector<double>> gaps;
-    std::vector<std::vector<Place>> feet;
+    std::vector<std::vector<Place>> opposite;
   };
 
   static void sheet(const Surface& surface, double step, Sheet& sheet) {
@@ -116,7 +116,7 @@ class BruteForce {
         sheet.points.back().push_back(patch.evaluate_frame(sheet.places.back().back()).c);
       }
       sheet.gaps.emplace_back(sheet.places.back().size());
-      sheet.feet.emplace_back(sheet.places.back().size());
+      sheet.opposite.emplace_back(sheet.places.back().size());
     }
   }
 
@@ -131,15 +131,16 @@ class BruteForce {
     for (std::size_t i = 0; i < sheet.places.size(); ++i)
       for (std::size_t j = 0; j < sheet.places[i].size(); ++j) {
         const Eigen::Vector3d p = to_other * sheet.points[i][j];
-        Place foot = j > 0 ? sheet.feet[i][j - 1] : (i > 0 ? sheet.feet[i - 1][j] : other.seed(p));
-        SurfacePoint at = other.evaluate_frame(foot);
+        Place closest =
+            j > 0 ? sheet.opposite[i][j - 1] : (i > 0 ? sheet.opposite[i - 1][j] : other.seed(p));
+        SurfacePoint at = other.evaluate_frame(closest);
         for (int k = 0; k < 4; ++k) {
           const Eigen::Vector3d d = p - at.c, t = d - d.dot(at.n) * at.n;
           if (t.squaredNorm() < 1e-6) break;
-          foot = other.moved(foot, at, t);
-          at = other.evaluate_frame(foot);
+          closest = other.moved(closest, at, t);
+          at = other.evaluate_frame(closest);
         }
-        sheet.feet[i][j] = foot;
+        sheet.opposite[i][j] = closest;
         sheet.gaps[i][j] = at.n.dot(p - at.c);
       }
     const auto lowest = [&](std::size_t i, std::size_t j) {
@@ -151,8 +152,8 @@ class BruteForce {
     for (std::size_t i = 0; i < sheet.places.size(); ++i)
       for (std::size_t j = 0; j < sheet.places[i].size(); ++j) {
         if (sheet.gaps[i][j] > cutoff + 0.01 || !lowest(i, j)) continue;
-        add(from_A ? sheet.feet[i][j] : sheet.places[i][j],
-            from_A ? sheet.places[i][j] : sheet.feet[i][j], X, cutoff, margin, minima);
+        add(from_A ? sheet.opposite[i][j] : sheet.places[i][j],
+            from_A ? sheet.places[i][j] : sheet.opposite[i][j], X, cutoff, margin, minima);
       }
   }
 

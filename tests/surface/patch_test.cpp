@@ -104,8 +104,8 @@ TEST(Patch, ClosestPointHasTheNormalThroughThePoint) {
   const Patch patch(wavy_sheet(3, 3));
   for (const Eigen::Vector3d& p :
        {Eigen::Vector3d(12, 9, 5), Eigen::Vector3d(20, 15, -3), Eigen::Vector3d(8, 20, 1)}) {
-    const SurfacePoint foot = patch.evaluate(patch.closest(p, patch.seed(p)));
-    EXPECT_LT(foot.n.cross(p - foot.c).norm(), 1e-10);
+    const SurfacePoint closest = patch.evaluate(patch.closest(p, patch.seed(p)));
+    EXPECT_LT(closest.n.cross(p - closest.c).norm(), 1e-10);
   }
 }
 

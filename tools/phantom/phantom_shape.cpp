@@ -38,7 +38,7 @@ ShapeValue shape_derivatives(Bone bone, const Eigen::Vector3d& p) {
 }
 
 Eigen::Vector3d project(Bone bone, const Eigen::Vector3d& p) {
-  // Newton on c - p + λ ∇f = 0, f = 0; from the foot of the gradient.
+  // Newton on c - p + λ ∇f = 0, f = 0; from where the gradient meets it.
   Eigen::Vector3d c = drop_onto(bone, p);
   double lambda = 0;
   for (int i = 0; i < 20; ++i) {

@@ -16,14 +16,14 @@ constexpr double kFlat = 1e-6;  // curvature over one reach: no minimum of its o
 std::optional<PredictedMinimum> predict_minimum(const Eigen::Vector3d& p,
                                                 const Eigen::Vector3d& n,
                                                 const Eigen::Matrix3d& K,
-                                                const SurfacePoint& foot,
+                                                const SurfacePoint& opposite,
                                                 double gap,
                                                 double reach) {
-  const double facing = -n.dot(foot.n);
+  const double facing = -n.dot(opposite.n);
   if (!(facing > kSteep)) return std::nullopt;
-  const Eigen::Vector3d e0 = foot.n.unitOrthogonal(), e1 = foot.n.cross(e0);
-  const Eigen::Vector3d slope = n / facing - foot.K * (p - foot.c);
-  const Eigen::Vector3d K0 = -(foot.K * e0 + K * e0), K1 = -(foot.K * e1 + K * e1);
+  const Eigen::Vector3d e0 = opposite.n.unitOrthogonal(), e1 = opposite.n.cross(e0);
+  const Eigen::Vector3d slope = n / facing - opposite.K * (p - opposite.c);
+  const Eigen::Vector3d K0 = -(opposite.K * e0 + K * e0), K1 = -(opposite.K * e1 + K * e1);
   Eigen::Matrix2d H;
   H << e0.dot(K0), e0.dot(K1), e0.dot(K1), e1.dot(K1);
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal;

@@ -217,14 +217,14 @@ void Descent::add_memory(int pair,
   for (const auto& [owner, place] : memory_) {
     if (owner != pair) continue;
     const Eigen::Vector3d point = X * on_A.evaluate(place).c;
-    const Place foot = on_B.closest(point, on_B.seed(point));
-    if (on_B.edge_distance(foot) < 0) continue;
+    const Place opposite = on_B.closest(point, on_B.seed(point));
+    if (on_B.edge_distance(opposite) < 0) continue;
     const bool isolated = std::all_of(constraints.begin() + static_cast<std::ptrdiff_t>(first),
                                       constraints.end(), [&](const Constraint& c) {
                                         return (X * on_A.evaluate(c.on_A).c - point).norm() >
                                                kSamePoint * model_.length;
                                       });
-    const Constraint constraint = constrain(pair, foot, place, X);
+    const Constraint constraint = constrain(pair, opposite, place, X);
     if (isolated && constraint.gap < kLookAhead * options_.longest_step * model_.length) {
       constraints.push_back(constraint);
     }

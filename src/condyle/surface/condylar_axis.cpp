@@ -184,10 +184,10 @@ CondylarAxis in_body_frame(const Cylinders& c, const BoneFrame& frame) {
   };
   CondylarAxis axis;
   const Vector3d d = c.direction();
-  const Vector3d foot(c.x0, c.y0, 0);
+  const Vector3d middle(c.x0, c.y0, 0);
   const Vector3d distal = (-Vector3d::UnitY() + d * d.y()).normalized();
   const Vector3d backward = -Vector3d::UnitX() + d * d.x();
-  axis.point = frame.origin + vector(foot);
+  axis.point = frame.origin + vector(middle);
   axis.direction = vector(d);
   axis.distal = vector(distal);
   axis.posterior = vector((backward - distal * distal.dot(backward)).normalized());

@@ -18,7 +18,7 @@ Vector3d on_segment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
   return a + std::clamp(ab.dot(p - a) / std::max(ab.squaredNorm(), 1e-300), 0.0, 1.0) * ab;
 }
 
-/// The foot of the perpendicular where it falls inside, else the nearest point of the edges.
+/// Where the perpendicular meets it, if that is inside, else the nearest point of the edges.
 Vector3d on_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const Vector3d n = (b - a).cross(c - a);
   const double area = n.squaredNorm();

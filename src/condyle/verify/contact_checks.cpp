@@ -114,25 +114,25 @@ void check_point(const PairOfSides& pair,
                  const std::string& element,
                  bool closed,
                  Ledger& ledger) {
-  const Foot on_B = pair.fixed->foot(point.point_ground),
-             on_A = pair.moving->foot(point.point_moving);
+  const ClosestPoint on_B = pair.fixed->closest(point.point_ground),
+                     on_A = pair.moving->closest(point.point_moving);
   const auto body = [&](int surface) {
     return scene
         .bodies[static_cast<std::size_t>(scene.surfaces[static_cast<std::size_t>(surface)].body)]
         .name;
   };
   const double far = 1e-14 * (point.point_ground.norm() + X.p.norm() + point.point_moving.norm());
-  const auto on_surface = [&](const Foot& foot, const Vector3d& p, int surface) {
-    const double off = (p - foot.point).norm();
+  const auto on_surface = [&](const ClosestPoint& closest, const Vector3d& p, int surface) {
+    const double off = (p - closest.point).norm();
     ledger.note(
         Check::kOnSurface, off, element,
         fmt::format("{} of {} lies {:.3g} mm beside surface \"{}\"", place(p), body(surface), off,
                     scene.surfaces[static_cast<std::size_t>(surface)].name),
         1e-8 + 100 * far);
     if (!closed) return;
-    ledger.note(Check::kKnown, -foot.edge, element,
+    ledger.note(Check::kKnown, -closest.edge, element,
                 fmt::format("{} of {} lies {:.3g} mm beyond the known part of surface \"{}\"",
-                            place(p), body(surface), -foot.edge,
+                            place(p), body(surface), -closest.edge,
                             scene.surfaces[static_cast<std::size_t>(surface)].name));
   };
   on_surface(on_B, point.point_ground, pair.fixed_surface);

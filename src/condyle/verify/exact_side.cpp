@@ -55,9 +55,9 @@ class EllipsoidSide final : public SurfaceSide {
     return radii_.maxCoeff() / (radii_.minCoeff() * radii_.minCoeff());
   }
 
-  /// The foot y of x has x - y = t y/r² for the greatest root t of Σ (r x/(t + r²))² = 1
+  /// The point y closest to x has x - y = t y/r² for the greatest root t of Σ (r x/(t + r²))² = 1
   /// [Eberly 2013].
-  [[nodiscard]] Foot foot(const Vector3d& p) const override {
+  [[nodiscard]] ClosestPoint closest(const Vector3d& p) const override {
     Vector3d x = axes_.transpose() * (p - center_);
     for (int i = 0; i < 3; ++i)
       if (std::abs(x[i]) < 1e-13 * radii_[i]) x[i] = std::copysign(1e-13 * radii_[i], x[i]);
@@ -86,14 +86,14 @@ class EllipsoidSide final : public SurfaceSide {
     }
     Vector3d y;
     for (int i = 0; i < 3; ++i) y[i] = square[i] * x[i] / (t + square[i]);
-    Foot foot;
+    ClosestPoint closest;
     const Vector3d outward = axes_ * y.cwiseQuotient(square).normalized();
-    foot.point = center_ + axes_ * y;
-    foot.n = sign_ * outward;
-    foot.distance = foot.n.dot(p - foot.point);
-    foot.edge = kForEver;
-    foot.curvature = curvature(0, 0, 0);
-    return foot;
+    closest.point = center_ + axes_ * y;
+    closest.n = sign_ * outward;
+    closest.distance = closest.n.dot(p - closest.point);
+    closest.edge = kForEver;
+    closest.curvature = curvature(0, 0, 0);
+    return closest;
   }
 
  private:
@@ -126,7 +126,7 @@ class PlaneSide final : public SurfaceSide {
     return std::isinf(radius_) ? kForEver : radius_ - std::hypot(u, v);
   }
   [[nodiscard]] double curvature(int, double, double) const override { return 0; }
-  [[nodiscard]] Foot foot(const Vector3d& p) const override {
+  [[nodiscard]] ClosestPoint closest(const Vector3d& p) const override {
     const double height = n_.dot(p - point_);
     const Vector3d on = p - height * n_;
     return {height, on, n_, edge(0, (on - point_).dot(x_), (on - point_).dot(y_)), 0};
@@ -164,7 +164,7 @@ class CylinderSide final : public SurfaceSide {
     return length_ / 2 - std::abs(v);
   }
   [[nodiscard]] double curvature(int, double, double) const override { return 1 / radius_; }
-  [[nodiscard]] Foot foot(const Vector3d& p) const override {
+  [[nodiscard]] ClosestPoint closest(const Vector3d& p) const override {
     const Vector3d q = p - point_;
     const double along = a_.dot(q);
     Vector3d out = q - along * a_;
@@ -206,7 +206,7 @@ class TorusSide final : public SurfaceSide {
   [[nodiscard]] double curvature(int, double, double) const override {
     return 1 / std::min(minor_, major_ - minor_);
   }
-  [[nodiscard]] Foot foot(const Vector3d& p) const override {
+  [[nodiscard]] ClosestPoint closest(const Vector3d& p) const override {
     const Vector3d q = p - center_;
     Vector3d out = q - a_.dot(q) * a_;
     out = out.norm() > 0 ? Vector3d(out.normalized()) : x_;
@@ -255,7 +255,7 @@ class HeightSide final : public SurfaceSide {
     return 2 * (std::abs(h.xx) + 2 * std::abs(h.xy) + std::abs(h.yy));
   }
   /// Newton on the squared distance from the point below, kept a descent.
-  [[nodiscard]] Foot foot(const Vector3d& p) const override {
+  [[nodiscard]] ClosestPoint closest(const Vector3d& p) const override {
     const Vector3d q = axes_.transpose() * (p - origin_);
     double x = q.x(), y = q.y();
     const auto square = [&](double a, double b) {
@@ -278,13 +278,13 @@ class HeightSide final : public SurfaceSide {
       if (std::hypot(dx, dy) < 1e-13) break;
     }
     const Height h = height(x, y);
-    Foot foot;
-    foot.point = origin_ + axes_ * Vector3d(x, y, h.z);
-    foot.n = sign_ * (axes_ * Vector3d(-h.x, -h.y, 1).normalized());
-    foot.distance = foot.n.dot(p - foot.point);
-    foot.edge = edge(0, x, y);
-    foot.curvature = curvature(0, x, y);
-    return foot;
+    ClosestPoint closest;
+    closest.point = origin_ + axes_ * Vector3d(x, y, h.z);
+    closest.n = sign_ * (axes_ * Vector3d(-h.x, -h.y, 1).normalized());
+    closest.distance = closest.n.dot(p - closest.point);
+    closest.edge = edge(0, x, y);
+    closest.curvature = curvature(0, x, y);
+    return closest;
   }
 
  private:

@@ -12,8 +12,9 @@ namespace {
 constexpr double kCell = 2;         ///< [mm]
 constexpr double kNoise = 5e-7;     ///< gaps of which no lower ones are looked for beside [mm]
 constexpr std::size_t kGroup = 24;  ///< cells
-constexpr double kBeside = 1;       ///< so near to each other two points have feet that do too [mm]
-constexpr double kLeaf = 0.15;      ///< [mm]
+constexpr double kBeside =
+    1;  ///< so near to each other two points have closest points that do too [mm]
+constexpr double kLeaf = 0.15;  ///< [mm]
 
 }  // namespace
 
@@ -52,18 +53,18 @@ GapProbe::Node GapProbe::node(const Cell& cell) const {
 }
 
 GapProbe::Reading GapProbe::read(
-    const RigidTransform& X, int chart, double u, double v, const Foot* near) const {
+    const RigidTransform& X, int chart, double u, double v, const ClosestPoint* near) const {
   const ChartPoint at = sampled_.at(chart, u, v);
   const Vector3d p = X * at.p;
-  const Foot foot = near != nullptr ? other_.foot_near(p, *near) : other_.foot(p);
-  const Vector3d n = X.R.transpose() * foot.n, normal = at.p_u.cross(at.p_v).normalized();
-  const bool known = foot.edge >= 0 && sampled_.edge(chart, u, v) >= 0;
+  const ClosestPoint closest = near != nullptr ? other_.closest_near(p, *near) : other_.closest(p);
+  const Vector3d n = X.R.transpose() * closest.n, normal = at.p_u.cross(at.p_v).normalized();
+  const bool known = closest.edge >= 0 && sampled_.edge(chart, u, v) >= 0;
   const double slope = (n - n.dot(normal) * normal).norm();
-  return {foot.distance, known, at.p, {n.dot(at.p_u), n.dot(at.p_v)}, slope, foot};
+  return {closest.distance, known, at.p, {n.dot(at.p_u), n.dot(at.p_v)}, slope, closest};
 }
 
 LowestGap GapProbe::refine(
-    const RigidTransform& X, int chart, double u, double v, const Foot* near) const {
+    const RigidTransform& X, int chart, double u, double v, const ClosestPoint* near) const {
   Reading now = read(X, chart, u, v, near);
   LowestGap lowest;
   if (!now.known) return lowest;
@@ -72,8 +73,8 @@ LowestGap GapProbe::refine(
   for (int i = 0; i < 25; ++i) {
     constexpr double kStep = 1e-4, kLongest = 0.5;  // [mm]
     const Eigen::Vector2d g(now.gradient.x() * U, now.gradient.y() * V);
-    const Reading du = read(X, chart, u + kStep * U, v, &now.foot),
-                  dv = read(X, chart, u, v + kStep * V, &now.foot);
+    const Reading du = read(X, chart, u + kStep * U, v, &now.closest),
+                  dv = read(X, chart, u, v + kStep * V, &now.closest);
     Eigen::Matrix2d H;
     H << du.gradient.x() * U - g.x(), dv.gradient.x() * U - g.x(), du.gradient.y() * V - g.y(),
         dv.gradient.y() * V - g.y();
@@ -83,7 +84,7 @@ LowestGap GapProbe::refine(
     if (step.norm() > kLongest) step *= kLongest / step.norm();
     bool moved = false;
     for (int half = 0; half < 12 && !moved; ++half, step /= 2) {
-      const Reading next = read(X, chart, u + step.x() * U, v + step.y() * V, &now.foot);
+      const Reading next = read(X, chart, u + step.x() * U, v + step.y() * V, &now.closest);
       if (!next.known || !(next.gap < now.gap)) continue;
       moved = true;
       u += step.x() * U, v += step.y() * V, now = next;
@@ -101,7 +102,7 @@ void GapProbe::keep(const LowestGap& found, LowestGap& best) const {
 /// The middle of a leaf, or a corner where that is not known.
 void GapProbe::look_closely(const RigidTransform& X,
                             const Node& node,
-                            const Foot* near,
+                            const ClosestPoint* near,
                             LowestGap& best) const {
   const Cell& c = node.cell;
   const double u = (c.u0 + c.u1) / 2, v = (c.v0 + c.v1) / 2;
@@ -114,7 +115,7 @@ void GapProbe::look_closely(const RigidTransform& X,
 
 void GapProbe::look(const RigidTransform& X,
                     const Node& node,
-                    const Foot* near,
+                    const ClosestPoint* near,
                     LowestGap& best) const {
   if (near == nullptr && other_.is_clear(X * node.middle, node.radius)) return;
   const Cell& c = node.cell;
@@ -131,13 +132,13 @@ void GapProbe::look_into(const RigidTransform& X,
   const Cell& c = node.cell;
   if (at.known) keep({at.gap, at.point}, best);
   // Below what is not known of the other side nothing is said.
-  if (at.gap < 0 && at.foot.edge < -3 * r) return;
+  if (at.gap < 0 && at.closest.edge < -3 * r) return;
   double bound = at.gap - r;
-  if (std::abs(at.gap) * at.foot.curvature < 0.5)
-    bound = std::max(bound,
-                     at.gap - at.slope * r - (node.curvature + 2 * at.foot.curvature) * r * r / 2);
+  if (std::abs(at.gap) * at.closest.curvature < 0.5)
+    bound = std::max(
+        bound, at.gap - at.slope * r - (node.curvature + 2 * at.closest.curvature) * r * r / 2);
   if (bound > wanted) return;
-  if (r <= leaf_) return look_closely(X, node, &at.foot, best);
+  if (r <= leaf_) return look_closely(X, node, &at.closest, best);
   const double du = (c.u1 - c.u0) / 2, dv = (c.v1 - c.v0) / 2;
   for (const double a : {c.u0, c.u0 + du})
     for (const double b : {c.v0, c.v0 + dv}) {
@@ -145,7 +146,7 @@ void GapProbe::look_into(const RigidTransform& X,
       if (sampled_.edge(c.chart, u, v) < -1.5 * r) continue;
       const Node part{
           {c.chart, a, a + du, b, b + dv}, sampled_.at(c.chart, u, v).p, 0.55 * r, node.curvature};
-      look(X, part, r < kBeside ? &at.foot : nullptr, best);
+      look(X, part, r < kBeside ? &at.closest : nullptr, best);
     }
 }
 
@@ -193,7 +194,7 @@ LowestGap GapProbe::lowest(const RigidTransform& X) const {
   LowestGap best;
   for (const Seen& one : seen) {
     if (!one.at.known) continue;
-    look_closely(X, *one.node, &one.at.foot, best);
+    look_closely(X, *one.node, &one.at.closest, best);
     break;
   }
   for (const Seen& one : seen) look_into(X, *one.node, one.at, best);

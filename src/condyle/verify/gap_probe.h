@@ -41,7 +41,7 @@ class GapProbe {
     Vector3d point;
     Eigen::Vector2d gradient;  ///< per unit of parameter
     double slope;              ///< of the gap along the surface, per mm
-    Foot foot;                 ///< on the other side
+    ClosestPoint closest;      ///< on the other side
   };
   struct Group {
     Vector3d middle;
@@ -50,21 +50,27 @@ class GapProbe {
   };
   void group(std::size_t begin, std::size_t end);
   [[nodiscard]] Node node(const Cell& cell) const;
-  /// `near`, where given, is the foot of a point beside.
-  [[nodiscard]] Reading read(
-      const RigidTransform& X, int chart, double u, double v, const Foot* near = nullptr) const;
-  void look(const RigidTransform& X, const Node& node, const Foot* near, LowestGap& best) const;
+  /// `near`, where given, is that of a point beside.
+  [[nodiscard]] Reading read(const RigidTransform& X,
+                             int chart,
+                             double u,
+                             double v,
+                             const ClosestPoint* near = nullptr) const;
+  void look(const RigidTransform& X,
+            const Node& node,
+            const ClosestPoint* near,
+            LowestGap& best) const;
   void look_into(const RigidTransform& X,
                  const Node& node,
                  const Reading& at,
                  LowestGap& best) const;
   void look_closely(const RigidTransform& X,
                     const Node& node,
-                    const Foot* near,
+                    const ClosestPoint* near,
                     LowestGap& best) const;
   /// The local minimum that a place leads to; infinite where it is not known.
   [[nodiscard]] LowestGap refine(
-      const RigidTransform& X, int chart, double u, double v, const Foot* near) const;
+      const RigidTransform& X, int chart, double u, double v, const ClosestPoint* near) const;
   void keep(const LowestGap& found, LowestGap& best) const;
 
   const SurfaceSide &sampled_, &other_;

@@ -96,14 +96,14 @@ struct Resultant {
   void press(const Side& side,
              const RigidTransform& X,
              const Vector3d& point,
-             const Foot& foot,
+             const ClosestPoint& closest,
              double force_here) {
     const Vector3d at = side.on_A ? X * point : point;
-    const Vector3d n = side.on_A ? foot.n : Vector3d(-(X.R * foot.n));
+    const Vector3d n = side.on_A ? closest.n : Vector3d(-(X.R * closest.n));
     force += force_here * n;
     moment += force_here * (at - X.p).cross(n);
     sum += force_here;
-    deepest = std::max(deepest, -foot.distance);
+    deepest = std::max(deepest, -closest.distance);
   }
 };
 
@@ -129,11 +129,11 @@ class Grid {
     if (std::max(width, height) > size) return divide(cell, width > height, size);
     const double share = share_at(side_.own.edge(cell.chart, u, v));
     if (!(share > 0)) return;
-    const Foot foot = side_.other.foot(there);
-    const Vector3d n = side_.to_other.R * side_.own.foot(at.p).n;
-    if (!(foot.distance < 0) || n.dot(foot.n) > kOpposed) return;
+    const ClosestPoint closest = side_.other.closest(there);
+    const Vector3d n = side_.to_other.R * side_.own.closest(at.p).n;
+    if (!(closest.distance < 0) || n.dot(closest.n) > kOpposed) return;
     const double area = at.p_u.cross(at.p_v).norm() * (cell.u1 - cell.u0) * (cell.v1 - cell.v0);
-    all_.press(side_, X_, at.p, foot, weight_ * share * area * law_.pressure(-foot.distance));
+    all_.press(side_, X_, at.p, closest, weight_ * share * area * law_.pressure(-closest.distance));
   }
 
  private:
@@ -166,7 +166,7 @@ Resultant on_grid(const PairOfSides& pair, const RigidTransform& X, const Law& l
   return all;
 }
 
-/// The stored points, each by its own place and the foot of it.
+/// The stored points, each by its own place and the point closest to it.
 Resultant check_field(const ContactResult& contact,
                       const PairOfSides& pair,
                       const RigidTransform& X,
@@ -178,19 +178,19 @@ Resultant check_field(const ContactResult& contact,
   Resultant all;
   for (const PressurePoint& point : contact.pressures) {
     const Side& side = sides[point.on_A ? 1 : 0];
-    const Foot own = side.own.foot(point.point),
-               foot = side.other.foot(side.to_other * point.point);
+    const ClosestPoint own = side.own.closest(point.point),
+                       closest = side.other.closest(side.to_other * point.point);
     const double far = 1e-14 * (point.point.norm() + X.p.norm());
     ledger.note(Check::kOnSurface, (own.point - point.point).norm(), element, "", 1e-8 + 100 * far);
-    ledger.note(
-        Check::kDepth, std::abs(point.depth + foot.distance), element,
-        fmt::format("is stored {:.9g} mm deep at [{:.3f}, {:.3f}, {:.3f}] mm, but lies "
-                    "{:.9g} mm within the other surface",
-                    point.depth, point.point.x(), point.point.y(), point.point.z(), -foot.distance),
-        1e-7 + 100 * far);
+    ledger.note(Check::kDepth, std::abs(point.depth + closest.distance), element,
+                fmt::format("is stored {:.9g} mm deep at [{:.3f}, {:.3f}, {:.3f}] mm, but lies "
+                            "{:.9g} mm within the other surface",
+                            point.depth, point.point.x(), point.point.y(), point.point.z(),
+                            -closest.distance),
+                1e-7 + 100 * far);
     const double p = law.pressure(point.depth);
     ledger.note(Check::kPressure, std::abs(point.pressure - p) / std::max(p, 1e-6), element);
-    all.press(side, X, point.point, foot, weight * point.area * point.pressure);
+    all.press(side, X, point.point, closest, weight * point.area * point.pressure);
   }
   return all;
 }
@@ -252,7 +252,7 @@ double layer_energy(const Subject& subject, const PoseResult& pose, const RigidT
     const std::array<Side, 2> sides = sides_of(pair, X);
     for (const PressurePoint& point : pose.contacts[i].pressures) {
       const Side& side = sides[point.on_A ? 1 : 0];
-      const double depth = -side.other.foot(side.to_other * point.point).distance;
+      const double depth = -side.other.closest(side.to_other * point.point).distance;
       energy += weight * point.area * law.energy(depth);
     }
   }

@@ -30,15 +30,15 @@ struct Nearest {
 /// The local minimum of the gap near a point of the moving side: Newton along its tangent plane.
 Nearest nearest(const PairOfSides& pair, const RigidTransform& X, Vector3d p) {
   constexpr double kStep = 1e-4;  // [mm]
-  Foot on_B = pair.fixed->foot(X * p);
+  ClosestPoint on_B = pair.fixed->closest(X * p);
   for (int i = 0; i < 12; ++i) {
-    const Foot on_A = pair.moving->foot(p);
+    const ClosestPoint on_A = pair.moving->closest(p);
     Eigen::Matrix<double, 3, 2> T;
     T.col(0) = on_A.n.unitOrthogonal();
     T.col(1) = on_A.n.cross(T.col(0));
     const auto slope = [&](const Vector3d& at) -> Eigen::Vector2d {
-      const Foot own = pair.moving->foot(at);
-      Vector3d n = X.R.transpose() * pair.fixed->foot(X * own.point).n;
+      const ClosestPoint own = pair.moving->closest(at);
+      Vector3d n = X.R.transpose() * pair.fixed->closest(X * own.point).n;
       n -= n.dot(own.n) * own.n;
       return T.transpose() * n;
     };
@@ -49,8 +49,8 @@ Nearest nearest(const PairOfSides& pair, const RigidTransform& X, Vector3d p) {
     if (std::abs(H.determinant()) < 1e-14) break;
     Eigen::Vector2d step = -H.inverse() * g;
     if (step.norm() > 1) step.normalize();
-    p = pair.moving->foot(p + T * step).point;
-    on_B = pair.fixed->foot(X * p);
+    p = pair.moving->closest(p + T * step).point;
+    on_B = pair.fixed->closest(X * p);
     if (step.norm() < 1e-10) break;
   }
   return {on_B.distance, on_B.point, on_B.n};

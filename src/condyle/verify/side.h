@@ -2,7 +2,7 @@
 
 /// Surfaces as the verifier sees them: written from the definitions in the scene and in /patches,
 /// with nothing of the room `surface`. A side of a contact is covered by charts (for grids of
-/// points) and knows the foot of any point on it (for distances). Lengths in mm, in the frame of
+/// points) and knows the closest point to any point on it (for distances). Lengths in mm, in the frame of
 /// the body that carries the surface.
 
 #include <Eigen/Core>
@@ -28,12 +28,12 @@ struct ChartPoint {
 };
 
 /// What is nearest to a point on a surface.
-struct Foot {
+struct ClosestPoint {
   double distance = 0;   ///< along the normal, negative within the solid [mm]
-  Vector3d point, n;     ///< the foot, and the unit normal out of the solid there
-  double edge = 0;       ///< from the foot to the end of the known part, negative beyond it [mm]
-  double curvature = 0;  ///< no principal curvature about the foot is greater [1/mm]
-  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< of the foot on a spline
+  Vector3d point, n;     ///< the closest, and the unit normal out of the solid there
+  double edge = 0;       ///< from the closest to the end of the known part, negative beyond it [mm]
+  double curvature = 0;  ///< no principal curvature about the closest is greater [1/mm]
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< of the closest on a spline
 };
 
 class SurfaceSide {
@@ -44,17 +44,19 @@ class SurfaceSide {
   /// bounds.
   [[nodiscard]] virtual std::vector<Cell> cells(double size) const = 0;
   [[nodiscard]] virtual ChartPoint at(int chart, double u, double v) const = 0;
-  /// As Foot::edge, of a point of a chart.
+  /// As ClosestPoint::edge, of a point of a chart.
   [[nodiscard]] virtual double edge(int chart, double u, double v) const = 0;
   /// No principal curvature about a point of a chart is greater [1/mm].
   [[nodiscard]] virtual double curvature(int chart, double u, double v) const = 0;
 
-  [[nodiscard]] virtual Foot foot(const Vector3d& p) const = 0;
-  /// The same, searched from the foot of a point near p.
-  [[nodiscard]] virtual Foot foot_near(const Vector3d& p, const Foot&) const { return foot(p); }
+  [[nodiscard]] virtual ClosestPoint closest(const Vector3d& p) const = 0;
+  /// The same, searched from that of a point near p.
+  [[nodiscard]] virtual ClosestPoint closest_near(const Vector3d& p, const ClosestPoint&) const {
+    return closest(p);
+  }
   /// Is p outside the solid and certainly farther than r from the surface? `false` says nothing.
   [[nodiscard]] virtual bool is_clear(const Vector3d& p, double r) const {
-    return foot(p).distance > r;
+    return closest(p).distance > r;
   }
 };
 

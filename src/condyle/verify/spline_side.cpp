@@ -10,7 +10,7 @@
 namespace condyle::verification {
 namespace {
 
-constexpr double kGrid = 1;         ///< between the points where a foot is looked for first [mm]
+constexpr double kGrid = 1;         ///< between the points where a closest is looked for first [mm]
 constexpr double kMargin = 1.5;     ///< of those points beyond what is known [mm]
 constexpr double kCurvature = 1.5;  ///< what is measured at points of a cell, for all of it
 
@@ -81,19 +81,20 @@ class SplineSide final : public SurfaceSide {
     return distance > r && distance > reach_ && way.dot(normals_[i]) > 0;
   }
 
-  [[nodiscard]] Foot foot(const Vector3d& p) const override {
+  [[nodiscard]] ClosestPoint closest(const Vector3d& p) const override {
     const std::size_t start = tree_->of(p);
-    return foot_from(p, places_[start], curvatures_[start]);
+    return closest_from(p, places_[start], curvatures_[start]);
   }
-  [[nodiscard]] Foot foot_near(const Vector3d& p, const Foot& start) const override {
-    return foot_from(p, start.place, start.curvature);
+  [[nodiscard]] ClosestPoint closest_near(const Vector3d& p,
+                                          const ClosestPoint& start) const override {
+    return closest_from(p, start.place, start.curvature);
   }
 
  private:
   /// Newton on the squared distance.
-  [[nodiscard]] Foot foot_from(const Vector3d& p,
-                               const Eigen::Vector2d& place,
-                               double bound) const {
+  [[nodiscard]] ClosestPoint closest_from(const Vector3d& p,
+                                          const Eigen::Vector2d& place,
+                                          double bound) const {
     double u = place.x(), v = place.y();
     SplinePoint at = spline_point(patch_, u, v);
     double square = (p - at.c).squaredNorm();
@@ -121,7 +122,7 @@ class SplineSide final : public SurfaceSide {
       }
       if (!moved) break;
     }
-    return foot_at(p, {u, v}, at, bound);
+    return closest_at(p, {u, v}, at, bound);
   }
 
   void lay_grid() {
@@ -159,25 +160,25 @@ class SplineSide final : public SurfaceSide {
     }
   }
 
-  /// A foot that the box cut off is no foot: the way to it is not along the normal.
-  [[nodiscard]] Foot foot_at(const Vector3d& p,
-                             const Eigen::Vector2d& place,
-                             const SplinePoint& at,
-                             double bound) const {
-    Foot foot;
-    foot.point = at.c;
-    foot.n = at.c_u.cross(at.c_v).normalized() * patch_.orientation;
-    foot.distance = foot.n.dot(p - at.c);
-    foot.edge = edge(0, place.x(), place.y());
-    foot.place = place;
-    foot.curvature = bound;
-    const double aside = ((p - at.c) - foot.distance * foot.n).norm();
-    if (aside > 1e-6 + 1e-6 * std::abs(foot.distance)) {
-      foot.edge = std::min(foot.edge, -aside);
+  /// A closest that the box cut off is no closest: the way to it is not along the normal.
+  [[nodiscard]] ClosestPoint closest_at(const Vector3d& p,
+                                        const Eigen::Vector2d& place,
+                                        const SplinePoint& at,
+                                        double bound) const {
+    ClosestPoint closest;
+    closest.point = at.c;
+    closest.n = at.c_u.cross(at.c_v).normalized() * patch_.orientation;
+    closest.distance = closest.n.dot(p - at.c);
+    closest.edge = edge(0, place.x(), place.y());
+    closest.place = place;
+    closest.curvature = bound;
+    const double aside = ((p - at.c) - closest.distance * closest.n).norm();
+    if (aside > 1e-6 + 1e-6 * std::abs(closest.distance)) {
+      closest.edge = std::min(closest.edge, -aside);
       const double length = (p - at.c).norm();
-      foot.distance = foot.distance < 0 ? -length : length;
+      closest.distance = closest.distance < 0 ? -length : length;
     }
-    return foot;
+    return closest;
   }
 
   PatchData patch_;
