@@ -102,6 +102,11 @@ class SurfacesPath final : public WrappedPath {
   std::vector<PathSurface> surfaces_;
 };
 
+/// Angle between the tangents at either end [rad].
+double turn_of(const Geodesic& g) {
+  return std::atan2(g.from.t.cross(g.to.t).norm(), g.from.t.dot(g.to.t));
+}
+
 void SurfacesPath::add_touches(const LineEnds& ends,
                                const RigidTransform& X_BA,
                                const double* kept,
@@ -119,14 +124,13 @@ void SurfacesPath::add_touches(const LineEnds& ends,
     const WrapShape& shape = wraps_[i].shape;
     const RigidTransform& X = wraps_[i].placement;
     const Geodesic g = shoot(shape, frame_at(shape, place.P, place.t), place.arc);
-    const double turn = std::atan2(g.from.t.cross(g.to.t).norm(), g.from.t.dot(g.to.t));
     touch.touching = true;
     touch.P = X * g.from.x;
     touch.Q = X * g.to.x;
     touch.t_P = X.R * g.from.t;
     touch.t_Q = X.R * g.to.t;
     touch.arc = place.arc;
-    touch.turn = turn;
+    touch.turn = turn_of(g);
   }
 }
 
@@ -164,12 +168,12 @@ std::string SurfacesPath::objection(const LineEnds& ends,
   return "no shortest path over " + name + " was found";
 }
 
-/// Anchors, and geodesics as chords that turn by 0.05 rad at most.
+/// Anchors, and geodesics as chords that turn by 0.1 rad at most.
 void SurfacesPath::add_points(const LineEnds& ends,
                               const RigidTransform& X_BA,
                               const double* kept,
                               std::vector<Vector3d>& points) const {
-  constexpr double kChord = 0.05;
+  constexpr double kChord = 0.1;
   auto numbers = known(ends, X_BA, kept);
   const PathState state(numbers.data(), wraps_.size());
   PathEnds other;
@@ -183,11 +187,13 @@ void SurfacesPath::add_points(const LineEnds& ends,
     const ArcPlace place = state.place(static_cast<int>(i));
     const WrapShape& shape = wraps_[i].shape;
     const RigidTransform X = wraps_[i].on_moving ? X_BA * wraps_[i].placement : wraps_[i].placement;
-    const SurfaceFrame start = frame_at(shape, place.P, place.t);
-    const double bend = std::abs(place.arc) / least_radius(shape);
-    const int chords = std::clamp(static_cast<int>(std::ceil(bend / kChord)), 1, 200);
-    for (int k = 0; k <= chords; ++k)
-      points.push_back(X * shoot(shape, start, place.arc * k / chords).to.x);
+    SurfaceFrame at = frame_at(shape, place.P, place.t);
+    const int chords = static_cast<int>(std::ceil(turn_of(shoot(shape, at, place.arc)) / kChord));
+    points.push_back(X * at.x);
+    for (int k = 0; k < chords; ++k) {
+      at = shoot(shape, at, place.arc / chords).to;
+      points.push_back(X * at.x);
+    }
   }
   if (anchored(1)) points.push_back(X_BA * found.end[1].at);
 }
