@@ -23,9 +23,12 @@ struct StartWarnings : testing::Test {
   }
 };
 
-// The exact bones overlap by 0.03 mm in both compartments; fits to rough meshes differ by 0.3 mm.
-TEST_F(StartWarnings, HasNoneForThePhantom) {
-  EXPECT_EQ(warning(""), "");
+// The exact bones overlap by 0.03 mm in both compartments; fits to rough meshes differ by 0.3 mm. Some
+// bundles run straight through its bones (docs/phantom.md).
+TEST_F(StartWarnings, HasNoneForThePhantomButThoseOfStrandsInBone) {
+  for (const std::string& line : start_warnings(scene, surfaces))
+    if (line.starts_with("warning: "))
+      EXPECT_TRUE(line.starts_with("warning: straight through \"")) << line;
   for (const ContactDescription& contact : scene.contacts)
     EXPECT_NEAR(start_gap(scene, surfaces, contact), -0.03, 0.35) << contact.name;
 }

@@ -11,6 +11,8 @@
 #include "condyle/scene_file/describe.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
+#include "condyle/specimen/fit_wraps.h"
+#include "condyle/specimen/strands_in_bone.h"
 
 namespace condyle {
 namespace {
@@ -28,15 +30,26 @@ Eigen::Vector3d extent(const TriangleMesh& mesh) {
   return high - low;
 }
 
-// Loading is the check: a mesh that cannot be used throws.
-void check_mesh(const std::string& owner, const MeshFile& file) {
-  BodyDescription body;
-  body.name = owner;
-  body.mesh = file;
-  const TriangleMesh mesh = load_body_mesh(body);
+void print_mesh(const MeshFile& file, const TriangleMesh& mesh) {
   const Eigen::Vector3d size = extent(mesh);
   fmt::print("mesh       {}: {} triangles, {:.4g} x {:.4g} x {:.4g} mm\n",
              file.path.filename().string(), mesh.triangles.size(), size.x(), size.y(), size.z());
+}
+
+// Loading is the check: a mesh that cannot be used throws.
+void print_meshes(const Scene& scene, const std::vector<TriangleMesh>& bones) {
+  std::set<std::filesystem::path> seen;
+  for (std::size_t b = 0; b < bones.size(); ++b) {
+    const std::optional<MeshFile>& file = scene.bodies[b].mesh;
+    if (file && seen.insert(file->path).second) print_mesh(*file, bones[b]);
+  }
+  for (const SurfaceDescription& surface : scene.surfaces) {
+    const std::optional<MeshFile>& file = surface.patch.mesh;
+    if (!file || !seen.insert(file->path).second) continue;
+    BodyDescription body;
+    body.mesh = file;
+    print_mesh(*file, load_body_mesh(body));
+  }
 }
 
 /// Of the moving body, from its numbers or its mesh; throws where a motion has no use for it.
@@ -54,16 +67,14 @@ void print_mass(const Scene& scene) {
 }
 
 int run_check(const CheckOptions& options) {
-  const Scene scene = read_scene(options.scene);
+  Scene scene = read_scene(options.scene);
+  std::vector<TriangleMesh> bones;
+  for (const BodyDescription& body : scene.bodies) bones.push_back(load_body_mesh(body));
+  fit_wraps(scene, bones);
   fmt::print("{}", describe(scene));
-  std::set<std::filesystem::path> seen;
-  for (const BodyDescription& body : scene.bodies) {
-    if (body.mesh && seen.insert(body.mesh->path).second) check_mesh(body.name, *body.mesh);
-  }
-  for (const SurfaceDescription& surface : scene.surfaces) {
-    const std::optional<MeshFile>& mesh = surface.patch.mesh;
-    if (mesh && seen.insert(mesh->path).second) check_mesh(surface.name, *mesh);
-  }
+  print_meshes(scene, bones);
+  for (const std::string& line : describe_wrap_fits(scene)) fmt::print("{}\n", line);
+  for (const std::string& line : wrap_warnings(scene, bones)) fmt::print("{}\n", line);
   if (scene.simulation) print_mass(scene);
   return 0;
 }

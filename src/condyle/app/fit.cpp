@@ -49,7 +49,7 @@ int run_fit(const FitOptions& options) {
   const Talk& talk = options.talk;
   CommandClock clock;
   check_output_file(options.output);
-  const Scene scene = read_scene(options.scene);
+  Scene scene = read_scene(options.scene);
   refuse_to_overwrite_inputs(options.output, scene);
   const bool has_patches = std::any_of(
       scene.surfaces.begin(), scene.surfaces.end(),

@@ -5,17 +5,20 @@
 #include "condyle/app/print_fit.h"
 #include "condyle/app/progress.h"
 #include "condyle/specimen/fit_surfaces.h"
+#include "condyle/specimen/fit_wraps.h"
 #include "condyle/version.h"
 
 namespace condyle {
 
-std::vector<FittedSurface> fit_aloud(const Talk& talk, const Scene& scene) {
+std::vector<FittedSurface> fit_aloud(const Talk& talk, Scene& scene) {
   say(talk, "{}\n\n", scene.title);
   Progress progress(talk, "patches");
   std::vector<FittedSurface> surfaces =
       fit_surfaces(scene, [&](int done, int total) { progress.at(done, total); });
   progress.clear();
   if (talk.plain()) print_fit(surfaces);
+  fit_wraps(scene, surfaces);
+  for (const std::string& line : describe_wrap_fits(scene)) say(talk, "{}\n\n", line);
   return surfaces;
 }
 

@@ -12,8 +12,9 @@
 
 namespace condyle {
 
-/// The title, a progress line while patches are fitted, and how they came out.
-[[nodiscard]] std::vector<FittedSurface> fit_aloud(const Talk& talk, const Scene& scene);
+/// The title, a progress line while patches are fitted, and how they came out; wraps of the scene that
+/// ask for it are fitted to their bones.
+[[nodiscard]] std::vector<FittedSurface> fit_aloud(const Talk& talk, Scene& scene);
 
 /// The warnings of the fit and of the start pose, a line each on the standard error.
 void tell_warnings(const Talk& talk, const Run& run);

@@ -15,6 +15,7 @@
 #include "condyle/results/simulation_group.h"
 #include "condyle/results/sweep_group.h"
 #include "condyle/results/trace_columns.h"
+#include "condyle/results/wrap_group.h"
 #include "condyle/scene/ligament_path.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/surface/bspline_basis.h"
@@ -312,6 +313,7 @@ Run read_run(const std::filesystem::path& path) {
   const Hdf5Group root = reader.root();
   Run run;
   run.scene = read_head(root);
+  read_fitted_wraps(root, run.scene);
   if (root.has_attribute("program")) run.program = root.read_attribute("program");
   if (root.has_attribute("created")) run.created = root.read_attribute("created");
   if (root.has("inputs")) run.inputs = read_inputs(root.open("inputs"));

@@ -28,6 +28,22 @@ std::uint64_t hash_patch(const PatchData& data, std::uint64_t hash) {
   return hash_numbers(data.mask, hash);
 }
 
+/// Of the wraps that were fitted to bones.
+std::uint64_t hash_wraps(const Scene& scene, std::uint64_t hash) {
+  for (const WrapDescription& wrap : scene.wraps) {
+    if (!wrap.fit) continue;
+    std::vector<double> numbers;
+    const auto add = [&](const auto& matrix) {
+      numbers.insert(numbers.end(), matrix.data(), matrix.data() + matrix.size());
+    };
+    add(std::get<WrapEllipsoid>(wrap.shape).semi_axes);
+    add(wrap.placement.R);
+    add(wrap.placement.p);
+    hash = hash_numbers(numbers, hash);
+  }
+  return hash;
+}
+
 bool close(const std::vector<double>& a, const std::vector<double>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](double x, double y) { return std::abs(x - y) <= kSamePatch; });
@@ -75,8 +91,32 @@ RunIdentity identity(const Scene& scene, const std::vector<FittedSurface>& surfa
     const auto* patch = dynamic_cast<const Patch*>(surface.surface.get());
     if (patch != nullptr) identity.surfaces = hash_patch(patch->data(), identity.surfaces);
   }
+  identity.surfaces = hash_wraps(scene, identity.surfaces);
   return identity;
 }
+
+namespace {
+
+void expect_same_wraps(const std::string& file, const Run& run, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.wraps.size(); ++i) {
+    const WrapDescription &here = scene.wraps[i], &there = run.scene.wraps[i];
+    if (!here.fit) continue;
+    const double off = std::max({(here.placement.p - there.placement.p).cwiseAbs().maxCoeff(),
+                                 (here.placement.R - there.placement.R).cwiseAbs().maxCoeff(),
+                                 (std::get<WrapEllipsoid>(here.shape).semi_axes -
+                                  std::get<WrapEllipsoid>(there.shape).semi_axes)
+                                     .cwiseAbs()
+                                     .maxCoeff()});
+    if (!(off <= kSamePatch))
+      throw InputError(
+          fmt::format("{}: was computed with another ellipsoid for wrap \"{}\", expected the one "
+                      "fitted now (the "
+                      "mesh has changed, or the program)",
+                      file, here.name));
+  }
+}
+
+}  // namespace
 
 void expect_same_scene(const std::string& file,
                        const Run& run,
@@ -99,6 +139,7 @@ void expect_same_scene(const std::string& file,
           file, name));
     }
   }
+  expect_same_wraps(file, run, scene);
 }
 
 }  // namespace condyle

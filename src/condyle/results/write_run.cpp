@@ -16,6 +16,7 @@
 #include "condyle/results/simulation_group.h"
 #include "condyle/results/sweep_group.h"
 #include "condyle/results/trace_columns.h"
+#include "condyle/results/wrap_group.h"
 #include "condyle/scene/ligament_path.h"
 #include "condyle/version.h"
 
@@ -346,6 +347,7 @@ void write_inputs(const Hdf5Group& root, const std::vector<InputFile>& inputs) {
 
 void write_all(const Hdf5Group& root, const Run& run) {
   write_head(root, run.scene);
+  write_wraps(root, run.scene);
   if (!run.sweep.poses.empty()) {
     const Unit unit = swept_quantity(run).unit;
     write_sweep(root.create("sweep"), run.scene, unit, run.sweep.poses);

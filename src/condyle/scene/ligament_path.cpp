@@ -1,8 +1,12 @@
 #include "condyle/scene/ligament_path.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "condyle/elements/line_element.h"
+#include "condyle/input_error.h"
+#include "condyle/scene/start_pose.h"
 
 namespace condyle {
 namespace {
@@ -18,6 +22,23 @@ WrapShape thickened(const WrapShape& shape, double by) {
     WrapShape operator()(const WrapTorus& s) const { return WrapTorus{s.ring, s.tube + by}; }
   };
   return std::visit(Thicken{by}, shape);
+}
+
+/// Deepest that an end may lie in a surface for its path to begin at the closest point of it: half
+/// of the least radius.
+double most_depth(const WrapShape& shape) {
+  struct Least {
+    double operator()(const WrapSphere& s) const { return s.radius; }
+    double operator()(const WrapCylinder& s) const { return s.radius; }
+    double operator()(const WrapEllipsoid& s) const { return s.semi_axes.minCoeff(); }
+    double operator()(const WrapTorus& s) const { return s.tube; }
+  };
+  return std::visit(Least{}, shape) / 2;
+}
+
+void set_slack_length(double slack, ForceLaw& law) {
+  if (auto* toe_linear = std::get_if<ToeLinearLaw>(&law)) toe_linear->slack_length = slack;
+  if (auto* quadratic = std::get_if<QuadraticLaw>(&law)) quadratic->slack_length = slack;
 }
 
 }  // namespace
@@ -37,6 +58,7 @@ std::vector<PathWrap> path_wraps(const Scene& scene, const LigamentDescription& 
     last.shape = thickened(wrap.shape, ligament.path.thickness / 2);
     last.placement = wrap.placement;
     last.on_moving = wrap.body == scene.moving_body();
+    if (wrap.fit) last.side = wrap.fit->side;
     if (!ligament.path.sides.empty()) last.side = ligament.path.sides[i];
   }
   if (ligament.ends[0].body != scene.fixed_body()) std::reverse(wraps.begin(), wraps.end());
@@ -64,6 +86,50 @@ std::shared_ptr<const WrappedPath> ligament_path(const Scene& scene,
   return make_wrapped_path(
       std::move(wraps), x_C - origins.B, s_D - origins.A,
       ligament.path.anchors_inside ? InsideRule::kAnchor : InsideRule::kStraight);
+}
+
+bool has_known_path(const Scene& scene, const LigamentDescription& ligament) {
+  return std::all_of(ligament.path.wraps.begin(), ligament.path.wraps.end(), [&](int index) {
+    const WrapDescription& wrap = scene.wraps[static_cast<std::size_t>(index)];
+    return !wrap.fit || wrap.fit->done;
+  });
+}
+
+StartPath start_path(const Scene& scene, const LigamentDescription& ligament) {
+  const RigidTransform start = start_pose(scene);
+  if (ligament.path.wraps.empty()) return {distance_between(scene, ligament.ends, start), {}, {}};
+  const std::vector<PathWrap> wraps = path_wraps(scene, ligament);
+  const auto [x_C, s_D] = fixed_then_moving(scene, ligament.ends);
+  if (ligament.path.anchors_inside)
+    for (const InsideEnd& end : inside_ends(wraps, x_C, s_D)) {
+      if (end.wrap < 0) continue;
+      const PathWrap& wrap = wraps[static_cast<std::size_t>(end.wrap)];
+      if (end.depth > most_depth(wrap.shape))
+        return {0, "ends",
+                fmt::format("an end outside wrap \"{}\" or close under its surface (it lies {:.3g} "
+                            "mm inside)",
+                            wrap.name, end.depth)};
+    }
+  const double length = ligament_length(scene, ligament, start);
+  if (!(length > 0))
+    return {0, "wraps", "wraps around which there is a shortest path at the start pose"};
+  return {length, {}, {}};
+}
+
+void settle_fitted_paths(Scene& scene) {
+  for (LigamentDescription& ligament : scene.ligaments) {
+    const std::vector<int>& wraps = ligament.path.wraps;
+    const bool fitted = std::any_of(wraps.begin(), wraps.end(), [&](int index) {
+      return scene.wraps[static_cast<std::size_t>(index)].fit.has_value();
+    });
+    if (!fitted) continue;
+    const StartPath start = start_path(scene, ligament);
+    if (!start.key.empty())
+      throw InputError(fmt::format("{}: ligament \"{}\": {}: expected {}", scene.file.string(),
+                                   ligament.name, start.key, start.expected));
+    if (ligament.reference_strain)
+      set_slack_length(start.length / (1 + *ligament.reference_strain), ligament.law);
+  }
 }
 
 double ligament_length(const Scene& scene,

@@ -3,6 +3,7 @@
 /// The path of a described ligament: straight, or wrapped on surfaces fixed to its bodies.
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "condyle/elements/body_origins.h"
@@ -27,6 +28,22 @@ namespace condyle {
 [[nodiscard]] std::shared_ptr<const WrappedPath> ligament_path(const Scene& scene,
                                                                const LigamentDescription& ligament,
                                                                const BodyOrigins& origins = {});
+
+/// Whether the shapes of all that a ligament wraps on are known: not before fit_wraps
+/// (specimen/fit_wraps.h), where one is fitted to its bone.
+[[nodiscard]] bool has_known_path(const Scene& scene, const LigamentDescription& ligament);
+
+/// Of a ligament with a known path at the start pose.
+struct StartPath {
+  double length = 0;          ///< [mm]
+  std::string key, expected;  ///< what is wrong: a key of the ligament, and what was expected there
+};
+[[nodiscard]] StartPath start_path(const Scene& scene, const LigamentDescription& ligament);
+
+/// Once the surfaces are known that are fitted to bones: slack lengths that follow from reference
+/// strains on them. Throws InputError for an end that lies too deep in such a surface, and where
+/// there is no path at the start pose.
+void settle_fitted_paths(Scene& scene);
 
 /// Length [mm] along the path at a pose; 0 where there is no path.
 [[nodiscard]] double ligament_length(const Scene& scene,

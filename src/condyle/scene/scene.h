@@ -21,6 +21,7 @@
 #include "condyle/elements/force_law.h"
 #include "condyle/elements/kinematic_condition.h"
 #include "condyle/math/rigid_transform.h"
+#include "condyle/scene/bone_fit.h"
 #include "condyle/surface/exact_surfaces.h"
 #include "condyle/wrapping/wrap_shape.h"
 
@@ -130,7 +131,9 @@ struct WrapDescription {
   std::string name;
   int body = -1;
   WrapShape shape;
-  RigidTransform placement;  ///< from the surface's frame to that of the body [mm]
+  RigidTransform placement;    ///< from the surface's frame to that of the body [mm]
+  std::optional<BoneFit> fit = {};  ///< of one that is fitted to its bone (specimen/fit_wraps.h): shape
+                               ///< and placement mean nothing until that is done
 };
 
 /// What a ligament wraps on, and how.

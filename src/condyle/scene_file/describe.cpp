@@ -147,8 +147,10 @@ std::string in_words(const WrapShape& shape) {
 
 void describe_wraps(const Scene& scene, Out out) {
   for (const WrapDescription& wrap : scene.wraps)
-    fmt::format_to(out, "wrap       {}: {} on {}\n", wrap.name, in_words(wrap.shape),
-                   body_name(scene, wrap.body));
+    fmt::format_to(
+        out, "wrap       {}: {} on {}\n", wrap.name,
+        wrap.fit && !wrap.fit->done ? "ellipsoid, fitted to the bone" : in_words(wrap.shape),
+        body_name(scene, wrap.body));
 }
 
 /// ", over the medial rim, 2 mm thick"
@@ -164,6 +166,11 @@ std::string path_of(const Scene& scene, const LigamentDescription& ligament) {
 void describe_ligaments(const Scene& scene, Out out) {
   const RigidTransform X_BA = start_pose(scene);
   for (const LigamentDescription& ligament : scene.ligaments) {
+    if (!has_known_path(scene, ligament)) {
+      fmt::format_to(out, "ligament   {}: {}{}\n", ligament.name, word(ligament.law),
+                     path_of(scene, ligament));
+      continue;
+    }
     const double length = ligament_length(scene, ligament, X_BA);
     const double slack = slack_length(ligament.law);
     fmt::format_to(out, "ligament   {}: {}{}, {:.4g} mm at the start pose", ligament.name,

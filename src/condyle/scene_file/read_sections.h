@@ -42,13 +42,15 @@ void read_shape(const Section& section, const Scene& scene, SurfaceDescription& 
 void read_path(const Section& section, const Scene& scene, LigamentDescription& ligament);
 
 /// Throws for an end that lies too deep in a surface that its ligament wraps on, and where there is
-/// no path at the start pose; its length [mm] there.
+/// no path at the start pose; its length [mm] there. Of a ligament on a surface that is yet to be
+/// fitted to its bone the distance of the ends.
 [[nodiscard]] double start_length_of(const Section& section,
                                      const Scene& scene,
                                      const LigamentDescription& ligament);
 
-/// Throws for a surface that no ligament wraps on.
-void check_wraps_used(const Section& root, const Scene& scene);
+/// Throws for a surface that no ligament wraps on; tells those that are fitted to their bone which
+/// ligaments lead the fit.
+void check_wraps_used(const Section& root, Scene& scene);
 
 /// The keys `mesh` and `mesh_units`, where given.
 [[nodiscard]] std::optional<MeshFile> read_mesh_file(const Section& section, const Scene& scene);

@@ -12,6 +12,7 @@ namespace condyle {
 namespace {
 
 constexpr std::size_t kMostWraps = 7;
+constexpr const char* kLigaments = "names of ligaments [\"...\", ...] that wrap on it";
 
 /// A right-handed triad whose third direction is given.
 Eigen::Matrix3d about(const Eigen::Vector3d& axis) {
@@ -38,6 +39,21 @@ WrapDescription wrap_of(const SurfaceDescription& surface) {
   return wrap;
 }
 
+/// An ellipsoid that is to be fitted to the mesh of its body; its ligaments are known later.
+BoneFit read_fit(const Section& section, const Scene& scene, const SurfaceDescription& surface) {
+  static const Choices<bool> sources = {{"bone", true}};
+  (void)section.choice("fit", sources);
+  if (surface.kind != SurfaceKind::kEllipsoid)
+    section.fail("kind", "\"ellipsoid\", which can be fitted to a bone");
+  const BodyDescription& body = scene.bodies[static_cast<std::size_t>(surface.body)];
+  if (!body.mesh)
+    section.fail("fit", fmt::format("a mesh of body \"{}\", which names none", body.name));
+  for (const char* key : {"center", "axes", "semi_axes"})
+    if (section.has(key)) section.fail(key, "none where fit = \"bone\" finds it");
+  if (section.has("ligaments")) (void)section.value("ligaments", kLigaments);
+  return {};
+}
+
 WrapDescription read_wrap(const Section& section, const Scene& scene) {
   static const Choices<SurfaceKind> kinds = {{"sphere", SurfaceKind::kSphere},
                                              {"cylinder", SurfaceKind::kCylinder},
@@ -47,11 +63,18 @@ WrapDescription read_wrap(const Section& section, const Scene& scene) {
   surface.name = read_name(section, names_of(scene.wraps));
   surface.body = section.reference("body", "the name of a body", names_of(scene.bodies));
   surface.kind = section.choice("kind", kinds);
-  read_shape(section, scene, surface);
+  std::optional<BoneFit> fit;
+  if (section.has("fit"))
+    fit = read_fit(section, scene, surface);
+  else
+    read_shape(section, scene, surface);
   if (std::isfinite(surface.length))
     section.fail("length", "no length: a cylinder that ligaments wrap on has no ends");
   section.finish();
-  return wrap_of(surface);
+  WrapDescription wrap = wrap_of(surface);
+  wrap.fit = std::move(fit);
+  if (wrap.fit) wrap.shape = WrapEllipsoid{Eigen::Vector3d::Zero()};
+  return wrap;
 }
 
 void read_names_of_wraps(const Section& section, const Scene& scene, LigamentWraps& path) {
@@ -100,16 +123,35 @@ void read_sides(const Section& section, const Scene& scene, LigamentWraps& path)
   for (Eigen::Vector3d& side : path.sides) side *= scene.length_to_mm;
 }
 
-/// Deepest that an end may lie in a surface for its path to begin at the closest point of it: half
-/// of the least radius.
-double most_depth(const WrapShape& shape) {
-  struct Least {
-    double operator()(const WrapSphere& s) const { return s.radius; }
-    double operator()(const WrapCylinder& s) const { return s.radius; }
-    double operator()(const WrapEllipsoid& s) const { return s.semi_axes.minCoeff(); }
-    double operator()(const WrapTorus& s) const { return s.tube; }
-  };
-  return std::visit(Least{}, shape) / 2;
+std::vector<int> ligaments_on(const Scene& scene, int wrap) {
+  std::vector<int> ligaments;
+  for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
+    const std::vector<int>& wraps = scene.ligaments[i].path.wraps;
+    if (std::find(wraps.begin(), wraps.end(), wrap) != wraps.end())
+      ligaments.push_back(static_cast<int>(i));
+  }
+  return ligaments;
+}
+
+/// The ligaments whose strings lead a fit: those that are named, else all on the wrap.
+std::vector<int> leading(const Section& section,
+                         const Scene& scene,
+                         const std::vector<int>& users) {
+  if (!section.has("ligaments")) return users;
+  const Value& names = section.value("ligaments", kLigaments);
+  if (names.type != Value::Type::kArray || names.items.empty())
+    section.fail("ligaments", kLigaments);
+  std::vector<int> ligaments;
+  for (const Value& name : names.items) {
+    const int ligament =
+        section.reference("ligaments", name, "the name of a ligament", names_of(scene.ligaments));
+    if (std::find(users.begin(), users.end(), ligament) == users.end())
+      section.fail("ligaments", name, kLigaments);
+    if (std::find(ligaments.begin(), ligaments.end(), ligament) != ligaments.end())
+      section.fail("ligaments", name, "each ligament once");
+    ligaments.push_back(ligament);
+  }
+  return ligaments;
 }
 
 }  // namespace
@@ -139,37 +181,21 @@ void read_path(const Section& section, const Scene& scene, LigamentDescription& 
 double start_length_of(const Section& section,
                        const Scene& scene,
                        const LigamentDescription& ligament) {
-  const RigidTransform start = start_pose(scene);
-  if (ligament.path.wraps.empty()) return distance_between(scene, ligament.ends, start);
-  const std::vector<PathWrap> wraps = path_wraps(scene, ligament);
-  const auto [x_C, s_D] = fixed_then_moving(scene, ligament.ends);
-  if (ligament.path.anchors_inside)
-    for (const InsideEnd& end : inside_ends(wraps, x_C, s_D)) {
-      if (end.wrap < 0) continue;
-      const PathWrap& wrap = wraps[static_cast<std::size_t>(end.wrap)];
-      if (end.depth > most_depth(wrap.shape))
-        section.fail("ends",
-                     fmt::format("an end outside wrap \"{}\" or close under its surface (it "
-                                 "lies {:.3g} mm inside)",
-                                 wrap.name, end.depth));
-    }
-  const double length = ligament_length(scene, ligament, start);
-  if (!(length > 0))
-    section.fail("wraps", "wraps around which there is a shortest path at the start pose");
-  return length;
+  if (!has_known_path(scene, ligament))
+    return distance_between(scene, ligament.ends, start_pose(scene));
+  const StartPath start = start_path(scene, ligament);
+  if (!start.key.empty()) section.fail(start.key, start.expected);
+  return start.length;
 }
 
-void check_wraps_used(const Section& root, const Scene& scene) {
+void check_wraps_used(const Section& root, Scene& scene) {
   const std::vector<Section> sections = root.sections("wrap");
   for (std::size_t i = 0; i < sections.size(); ++i) {
-    const bool used = std::any_of(
-        scene.ligaments.begin(), scene.ligaments.end(), [&](const LigamentDescription& ligament) {
-          const std::vector<int>& wraps = ligament.path.wraps;
-          return std::find(wraps.begin(), wraps.end(), static_cast<int>(i)) != wraps.end();
-        });
-    if (!used)
+    const std::vector<int> users = ligaments_on(scene, static_cast<int>(i));
+    if (users.empty())
       sections[i].fail_with(
           "no ligament wraps on it, expected wraps = [..] of a ligament to name it");
+    if (scene.wraps[i].fit) scene.wraps[i].fit->ligaments = leading(sections[i], scene, users);
   }
 }
 

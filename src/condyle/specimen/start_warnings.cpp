@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "condyle/scene/ligament_path.h"
 #include "condyle/scene/start_pose.h"
 #include "condyle/specimen/fit_surfaces.h"
+#include "condyle/specimen/strands_in_bone.h"
 #include "condyle/surface/mesh_distance.h"
 
 namespace condyle {
@@ -124,6 +126,8 @@ std::vector<std::string> start_warnings(const Scene& scene,
   warn_of_gaps(scene, surfaces, limits.gap, lines);
   warn_of_insertions(scene, bones, limits.insertion, lines);
   warn_of_strains(scene, limits.strain, lines);
+  for (std::string& line : wrap_warnings(scene, bones, limits.inside))
+    lines.push_back(std::move(line));
   return lines;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
 /// What a user should know before a sweep: overlap or gap of the bodies at the start pose, ligament
-/// insertions off the bone, slack lengths that hardly fit the start pose. A strain that the scene
+/// insertions off the bone, slack lengths that hardly fit the start pose, ligaments that run straight
+/// through bone, insertions deep in a wrap. A strain that the scene
 /// gives itself for the start pose (`reference_strain`) is no surprise.
 
 #include <string>
@@ -16,6 +17,7 @@ struct StartLimits {
   double gap = 1;        ///< of a contact, or overlap, where the start pose sets strains [mm]
   double insertion = 3;  ///< from the mesh of the body [mm]
   double strain = 0.15;  ///< of a ligament, either way [-]
+  double inside = 1;     ///< of a straight ligament in bone, of an insertion in its own wrap [mm]
 };
 
 /// Smallest gap of a contact at the start pose [mm], negative where the bodies overlap; infinite

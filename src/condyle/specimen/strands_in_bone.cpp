@@ -1,0 +1,127 @@
+#include "condyle/specimen/strands_in_bone.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "condyle/scene/ligament_path.h"
+#include "condyle/specimen/bone_string.h"
+#include "condyle/specimen/fit_wraps.h"
+#include "condyle/specimen/preset_flexion.h"
+
+namespace condyle {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+
+bool wraps_on(const Scene& scene, const LigamentDescription& ligament, int body) {
+  return std::any_of(ligament.path.wraps.begin(), ligament.path.wraps.end(), [&](int wrap) {
+    return scene.wraps[static_cast<std::size_t>(wrap)].body == body;
+  });
+}
+
+/// Deeper by `limit` than its own insertion lies; a depth of 0 where it is not.
+StrandInBone deepest(const Scene& scene,
+                     const std::vector<PresetPose>& poses,
+                     const SmoothedMesh& bone,
+                     double limit,
+                     int ligament,
+                     int body) {
+  StrandInBone strand{ligament, body, 0, 0};
+  for (const PresetPose& pose : poses) {
+    const auto [own, far] =
+        ends_seen_from(scene, scene.ligaments[static_cast<std::size_t>(ligament)], body, pose.X_BA);
+    if (bone.signed_distance(far) < 0) continue;
+    const double depth = depth_of_line(bone, own, far);
+    const double inserted = std::max(0.0, -bone.signed_distance(own));
+    if (depth > inserted + limit && depth > strand.depth)
+      strand.flexion = pose.flexion, strand.depth = depth;
+  }
+  return strand;
+}
+
+void warn_of_strands(const Scene& scene,
+                     const std::vector<TriangleMesh>& bones,
+                     double limit,
+                     std::vector<std::string>& lines) {
+  const std::vector<StrandInBone> strands = strands_in_bone(scene, bones, limit);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    std::string names;
+    int count = 0;
+    for (const StrandInBone& strand : strands) {
+      if (strand.body != static_cast<int>(b)) continue;
+      names += fmt::format("{}\"{}\" by {:.1f} mm at {:.0f} deg", count++ > 0 ? ", " : "",
+                           scene.ligaments[static_cast<std::size_t>(strand.ligament)].name,
+                           strand.depth, strand.flexion / kDegree);
+    }
+    if (count > 0)
+      lines.push_back(fmt::format(
+          "warning: straight through \"{}\", flexed that far from the start pose: {}; "
+          "[[wrap]] body = \"{}\", kind = \"ellipsoid\", fit = \"bone\" leads them round",
+          scene.bodies[b].name, names, scene.bodies[b].name));
+  }
+}
+
+void warn_of_deep_ends(const Scene& scene, double limit, std::vector<std::string>& lines) {
+  for (const LigamentDescription& ligament : scene.ligaments) {
+    if (ligament.path.wraps.empty() || !ligament.path.anchors_inside) continue;
+    const std::vector<PathWrap> wraps = path_wraps(scene, ligament);
+    const auto [x_C, s_D] = fixed_then_moving(scene, ligament.ends);
+    for (const InsideEnd& end : inside_ends(wraps, x_C, s_D))
+      if (end.wrap >= 0 && end.depth > limit)
+        lines.push_back(
+            fmt::format("warning: ligament \"{}\": its insertion lies {:.1f} mm inside wrap \"{}\" "
+                        "and is moved "
+                        "to its surface",
+                        ligament.name, end.depth, wraps[static_cast<std::size_t>(end.wrap)].name));
+  }
+}
+
+void warn_of_fits(const Scene& scene, std::vector<std::string>& lines) {
+  constexpr double kPoor = 0.3;  // of a length [mm]
+  for (const WrapDescription& wrap : scene.wraps)
+    if (wrap.fit && wrap.fit->length_max > kPoor)
+      lines.push_back(
+          fmt::format("warning: wrap \"{}\": a string over it is {:.2f} mm longer or shorter than "
+                      "over the mesh, expected at most {:g} mm: fewer ligaments on one ellipsoid",
+                      wrap.name, wrap.fit->length_max, kPoor));
+}
+
+}  // namespace
+
+std::vector<StrandInBone> strands_in_bone(const Scene& scene,
+                                          const std::vector<TriangleMesh>& bones,
+                                          double limit) {
+  std::vector<StrandInBone> strands;
+  if (scene.moving_body() < 0) return strands;
+  const std::vector<PresetPose> poses = preset_poses(scene);
+  for (std::size_t b = 0; b < bones.size(); ++b) {
+    const std::optional<TriangleMesh> solid = solid_bone(bones[b], true);
+    if (!solid) continue;
+    const SmoothedMesh bone(*solid);
+    for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
+      const LigamentDescription& ligament = scene.ligaments[i];
+      const auto body = static_cast<int>(b);
+      if ((ligament.ends[0].body != body && ligament.ends[1].body != body) ||
+          wraps_on(scene, ligament, body))
+        continue;
+      const StrandInBone strand = deepest(scene, poses, bone, limit, static_cast<int>(i), body);
+      if (strand.depth > 0) strands.push_back(strand);
+    }
+  }
+  return strands;
+}
+
+std::vector<std::string> wrap_warnings(const Scene& scene,
+                                       const std::vector<TriangleMesh>& bones,
+                                       double limit) {
+  std::vector<std::string> lines;
+  warn_of_fits(scene, lines);
+  warn_of_strands(scene, bones, limit, lines);
+  warn_of_deep_ends(scene, limit, lines);
+  return lines;
+}
+
+}  // namespace condyle
