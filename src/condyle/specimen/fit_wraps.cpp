@@ -8,8 +8,9 @@
 
 #include "condyle/elements/line_element.h"
 #include "condyle/input_error.h"
-#include "condyle/mesh/clean_mesh.h"
+#include "condyle/mesh/mesh_edges.h"
 #include "condyle/mesh/mesh_measures.h"
+#include "condyle/mesh/orient_mesh.h"
 #include "condyle/scene/ligament_path.h"
 #include "condyle/specimen/bone_string.h"
 #include "condyle/specimen/fit_ellipsoid.h"
@@ -200,13 +201,16 @@ bool asks_for(const Scene& scene, std::size_t body) {
 
 std::optional<TriangleMesh> solid_bone(const TriangleMesh& bone, bool alone) {
   if (bone.triangles.empty()) return std::nullopt;
-  CleanMesh clean = clean_mesh(bone);
-  if (clean.closed.empty() || !clean.closed[0] || (alone && clean.closed.size() > 1))
-    return std::nullopt;
-  if (clean.closed.size() == 1) return std::move(clean.mesh);
+  TriangleMesh mesh = bone;
+  const TriangleLinks links(mesh);
+  const std::vector<int> component = find_components(mesh, links);
+  std::vector<bool> closed;
+  orient_components(mesh, links, component, closed);
+  if (closed.empty() || !closed[0] || (alone && closed.size() > 1)) return std::nullopt;
+  if (closed.size() == 1) return mesh;
   std::vector<bool> largest;
-  for (const int component : clean.component) largest.push_back(component == 0);
-  return sub_mesh(clean.mesh, largest).mesh;
+  for (const int c : component) largest.push_back(c == 0);
+  return sub_mesh(mesh, largest).mesh;
 }
 
 void fit_wraps(Scene& scene,
