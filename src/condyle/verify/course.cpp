@@ -75,6 +75,8 @@ std::vector<TouchAt> touches_at(const PoseResult& pose, std::size_t ligament) {
   return touches;
 }
 
+constexpr double kNoticed = 0.1;  // [mm]
+
 /// Is the surface left out because the ligament's end lies inside it?
 bool passed_over(const LigamentDescription& ligament,
                  const WrapAt& wrap,
@@ -135,9 +137,21 @@ void check_path(const Scene& scene, const PoseResult& pose, std::size_t ligament
   Vector3d from = begin_of(scene, pose, ligament, false, wraps);
   for (std::size_t k = 0; k <= touches.size(); ++k) {
     const Vector3d to = k < touches.size() ? touches[k].P : end;
-    for (const WrapAt& wrap : wraps)
-      if (!passed_over(scene.ligaments[ligament], wrap, pose, scene))
-        note(runs_into(wrap, from, to), wrap, "a straight piece runs through it");
+    // Wraps come in their order: each lies at the piece between those that are touched about it.
+    const std::size_t first = k > 0 ? touches[k - 1].wrap : 0;
+    const std::size_t last = k < touches.size() ? touches[k].wrap : wraps.size() - 1;
+    for (std::size_t w = 0; w < wraps.size(); ++w) {
+      if (passed_over(scene.ligaments[ligament], wraps[w], pose, scene)) continue;
+      const double depth = runs_into(wraps[w], from, to);
+      if (w >= first && w <= last)
+        note(depth, wraps[w], "a straight piece runs through it");
+      else if (depth > kNoticed)
+        ledger.warn(
+            "order " + name + wraps[w].wrap->name, depth,
+            fmt::format("{}: ligament \"{}\" runs {:.1f} mm through \"{}\", but not where that "
+                        "comes in the order of its wraps",
+                        ledger.pose_name(), name, depth, wraps[w].wrap->name));
+    }
     if (k > 0)
       note(bend(to - from, touches[k - 1].t_Q), wraps[touches[k - 1].wrap], "leaves it bent");
     if (k == touches.size()) break;
