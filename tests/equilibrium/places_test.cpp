@@ -10,6 +10,7 @@
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
+#include "condyle/specimen/fit_wraps.h"
 #include "support/knee_scenes.h"
 #include "support/moved_scene.h"
 #include "support/scratch_folder.h"
@@ -118,12 +119,13 @@ SweepOptions without_events() {
   return options;
 }
 
-/// The surfaces are moved as they were fitted once: what the engine makes of them.
+/// Surfaces and wraps are moved as they were fitted once: what the engine makes of them.
 void sweep_everywhere(const fs::path& file) {
   SCOPED_TRACE(file.string());
-  const Scene scene = read_scene(file);
+  Scene scene = read_scene(file);
   if (!scene.sweep) return;
   const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
+  fit_wraps(scene, surfaces);
   const SweepResult expected = sweep(scene, surfaces, without_events());
   for (const auto& [name, move] : moves()) {
     if (!MovedScene::can(scene, move)) continue;

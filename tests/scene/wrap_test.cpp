@@ -128,6 +128,17 @@ const WrapMistake kMistakes[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Scene, BadWrap, testing::ValuesIn(kMistakes));
 
+TEST(WrapOfAScene, NoEndLiesInsideTwo) {
+  const std::string text = wrapped(
+      "body = \"tibia\"\nkind = \"sphere\"\ncenter = [3, -10, 0]\nradius = 3.5\n\n[[wrap]]\nname = "
+      "\"other\"\nbody = \"tibia\"\nkind = \"sphere\"\ncenter = [-4, -10, 0]\nradius = 4.5",
+      "wraps = [\"rim\", \"other\"]");
+  EXPECT_NE(message_of(text).find("expected an end inside one wrap at most (it lies in \"rim\" and "
+                                  "\"other\")"),
+            std::string::npos)
+      << message_of(text);
+}
+
 TEST(WrapOfAScene, ThatNoLigamentUsesIsNamed) {
   EXPECT_EQ(
       message_of(wrapped(kSphere, "")),

@@ -40,7 +40,17 @@ class MovedScene {
     for (SurfaceDescription& surface : moved_.surfaces) move_surface(surface);
     for (ContactDescription& contact : moved_.contacts)
       for (Eigen::Vector3d& point : contact.start) point = move_.B * point;
-    for (LigamentDescription& ligament : moved_.ligaments) move_ends(ligament.ends);
+    for (WrapDescription& wrap : moved_.wraps) {
+      wrap.placement = of(wrap.body) * wrap.placement;
+      if (wrap.fit) wrap.fit->side = of(wrap.body) * wrap.fit->side;
+    }
+    for (LigamentDescription& ligament : moved_.ligaments) {
+      move_ends(ligament.ends);
+      for (std::size_t i = 0; i < ligament.path.sides.size(); ++i) {
+        const auto wrap = static_cast<std::size_t>(ligament.path.wraps[i]);
+        ligament.path.sides[i] = of(moved_.wraps[wrap].body) * ligament.path.sides[i];
+      }
+    }
     for (std::size_t i = 0; i < moved_.conditions.size(); ++i) move_condition(i);
     for (LoadDescription& load : moved_.loads) {
       load.at = of(load.body) * load.at;

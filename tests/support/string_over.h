@@ -62,7 +62,7 @@ class StringOver {
     return result;
   }
   [[nodiscard]] std::vector<LineTouch> touches(const Eigen::Vector3d& X,
-                                                        const Eigen::Vector3d& Y) const {
+                                               const Eigen::Vector3d& Y) const {
     return path_->touches({X, Y, Y}, {}, kept_.data());
   }
   [[nodiscard]] WrappedPath::Finding finding(const Eigen::Vector3d& X,

@@ -18,6 +18,7 @@
 
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_wraps.h"
 #include "phantom/exact_motion.h"
 #include "phantom/mesh_shape.h"
 #include "phantom/roughness.h"
@@ -28,8 +29,10 @@ namespace {
 
 void print_motion(const std::filesystem::path& file) {
   using namespace condyle;
-  const Scene scene = read_scene(file);
-  const SweepResult result = sweep(scene, phantom::exact_surfaces(scene));
+  Scene scene = read_scene(file);
+  const std::vector<FittedSurface> surfaces = phantom::exact_surfaces(scene);
+  fit_wraps(scene, surfaces);
+  const SweepResult result = sweep(scene, surfaces);
   std::fputs(phantom::motion_table(scene, result, {0, 10, 20, 30, 45, 60, 90, 120}).c_str(),
              stdout);
 }

@@ -22,7 +22,7 @@ struct MotionFrame {
   std::vector<double> contact_force, contact_gap;  ///< [N], [mm]
   std::vector<Eigen::Vector3d> contact_point;      ///< ground frame [mm]
   std::vector<LineState> lines;
-  std::vector<double> paths;  ///< what the paths of lines keep (PathLines::kept)
+  std::vector<double> paths;                 ///< what the paths of lines keep (PathLines::kept)
   std::vector<double> condition_multiplier;  ///< σ [N] or [N mm]
   EnergySum energy;
   double dissipated = 0, driver_work = 0;  ///< since the start [N mm]; impacts dissipate too

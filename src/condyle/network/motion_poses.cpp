@@ -33,11 +33,8 @@ class FrameTeller {
     PoseResult pose;
     pose.value = frame.state.t;
     pose.status = PoseStatus::kConverged;
-    begin_pose({frame.state.bodies[0].X,
-                model_.joint ? &*model_.joint : nullptr,
-                model_.elements,
-                frame.paths,
-                model_.pairs.size()},
+    begin_pose({frame.state.bodies[0].X, model_.joint ? &*model_.joint : nullptr, model_.elements,
+                frame.paths, model_.pairs.size()},
                pose);
     // What is viscous adds to the law.
     for (std::size_t i = 0; i < model_.elements.size(); ++i)

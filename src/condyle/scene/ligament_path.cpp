@@ -41,6 +41,17 @@ void set_slack_length(double slack, ForceLaw& law) {
   if (auto* quadratic = std::get_if<QuadraticLaw>(&law)) quadratic->slack_length = slack;
 }
 
+/// Names of the wraps of its own body in which an end lies.
+std::vector<std::string> wraps_around(const std::vector<PathWrap>& wraps,
+                                      bool moving,
+                                      const Eigen::Vector3d& end) {
+  std::vector<std::string> names;
+  for (const PathWrap& wrap : wraps)
+    if (wrap.on_moving == moving && signed_distance(wrap.shape, wrap.placement.inverse() * end) < 0)
+      names.push_back(wrap.name);
+  return names;
+}
+
 }  // namespace
 
 std::array<Eigen::Vector3d, 2> fixed_then_moving(const Scene& scene,
@@ -100,7 +111,14 @@ StartPath start_path(const Scene& scene, const LigamentDescription& ligament) {
   if (ligament.path.wraps.empty()) return {distance_between(scene, ligament.ends, start), {}, {}};
   const std::vector<PathWrap> wraps = path_wraps(scene, ligament);
   const auto [x_C, s_D] = fixed_then_moving(scene, ligament.ends);
-  if (ligament.path.anchors_inside)
+  if (ligament.path.anchors_inside) {
+    for (const auto& [moving, at] : {std::pair{false, x_C}, {true, s_D}}) {
+      const std::vector<std::string> around = wraps_around(wraps, moving, at);
+      if (around.size() > 1)
+        return {0, "ends",
+                fmt::format("an end inside one wrap at most (it lies in \"{}\" and \"{}\")",
+                            around[0], around[1])};
+    }
     for (const InsideEnd& end : inside_ends(wraps, x_C, s_D)) {
       if (end.wrap < 0) continue;
       const PathWrap& wrap = wraps[static_cast<std::size_t>(end.wrap)];
@@ -110,6 +128,7 @@ StartPath start_path(const Scene& scene, const LigamentDescription& ligament) {
                             "mm inside)",
                             wrap.name, end.depth)};
     }
+  }
   const double length = ligament_length(scene, ligament, start);
   if (!(length > 0))
     return {0, "wraps", "wraps around which there is a shortest path at the start pose"};

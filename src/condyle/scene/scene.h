@@ -131,9 +131,10 @@ struct WrapDescription {
   std::string name;
   int body = -1;
   WrapShape shape;
-  RigidTransform placement;    ///< from the surface's frame to that of the body [mm]
-  std::optional<BoneFit> fit = {};  ///< of one that is fitted to its bone (specimen/fit_wraps.h): shape
-                               ///< and placement mean nothing until that is done
+  RigidTransform placement;  ///< from the surface's frame to that of the body [mm]
+  std::optional<BoneFit> fit =
+      {};  ///< of one that is fitted to its bone (specimen/fit_wraps.h): shape
+           ///< and placement mean nothing until that is done
 };
 
 /// What a ligament wraps on, and how.

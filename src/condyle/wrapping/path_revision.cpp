@@ -184,9 +184,10 @@ bool rescue_path(const PathPose& pose, PathState& state, PathChain& chain) {
 
 bool revise_path(const PathPose& pose, PathState state) {
   if (!state.known()) return false;
-  // Of a lone surface that is touched the last pull knows all: it stays while its arc is not negative.
+  // Of a lone convex surface that is touched the last pull knows all: it stays while its arc is not
+  // negative.
   if (count(pose) == 1 && state.touches(0) && state.finding().outcome == Outcome::kFound &&
-      state.place(0).arc >= -kTouch)
+      state.place(0).arc >= -kTouch && !std::holds_alternative<WrapTorus>(pose.surfaces[0].shape))
     return false;
   PathChain chain = kept_chain(pose, state);
   if (!solve(chain)) return false;
