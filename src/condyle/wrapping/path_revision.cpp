@@ -5,6 +5,7 @@
 #include "condyle/wrapping/chain_system.h"
 #include "condyle/wrapping/path_start.h"
 #include "condyle/wrapping/solve_chain.h"
+#include "condyle/wrapping/touching_line.h"
 
 namespace condyle {
 namespace {
@@ -135,6 +136,22 @@ bool settle(const PathPose& pose, PathChain& chain, PathState& state, bool first
 }
 
 }  // namespace
+
+int surface_run_through(const PathPose& pose, const PathState& state) {
+  constexpr double kDeep = -1e-7;  // [mm]
+  PathChain chain = kept_chain(pose, state);
+  if (!solve(chain)) return -1;
+  for (int wrap = 0; wrap < count(pose); ++wrap) {
+    const WrapShape& shape = pose.surfaces[wrap].shape;
+    // A line that leaves an anchor does not come back to a convex surface.
+    const bool leaves = (pose.ends.end[0].wrap == wrap || pose.ends.end[1].wrap == wrap) &&
+                        !std::holds_alternative<WrapTorus>(shape);
+    if (pose.ends.passed_over[wrap] || leaves || link_on(chain, wrap) >= 0) continue;
+    const Passing line = passing(pose, chain, wrap);
+    if (clearance(shape, line.U, line.V) < kDeep) return wrap;
+  }
+  return runs_through(chain);
+}
 
 PathChain start_path(const PathPose& pose, PathState& state) {
   PathChain chain = without_links(pose);

@@ -9,6 +9,10 @@ namespace condyle {
 /// Opens and closes surfaces one by one until nothing changes; true where the statuses are others then.
 bool revise_path(const PathPose& pose, PathState state);
 
+/// A surface that a straight piece of a path that was found runs through where it should pass it; -1 where
+/// none is.
+[[nodiscard]] int surface_run_through(const PathPose& pose, const PathState& state);
+
 /// Statuses and path anew; `state` may hold the sides passed. The outcome in it says whether one was found.
 PathChain start_path(const PathPose& pose, PathState& state);
 

@@ -56,6 +56,19 @@ class SurfacesPath final : public WrappedPath {
   [[nodiscard]] std::string objection(const LineEnds& ends,
                                       const RigidTransform& X_BA,
                                       const double* kept) const override;
+  /// Last of all a look at the path that was found.
+  [[nodiscard]] std::string run_through(const LineEnds& ends,
+                                        const RigidTransform& X_BA,
+                                        const double* kept) const {
+    auto numbers = known(ends, X_BA, kept);
+    PathEnds other;
+    const PathEnds& at = ends_at(ends, X_BA, other);
+    const int wrap =
+        surface_run_through({surfaces_, at, X_BA}, PathState(numbers.data(), wraps_.size()));
+    if (wrap < 0) return {};
+    return "a straight piece of it runs through \"" + wraps_[static_cast<std::size_t>(wrap)].name +
+           "\"";
+  }
   [[nodiscard]] Finding finding(const LineEnds& ends,
                                 const RigidTransform& X_BA,
                                 const double* kept) const override {
@@ -157,7 +170,7 @@ std::string SurfacesPath::objection(const LineEnds& ends,
                                : "\"" + wraps_[static_cast<std::size_t>(found.wrap)].name + "\"";
   switch (found.outcome) {
     case Outcome::kFound:
-      return {};
+      return run_through(ends, X_BA, kept);
     case Outcome::kNotShortest:
       return "its path over " + name + " is not the shortest: it goes past a conjugate point";
     case Outcome::kEndInside:
