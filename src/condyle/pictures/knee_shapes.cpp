@@ -79,6 +79,7 @@ std::vector<BodyShape> body_shapes(const Run& run, double spacing) {
   }
   for (std::size_t i = 0; i < run.scene.wraps.size(); ++i) {
     const WrapDescription& wrap = run.scene.wraps[i];
+    if (wrap.fit) continue;  // there the bone is seen
     const bool endless = std::holds_alternative<WrapCylinder>(wrap.shape);
     shapes.push_back({wrap.body, Layer::kBone, 0.05, !endless,
                       exact_shape(surface_of(wrap), kWrap, place_of_touch(run, i)), -1});

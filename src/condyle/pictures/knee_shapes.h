@@ -26,7 +26,8 @@ struct BodyShape {
   ShadedMesh mesh;   ///< body frame
   int surface = -1;  ///< of the scene, where it is an articular surface
 };
-/// Bones, articular surfaces and what ligaments wrap on, of all bodies, patches with vertices about `spacing` [mm] apart.
+/// Bones, articular surfaces and what ligaments wrap on where that is no bone, of all bodies, patches
+/// with vertices about `spacing` [mm] apart.
 /// Works on runs without meshes or patches: then there is less to see.
 [[nodiscard]] std::vector<BodyShape> body_shapes(const Run& run, double spacing = 1.2);
 inline constexpr Paint kCartilage = {{186, 207, 223}, 0.42};
