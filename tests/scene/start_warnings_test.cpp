@@ -27,8 +27,9 @@ struct StartWarnings : testing::Test {
 // bundles run straight through its bones (docs/phantom.md).
 TEST_F(StartWarnings, HasNoneForThePhantomButThoseOfStrandsInBone) {
   for (const std::string& line : start_warnings(scene, surfaces))
-    if (line.starts_with("warning: "))
+    if (line.starts_with("warning: ")) {
       EXPECT_TRUE(line.starts_with("warning: straight through \"")) << line;
+    }
   for (const ContactDescription& contact : scene.contacts)
     EXPECT_NEAR(start_gap(scene, surfaces, contact), -0.03, 0.35) << contact.name;
 }

@@ -164,20 +164,22 @@ class GlbRun {
     return places;
   }
 
-  /// A cylinder of unit length along y, stretched over one of the equal pieces of a ligament. It
-  /// rolls as little as can be.
-  [[nodiscard]] std::vector<GlbPlace> ligament_track(std::size_t ligament,
-                                                     std::size_t piece,
-                                                     std::size_t pieces) const {
-    std::vector<GlbPlace> track;
-    Quaterniond turned = Quaterniond::Identity();
+  /// Cylinders of unit length along y, each stretched over one of the equal pieces of a ligament. They
+  /// roll as little as can be.
+  [[nodiscard]] std::vector<std::vector<GlbPlace>> ligament_tracks(std::size_t ligament,
+                                                                   std::size_t pieces) const {
+    std::vector<std::vector<GlbPlace>> tracks(pieces);
+    std::vector<Quaterniond> turned(pieces, Quaterniond::Identity());
     for (const ShownPose& shown : shown_) {
       const std::vector<Vector3d> places = course(pose(shown), ligament, pieces);
-      const Vector3d a = places[piece], ab = places[piece + 1] - a;
-      turned = (Quaterniond::FromTwoVectors(turned * Vector3d::UnitY(), ab) * turned).normalized();
-      track.push_back({kMetre * a, turned, {1, kMetre * ab.norm(), 1}});
+      for (std::size_t k = 0; k < pieces; ++k) {
+        const Vector3d ab = places[k + 1] - places[k];
+        const Vector3d along = turned[k] * Vector3d::UnitY();
+        turned[k] = (Quaterniond::FromTwoVectors(along, ab) * turned[k]).normalized();
+        tracks[k].push_back({kMetre * places[k], turned[k], {1, kMetre * ab.norm(), 1}});
+      }
     }
-    return track;
+    return tracks;
   }
 
   void add_ligaments() {
@@ -190,7 +192,8 @@ class GlbRun {
       GlbNode node;
       node.name = "ligament " + scene_.ligaments[i].name;
       node.mesh = cylinder;
-      node.track = ligament_track(i, 0, pieces);
+      std::vector<std::vector<GlbPlace>> tracks = ligament_tracks(i, pieces);
+      node.track = std::move(tracks[0]);
       node.moves_scale = true;
       const auto number = [&](double LigamentResult::*part) {
         return of_poses([&](const PoseResult& p) { return p.ligaments[i].*part; });
@@ -203,7 +206,7 @@ class GlbRun {
         GlbNode further;
         further.name = fmt::format("{}, piece {}", name, piece + 1);
         further.mesh = cylinder;
-        further.track = ligament_track(i, piece, pieces);
+        further.track = std::move(tracks[piece]);
         further.moves_scale = true;
         add_node(std::move(further), 0);
       }

@@ -11,7 +11,6 @@
 namespace condyle {
 namespace {
 
-constexpr std::size_t kMostWraps = 7;
 constexpr const char* kLigaments = "names of ligaments [\"...\", ...] that wrap on it";
 
 /// A right-handed triad whose third direction is given.
@@ -81,7 +80,7 @@ void read_names_of_wraps(const Section& section, const Scene& scene, LigamentWra
   const std::string expected = "names of wraps [\"...\", ...], from the first end to the second";
   const Value& names = section.value("wraps", expected);
   if (names.type != Value::Type::kArray || names.items.empty()) section.fail("wraps", expected);
-  if (names.items.size() > kMostWraps)
+  if (names.items.size() > static_cast<std::size_t>(kMostWraps))
     section.fail("wraps", fmt::format("at most {} names", kMostWraps));
   for (const Value& name : names.items) {
     const int wrap = section.reference("wraps", name, "the name of a wrap", names_of(scene.wraps));

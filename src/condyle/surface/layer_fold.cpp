@@ -45,9 +45,9 @@ class FoldSearch {
 template <class At>
 void on_cells(double u_min, double u_max, double v_min, double v_max, const At& at) {
   constexpr double kStep = 0.5;  // [mm]
-  constexpr int kFewest = 8, kMost = 400;
+  constexpr int kFewestCells = 8, kMostCells = 400;
   const auto count = [](double way) {
-    return static_cast<int>(std::clamp<double>(way / kStep, kFewest, kMost));
+    return static_cast<int>(std::clamp<double>(way / kStep, kFewestCells, kMostCells));
   };
   const int nu = count(u_max - u_min), nv = count(v_max - v_min);
   const double step_u = (u_max - u_min) / nu, step_v = (v_max - v_min) / nv;

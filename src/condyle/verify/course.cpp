@@ -107,7 +107,8 @@ Course course_of(const Scene& scene, const PoseResult& pose, std::size_t ligamen
   const std::vector<WrapAt> wraps = wraps_at(scene, pose, ligament);
   Course course;
   course.on_B = begin_of(scene, pose, ligament, false, wraps);
-  course.on_A = begin_of(scene, pose, ligament, true, wraps);
+  const Vector3d end = begin_of(scene, pose, ligament, true, wraps);
+  course.on_A = end;
   Vector3d last = course.on_B;
   bool crossed = false;
   for (const TouchAt& touch : touches_at(pose, ligament)) {
@@ -116,7 +117,7 @@ Course course_of(const Scene& scene, const PoseResult& pose, std::size_t ligamen
     if (touch.on_moving && !crossed) course.on_A = touch.P, crossed = true;
     last = touch.Q;
   }
-  course.length += (begin_of(scene, pose, ligament, true, wraps) - last).norm();
+  course.length += (end - last).norm();
   return course;
 }
 

@@ -128,10 +128,6 @@ bool presses(const WrapTorus&, const WrapShape& shape, const GeodesicState& s) {
   return frame_at(shape, {s.y[0], s.y[1], s.y[2]}, {s.v[0], s.v[1], s.v[2]}).kappa < 0;
 }
 
-double largest_curvature(const SurfaceFrame& f) {
-  return std::max(std::abs(f.kappa), std::abs(f.kappa_b)) + std::abs(f.tau);
-}
-
 /// Steps that turn by 0.5 rad at most where they begin, halved where one loses the surface or the
 /// Wronskian a r' - a' r = 1.
 template <class Field, class Shape>

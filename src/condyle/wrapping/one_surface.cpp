@@ -96,10 +96,6 @@ OneSurfacePath over(const WrapCylinder& cylinder,
   return path;
 }
 
-double largest_curvature(const SurfaceFrame& f) {
-  return std::max(std::abs(f.kappa), std::abs(f.kappa_b)) + std::abs(f.tau);
-}
-
 Geodesic geodesic_between(const WrapShape& shape, const SurfaceFrame& start, const ArcEnd& end) {
   Geodesic g;
   g.from = start;

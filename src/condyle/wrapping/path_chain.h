@@ -10,10 +10,9 @@
 
 #include "condyle/math/rigid_transform.h"
 #include "condyle/wrapping/geodesic.h"
+#include "condyle/wrapping/wrapped_path.h"
 
 namespace condyle {
-
-inline constexpr int kMostWraps = 7;
 
 /// A surface with the geodesic on it.
 struct ChainLink {

@@ -27,11 +27,11 @@ double height(
     const Vector3d& P0 = pose.ends.end[end].anchor;
     return ((end == 0 ? line.V : line.U) - P0).dot(normal_at(surface.shape, P0));
   }
-  double foot = 0;
-  const double g = clearance(surface.shape, line.U, line.V, &foot);
+  double part = 0;
+  const double g = clearance(surface.shape, line.U, line.V, &part);
   const bool told = first && surface.side;
   if (g > kTouch && !told)
-    state.leave(wrap, normal_at(surface.shape, line.U + foot * (line.V - line.U)));
+    state.leave(wrap, normal_at(surface.shape, line.U + part * (line.V - line.U)));
   return g;
 }
 
@@ -45,7 +45,7 @@ bool passes_on_the_other_side(const PathPose& pose, const PathChain& chain, int 
   const Vector3d w = *surface.side - surface.side->dot(d) / d.squaredNorm() * d;
   if (!(w.norm() > 1e-3)) return false;
   const auto touching = touching_line(surface.shape, line.U, line.V, w.normalized());
-  return touching && touching->shift > kTouch && touching->foot > 0 && touching->foot < 1;
+  return touching && touching->shift > kTouch && touching->part > 0 && touching->part < 1;
 }
 
 /// The side on which it passed last, else the one that was given; where the shortest way out is on that side,
@@ -106,6 +106,11 @@ bool change_one(const PathPose& pose, PathChain& chain, PathState& state, bool f
   return true;
 }
 
+bool touches_lone_convex(const PathPose& pose, const PathState& state) {
+  return count(pose) == 1 && state.touches(0) &&
+         !std::holds_alternative<WrapTorus>(pose.surfaces[0].shape);
+}
+
 /// A torus that one straight piece of a path over it runs through again, if any.
 int runs_through(const PathChain& chain) {
   constexpr double kDeep = -1e-7;
@@ -138,7 +143,8 @@ bool settle(const PathPose& pose, PathChain& chain, PathState& state, bool first
 }  // namespace
 
 int surface_run_through(const PathPose& pose, const PathState& state) {
-  constexpr double kDeep = -1e-7;  // [mm]
+  constexpr double kDeep = -1e-7;                   // [mm]
+  if (touches_lone_convex(pose, state)) return -1;  // lines that touch it do not run into it
   PathChain chain = kept_chain(pose, state);
   if (!solve(chain)) return -1;
   for (int wrap = 0; wrap < count(pose); ++wrap) {
@@ -203,8 +209,8 @@ bool revise_path(const PathPose& pose, PathState state) {
   if (!state.known()) return false;
   // Of a lone convex surface that is touched the last pull knows all: it stays while its arc is not
   // negative.
-  if (count(pose) == 1 && state.touches(0) && state.finding().outcome == Outcome::kFound &&
-      state.place(0).arc >= -kTouch && !std::holds_alternative<WrapTorus>(pose.surfaces[0].shape))
+  if (touches_lone_convex(pose, state) && state.finding().outcome == Outcome::kFound &&
+      state.place(0).arc >= -kTouch)
     return false;
   PathChain chain = kept_chain(pose, state);
   if (!solve(chain)) return false;

@@ -87,10 +87,10 @@ bool bring_in(
   link.t = link.X_GS.R.transpose() * d;
   link.arc = 0;
   const Vector3d aside = -line.shift * (link.X_GS.R * line.w);
-  const double beyond_U = std::max(0.0, 0.05 - line.foot);
-  const double beyond_V = std::max(0.0, line.foot - 0.95);
+  const double beyond_U = std::max(0.0, 0.05 - line.part);
+  const double beyond_V = std::max(0.0, line.part - 0.95);
   const bool can_draw_U = i == 0, can_draw_V = i + 1 == chain.n;
-  if ((line.foot < 0.001 && !can_draw_U) || (line.foot > 0.999 && !can_draw_V)) return false;
+  if ((line.part < 0.001 && !can_draw_U) || (line.part > 0.999 && !can_draw_V)) return false;
   const Vector3d draw_X = can_draw_U ? Vector3d(-beyond_U * d) : Vector3d::Zero();
   const Vector3d draw_Y = can_draw_V ? Vector3d(beyond_V * d) : Vector3d::Zero();
   chain.X += draw_X;

@@ -83,7 +83,7 @@ Vector3d closest_on_ellipsoid(const Vector3d& a, const Vector3d& point) {
   Vector3d p = point.cwiseAbs() / least;
   const Vector3d s = a / least, s2 = s.cwiseAbs2();
   Vector3d closest;
-  // Near the plane across the shortest axis, inside the focal ellipse: the foot leaves the plane.
+  // Near the plane across the shortest axis, inside the focal ellipse: the part leaves the plane.
   double t = -1 + p[thin];
   for (int i = 0; i < 3; ++i) t = std::max(t, s[i] * p[i] - s2[i]);
   const auto excess = [&](double at, double& slope) {
@@ -129,6 +129,10 @@ Vector3d closest_on_ellipsoid(const Vector3d& a, const Vector3d& point) {
 }
 
 }  // namespace
+
+double largest_curvature(const SurfaceFrame& f) {
+  return std::max(std::abs(f.kappa), std::abs(f.kappa_b)) + std::abs(f.tau);
+}
 
 SurfaceFrame frame_at(const WrapShape& shape, const Vector3d& x, const Vector3d& along) {
   return std::visit([&](const auto& s) { return frame_of(curvature_at(s, x), x, along); }, shape);

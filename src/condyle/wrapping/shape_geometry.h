@@ -16,6 +16,9 @@ struct SurfaceFrame {
   double kappa = 0, tau = 0, kappa_b = 0;
 };
 
+/// No normal curvature of the surface there is greater [1/mm].
+[[nodiscard]] double largest_curvature(const SurfaceFrame& f);
+
 /// At a point on the surface; the part of `along` in the tangent plane, made unit, becomes t.
 [[nodiscard]] SurfaceFrame frame_at(const WrapShape& shape,
                                     const Eigen::Vector3d& on_surface,

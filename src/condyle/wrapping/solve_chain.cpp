@@ -22,10 +22,6 @@ SurfaceFrame turned(const RigidTransform& X, const SurfaceFrame& f) {
   return result;
 }
 
-double largest_curvature(const SurfaceFrame& f) {
-  return std::max(std::abs(f.kappa), std::abs(f.kappa_b)) + std::abs(f.tau);
-}
-
 /// The largest of the steps, in rad and in radii of curvature.
 double size_of(const PathChain& chain, const ChainVector& step) {
   double size = 0;

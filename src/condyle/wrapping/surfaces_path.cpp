@@ -56,6 +56,13 @@ class SurfacesPath final : public WrappedPath {
   [[nodiscard]] std::string objection(const LineEnds& ends,
                                       const RigidTransform& X_BA,
                                       const double* kept) const override;
+  [[nodiscard]] Finding finding(const LineEnds& ends,
+                                const RigidTransform& X_BA,
+                                const double* kept) const override {
+    return PathState(known(ends, X_BA, kept).data(), wraps_.size()).finding();
+  }
+
+ private:
   /// Last of all a look at the path that was found.
   [[nodiscard]] std::string run_through(const LineEnds& ends,
                                         const RigidTransform& X_BA,
@@ -69,13 +76,7 @@ class SurfacesPath final : public WrappedPath {
     return "a straight piece of it runs through \"" + wraps_[static_cast<std::size_t>(wrap)].name +
            "\"";
   }
-  [[nodiscard]] Finding finding(const LineEnds& ends,
-                                const RigidTransform& X_BA,
-                                const double* kept) const override {
-    return PathState(known(ends, X_BA, kept).data(), wraps_.size()).finding();
-  }
 
- private:
   static PathSurface make_surface(const PathWrap& wrap) {
     PathSurface surface{wrap.shape, wrap.placement, wrap.placement.inverse(), wrap.on_moving, {}};
     if (wrap.side) surface.side = normal_at(wrap.shape, surface.X_SW * *wrap.side);

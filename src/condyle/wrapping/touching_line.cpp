@@ -26,10 +26,10 @@ double lowest(const Vector3d& M, const Vector3d& U, const Vector3d& d) {
 
 template <class Quadric>
 double clearance_of(
-    const Quadric& solid, const WrapShape&, const Vector3d& U, const Vector3d& V, double* foot) {
+    const Quadric& solid, const WrapShape&, const Vector3d& U, const Vector3d& V, double* part) {
   const Vector3d M = quadric(solid);
   const double at = lowest(M, U, V - U);
-  if (foot != nullptr) *foot = at;
+  if (part != nullptr) *part = at;
   const Vector3d x = U + at * (V - U);
   const Vector3d Mx = M.cwiseProduct(x);
   const double level = std::sqrt(x.dot(Mx)), steep = Mx.norm();
@@ -38,7 +38,7 @@ double clearance_of(
 
 /// Depth on a line that may have several deepest points: the deepest of samples, then golden section.
 double clearance_of(
-    const WrapTorus&, const WrapShape& shape, const Vector3d& U, const Vector3d& V, double* foot) {
+    const WrapTorus&, const WrapShape& shape, const Vector3d& U, const Vector3d& V, double* part) {
   constexpr int kSamples = 48;
   constexpr double kGolden = 0.6180339887498949;
   const auto height = [&](double at) { return signed_distance(shape, U + at * (V - U)); };
@@ -55,7 +55,7 @@ double clearance_of(
     (height(left) < height(right) ? high : low) = height(left) < height(right) ? right : left;
   }
   const double at = 0.5 * (low + high), h = height(at);
-  if (foot != nullptr) *foot = h < least ? at : static_cast<double>(best) / kSamples;
+  if (part != nullptr) *part = h < least ? at : static_cast<double>(best) / kSamples;
   return std::min(h, least);
 }
 
@@ -75,8 +75,8 @@ std::optional<TouchingLine> touching(const Quadric& solid,
   if (!(a > 0) || !(root > 0)) return std::nullopt;
   TouchingLine line{w, (-b + std::sqrt(root)) / a, {}, 0.5};
   const Vector3d shifted = U + line.shift * w;
-  if (dMd > 0) line.foot = -shifted.dot(Md) / dMd;
-  line.point = shifted + line.foot * d;
+  if (dMd > 0) line.part = -shifted.dot(Md) / dMd;
+  line.point = shifted + line.part * d;
   return line;
 }
 
@@ -89,8 +89,8 @@ std::optional<TouchingLine> touching(const WrapTorus& torus,
   TouchingLine line{w, 0, {}, 0.5};
   for (int k = 0; k < 100; ++k) {
     const Vector3d aside = line.shift * w;
-    const double height = clearance_of(torus, shape, U + aside, V + aside, &line.foot);
-    line.point = U + aside + line.foot * (V - U);
+    const double height = clearance_of(torus, shape, U + aside, V + aside, &line.part);
+    line.point = U + aside + line.part * (V - U);
     if (std::abs(height) < 1e-9 * torus.tube) break;
     const double steep = normal_at(shape, line.point).dot(w);
     const double newton = steep > 0.2 ? -height / steep : -height;
@@ -104,8 +104,8 @@ std::optional<TouchingLine> touching(const WrapTorus& torus,
 
 }  // namespace
 
-double clearance(const WrapShape& shape, const Vector3d& U, const Vector3d& V, double* foot) {
-  return std::visit([&](const auto& solid) { return clearance_of(solid, shape, U, V, foot); },
+double clearance(const WrapShape& shape, const Vector3d& U, const Vector3d& V, double* part) {
+  return std::visit([&](const auto& solid) { return clearance_of(solid, shape, U, V, part); },
                     shape);
 }
 
@@ -124,13 +124,13 @@ std::optional<TouchingLine> nearest_touching_line(const WrapShape& shape,
   std::optional<TouchingLine> best;
   double best_angle = 0;
   const auto between = [](const TouchingLine& line) {
-    return line.foot > 0.01 && line.foot < 0.99;
+    return line.part > 0.01 && line.part < 0.99;
   };
   if (torus) {
     // The normal where the line lies deepest, if the tube is round there as the line runs.
-    double foot = 0;
-    (void)clearance(shape, U, V, &foot);
-    const Vector3d n = normal_at(shape, U + foot * (V - U)), w = n - n.dot(d) * d;
+    double part = 0;
+    (void)clearance(shape, U, V, &part);
+    const Vector3d n = normal_at(shape, U + part * (V - U)), w = n - n.dot(d) * d;
     if (w.norm() > 0.5) best = touching_line(shape, U, V, w.normalized());
     if (best && between(*best)) return best;
     best.reset();

@@ -12,18 +12,18 @@
 namespace condyle {
 
 /// Least height of the line from U to V over the surface, negative inside [mm]; exact where it is 0, of
-/// sphere, cylinder and torus everywhere. `foot`: where, 0 at U, 1 at V.
+/// sphere, cylinder and torus everywhere. `part`: where, 0 at U, 1 at V.
 [[nodiscard]] double clearance(const WrapShape& shape,
                                const Eigen::Vector3d& U,
                                const Eigen::Vector3d& V,
-                               double* foot = nullptr);
+                               double* part = nullptr);
 
 /// A line shifted by `shift` along w touches the surface from outside at `point`.
 struct TouchingLine {
   Eigen::Vector3d w;
   double shift;
   Eigen::Vector3d point;
-  double foot;  ///< 0 at U, 1 at V, outside of it beyond them
+  double part;  ///< 0 at U, 1 at V, outside of it beyond them
 };
 
 /// The line through U and V shifted towards the side of w, w not along it; the shift is negative where

@@ -38,6 +38,9 @@ enum class InsideRule {
   kStraight  ///< the surface is passed over, as OpenSim does
 };
 
+/// Most surfaces of one path.
+inline constexpr int kMostWraps = 7;
+
 /// Constant and shared by threads.
 class WrappedPath : public LinePath {
  public:
@@ -76,7 +79,7 @@ struct InsideEnd {
   double depth = 0;
 };
 
-/// `wraps` in order from C (on B) to D (on A), at most 7; ends C in the ground frame, D in A's frame:
+/// `wraps` in order from C (on B) to D (on A), at most kMostWraps; ends C in the ground frame, D in A's frame:
 /// what is anchored there need not be found at each pose. A pull at other ends finds it anew. Throws
 /// std::invalid_argument where a radius is not positive, the tube of a torus closes its hole, or there are
 /// too many.
