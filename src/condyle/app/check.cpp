@@ -7,7 +7,10 @@
 #include <set>
 
 #include "condyle/app/commands.h"
+#include "condyle/app/make_run.h"
+#include "condyle/app/start_run.h"
 #include "condyle/network/simulate.h"
+#include "condyle/results/output_file.h"
 #include "condyle/scene_file/describe.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
@@ -18,7 +21,7 @@ namespace condyle {
 namespace {
 
 struct CheckOptions {
-  std::string scene;
+  std::string scene, report;
 };
 
 Eigen::Vector3d extent(const TriangleMesh& mesh) {
@@ -68,14 +71,28 @@ void print_mass(const Scene& scene) {
 
 int run_check(const CheckOptions& options) {
   Scene scene = read_scene(options.scene);
+  if (!options.report.empty()) {
+    check_output_file(options.report);
+    refuse_to_overwrite_inputs(options.report, scene);
+  }
   std::vector<TriangleMesh> bones;
   for (const BodyDescription& body : scene.bodies) bones.push_back(load_body_mesh(body));
   fit_wraps(scene, bones);
   fmt::print("{}", describe(scene));
   print_meshes(scene, bones);
   for (const std::string& line : describe_wrap_fits(scene)) fmt::print("{}\n", line);
-  for (const std::string& line : wrap_warnings(scene, bones)) fmt::print("{}\n", line);
+  const std::vector<std::string> warnings = wrap_warnings(scene, bones);
+  for (const std::string& line : warnings) fmt::print("{}\n", line);
   if (scene.simulation) print_mass(scene);
+#ifdef CONDYLE_PICTURES
+  if (!options.report.empty()) {
+    const Run run = start_run(scene);
+    std::vector<std::string> remarks = run.start;
+    remarks.insert(remarks.end(), warnings.begin(), warnings.end());
+    write_scene_page(options.report, run, remarks);
+    fmt::print("wrote {}\n", options.report);
+  }
+#endif
   return 0;
 }
 
@@ -86,6 +103,10 @@ void setup_check(CLI::App& program, int& status) {
   CLI::App* command =
       program.add_subcommand("check", "Read a scene and its meshes, and say what they hold");
   command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
+#ifdef CONDYLE_PICTURES
+  command->add_option("--report", options->report,
+                      "picture to write (PNG): bones, frames, insertions at the start pose");
+#endif
   command->footer("Example: condyle check data/phantom/knee.toml");
   command->callback([options, &status] { status = run_check(*options); });
 }

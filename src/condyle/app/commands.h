@@ -20,6 +20,7 @@ void setup_laxity(CLI::App& program, int& status);
 void setup_simulate(CLI::App& program, int& status);
 void setup_export(CLI::App& program, int& status);
 void setup_import(CLI::App& program, int& status);
+void setup_new(CLI::App& program, int& status);
 void setup_render(CLI::App& program, int& status);  // built with CONDYLE_PICTURES only
 void setup_plot(CLI::App& program, int& status);    // built with CONDYLE_PICTURES only
 void setup_verify(CLI::App& program, int& status);

@@ -30,6 +30,7 @@ void setup(CLI::App& program, int& status) {
   setup_simulate(program, status);
   setup_export(program, status);
   setup_import(program, status);
+  setup_new(program, status);
 #ifdef CONDYLE_PICTURES
   setup_render(program, status);
   setup_plot(program, status);

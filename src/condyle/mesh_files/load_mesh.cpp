@@ -55,14 +55,16 @@ std::string readable_length(double mm) {
   return mm > 2000 ? fmt::format("{:.4g} m", mm / 1000) : fmt::format("{:.3g} mm", mm);
 }
 
-void check_size(const std::filesystem::path& file, const TriangleMesh& mesh, double to_mm) {
-  Eigen::AlignedBox3d box;
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+void check_numbers(const std::filesystem::path& file, const TriangleMesh& mesh) {
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
     if (!mesh.vertices[i].allFinite())
       throw InputError(
           fmt::format("{}: vertex {} is not a number (NaN or infinite)", file.string(), i));
-    box.extend(mesh.vertices[i]);
-  }
+}
+
+void check_size(const std::filesystem::path& file, const TriangleMesh& mesh, double to_mm) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) box.extend(vertex);
   const double extent = box.sizes().maxCoeff();
   if (extent <= kLargest && extent >= kSmallest) return;
   throw InputError(fmt::format("{}: a knee of {}? expected a mesh of {} to {} mm{}", file.string(),
@@ -72,9 +74,15 @@ void check_size(const std::filesystem::path& file, const TriangleMesh& mesh, dou
 
 }  // namespace
 
-TriangleMesh load_mesh(const std::filesystem::path& file, double to_mm) {
+TriangleMesh load_mesh_of_any_unit(const std::filesystem::path& file) {
   TriangleMesh mesh = read_mesh(file);
   if (mesh.triangles.empty()) throw InputError(fmt::format("{}: mesh has no faces", file.string()));
+  check_numbers(file, mesh);
+  return mesh;
+}
+
+TriangleMesh load_mesh(const std::filesystem::path& file, double to_mm) {
+  TriangleMesh mesh = load_mesh_of_any_unit(file);
   for (Eigen::Vector3d& p : mesh.vertices) p *= to_mm;
   check_size(file, mesh, to_mm);
   return mesh;

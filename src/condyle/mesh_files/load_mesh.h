@@ -15,4 +15,7 @@ namespace condyle {
 /// with the unit that is suspected.
 [[nodiscard]] TriangleMesh load_mesh(const std::filesystem::path& file, double to_mm);
 
+/// The same in whatever unit the file has, of any size.
+[[nodiscard]] TriangleMesh load_mesh_of_any_unit(const std::filesystem::path& file);
+
 }  // namespace condyle

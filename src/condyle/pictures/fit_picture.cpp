@@ -81,13 +81,6 @@ std::vector<Camera> cameras_of(const Page& page, const Patch& patch, const Shade
   return cameras;
 }
 
-void paste(const Image& panel, Image& page, int left, int top) {
-  for (int y = 0; y < panel.height; ++y)
-    std::copy_n(panel.rgb.begin() + static_cast<std::ptrdiff_t>(panel.offset(0, y)),
-                3 * panel.width,
-                page.rgb.begin() + static_cast<std::ptrdiff_t>(page.offset(left, top + y)));
-}
-
 /// A cross with the letters of the anatomical directions, lower left in a panel.
 void draw_cross(const Pen& pen,
                 const Eigen::Vector2d& middle,

@@ -2,6 +2,7 @@
 
 /// An 8-bit sRGB image as plain data.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -32,6 +33,14 @@ struct Image {
   for (std::size_t i = 0; i < pixels; ++i)
     image.rgb.insert(image.rgb.end(), color.begin(), color.end());
   return image;
+}
+
+/// Lays a picture onto a page on which there is room for it.
+inline void paste(const Image& picture, Image& page, int left, int top) {
+  for (int y = 0; y < picture.height; ++y)
+    std::copy_n(picture.rgb.begin() + static_cast<std::ptrdiff_t>(picture.offset(0, y)),
+                3 * picture.width,
+                page.rgb.begin() + static_cast<std::ptrdiff_t>(page.offset(left, top + y)));
 }
 
 }  // namespace condyle

@@ -13,6 +13,7 @@
 #include "condyle/pictures/annotate.h"
 #include "condyle/pictures/framing.h"
 #include "condyle/pictures/gap_map.h"
+#include "condyle/pictures/joint_axes.h"
 #include "condyle/pictures/knee_shapes.h"
 #include "condyle/pictures/pressure_map.h"
 #include "condyle/pictures/renderer.h"
@@ -57,7 +58,7 @@ struct KneePictures::State {
   std::optional<PressureMap> pressures;
   std::array<int, 2> outlines = {-1, -1};  // of the areas of pressure, on tibia and femur
   std::array<int, 2> path = {-1, -1}, reference_path = {-1, -1};  // on tibia and femur
-  int ligaments = -1, contacts = -1, ellipses = -1, arrows = -1, crosses = -1;
+  int ligaments = -1, contacts = -1, ellipses = -1, arrows = -1, crosses = -1, axes = -1;
   std::array<std::optional<Staging>, kViewCount> stagings;
   std::array<std::optional<Camera>, kViewCount> cameras;
 
@@ -100,7 +101,8 @@ KneePictures::State::State(const Run& r, const PictureOptions& o)
     reference_path[i] = renderer.add(reference_paths(run, bodies()[i], scales));
     outlines[i] = renderer.add({});
   }
-  for (int* id : {&ligaments, &contacts, &ellipses, &arrows, &crosses}) *id = renderer.add({});
+  for (int* id : {&ligaments, &contacts, &ellipses, &arrows, &crosses, &axes})
+    *id = renderer.add({});
 }
 
 const Staging& KneePictures::State::staging(View view) {
@@ -216,6 +218,7 @@ void KneePictures::State::fill_meshes(Scenery& scenery) {
   renderer.replace(ellipses, options.hertz ? hertz_ellipses(scenery.marks) : ShadedMesh{});
   renderer.replace(arrows,
                    shows_arrows(scenery) ? force_arrows(scenery.marks, scales) : ShadedMesh{});
+  if (options.frames) renderer.replace(axes, joint_axes(run.scene, stage, scenery.X_P));
   renderer.replace(crosses, edge_crosses(scenery.marks, scenery.camera.R_VP, scales));
   if (gaps) scenery.overlap = paint_gaps(scenery);
   if (pressures) {
@@ -242,7 +245,7 @@ std::vector<Item> KneePictures::State::items(Scenery& scenery) {
   }
   items.push_back({ligaments, {}, Layer::kSolid, 0.12, true});
   items.push_back({ellipses, {}, Layer::kMark, 0, false});
-  for (const int mesh : {contacts, arrows, crosses})
+  for (const int mesh : {contacts, arrows, crosses, axes})
     items.push_back({mesh, {}, Layer::kMark, 0.12, true});
   return items;
 }

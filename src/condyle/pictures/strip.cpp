@@ -17,13 +17,6 @@ namespace {
 constexpr double kHeight = 800, kHead = 92, kValueLine = 30, kFoot = 112, kBars = 120;
 constexpr int kPanelWidth = 340, kWidePanel = 500, kPageHeight = 640, kWidest = 8000;  // [pixel]
 
-void paste(const Image& panel, Image& page, int left, int top) {
-  for (int y = 0; y < panel.height; ++y)
-    std::copy_n(panel.rgb.begin() + static_cast<std::ptrdiff_t>(panel.offset(0, y)),
-                3 * panel.width,
-                page.rgb.begin() + static_cast<std::ptrdiff_t>(page.offset(left, top + y)));
-}
-
 /// What stands once on the page.
 void draw_page_words(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
   draw_title(pen, page.width, scenery.run.scene.title, caption(scenery, false));

@@ -1,0 +1,190 @@
+#include "condyle/anatomy/new_knee.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "condyle/anatomy/new_start.h"
+#include "condyle/input_error.h"
+#include "condyle/mesh/clean_mesh.h"
+#include "condyle/mesh_files/load_mesh.h"
+#include "condyle/scene/ligament_path.h"
+#include "condyle/scene/start_pose.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kUnsure = 5;     // of an insertion, told as a doubt [mm]
+constexpr double kDropped = 4;    // off the bone, likewise [mm]
+constexpr double kPoorFit = 2.5;  // rms of the registered bones, likewise [mm]
+
+TriangleMesh cleaned(const std::filesystem::path& file) {
+  try {
+    return clean_mesh(load_mesh_of_any_unit(file)).mesh;
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    if (text.find(file.string()) != std::string::npos) throw;
+    throw InputError(file.string() + ": " + text);
+  }
+}
+
+void scale(TriangleMesh& mesh, double factor) {
+  for (Vector3d& v : mesh.vertices) v *= factor;
+}
+
+Vector3d centroid(const TriangleMesh& mesh) {
+  Vector3d sum = Vector3d::Zero();
+  for (const Vector3d& v : mesh.vertices) sum += v;
+  return sum / static_cast<double>(mesh.vertices.size());
+}
+
+struct Loaded {
+  KneeMeshes meshes;
+  std::vector<Vector3d> tibial_centers;  // of each file with tibial cartilage
+};
+
+Loaded load(const NewKneeFiles& files) {
+  Loaded loaded;
+  loaded.meshes.femur = cleaned(files.femur);
+  loaded.meshes.tibia = cleaned(files.tibia);
+  if (files.cartilage.empty()) return loaded;
+  loaded.meshes.femoral_cartilage = cleaned(files.cartilage[0]);
+  TriangleMesh tibial;
+  for (std::size_t i = 1; i < files.cartilage.size(); ++i) {
+    const TriangleMesh part = cleaned(files.cartilage[i]);
+    loaded.tibial_centers.push_back(centroid(part));
+    append(tibial, part);
+  }
+  loaded.meshes.tibial_cartilage = std::move(tibial);
+  return loaded;
+}
+
+RecognisedKnee recognise(const NewKneeFiles& files,
+                         const KneeMeshes& meshes,
+                         const RecogniseOptions& options) {
+  try {
+    return recognise_knee(meshes, options);
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("{} and {}: {}", files.femur.string(), files.tibia.string(), error.what()));
+  }
+}
+
+/// Ends of the template's ligaments on one of its bones, and whose they are.
+struct Insertions {
+  std::vector<Vector3d> points;
+  std::vector<std::pair<std::size_t, std::size_t>> owners;  // ligament of the new knee, end
+};
+
+Insertions insertions_on(const NewKnee& knee, int body) {
+  Insertions found;
+  for (std::size_t l = 0; l < knee.ligaments.size(); ++l) {
+    const LigamentDescription& from =
+        knee.model.scene.ligaments[static_cast<std::size_t>(knee.ligaments[l].of_template)];
+    for (std::size_t end = 0; end < 2; ++end)
+      if (from.ends[end].body == body) {
+        found.points.push_back(from.ends[end].at);
+        found.owners.emplace_back(l, end);
+      }
+  }
+  return found;
+}
+
+CarriedPoints carry(
+    NewKnee& knee, int body, const FramedBone& from, const FramedBone& to, bool femur) {
+  const Insertions insertions = insertions_on(knee, body);
+  CarriedPoints carried = carry_points(from, to, insertions.points);
+  for (std::size_t i = 0; i < insertions.owners.size(); ++i) {
+    const auto [ligament, end] = insertions.owners[i];
+    knee.ligaments[ligament].ends[end] = carried.points[i];
+    knee.ligaments[ligament].on_femur[end] = femur;
+  }
+  return carried;
+}
+
+/// Laws that know their slack length can be carried to bones of another size.
+void choose_ligaments(NewKnee& knee) {
+  const Scene& scene = knee.model.scene;
+  const RigidTransform X_BA = start_pose(scene);
+  int wrapped = 0;
+  for (std::size_t l = 0; l < scene.ligaments.size(); ++l) {
+    const LigamentDescription& ligament = scene.ligaments[l];
+    if (!(slack_length(ligament.law) > 0)) {
+      knee.doubts.push_back(fmt::format(
+          "ligament \"{}\" of the template is left out: its law is given by absolute lengths",
+          ligament.name));
+      continue;
+    }
+    wrapped += ligament.path.wraps.empty() ? 0 : 1;
+    NewLigament chosen;
+    chosen.of_template = static_cast<int>(l);
+    chosen.strain = ligament.reference_strain.value_or(
+        ligament_length(scene, ligament, X_BA) / slack_length(ligament.law) - 1);
+    knee.ligaments.push_back(chosen);
+  }
+  if (knee.ligaments.empty())
+    throw InputError(knee.files.template_scene.string() +
+                     ": as a template, expected a ligament that is toe-linear or quadratic");
+  if (wrapped > 0)
+    knee.doubts.push_back(fmt::format(
+        "{} of the template's ligaments wrap on bone; they are straight here, with the "
+        "strain that they have wrapped (condyle check names those that run through bone)",
+        wrapped));
+}
+
+void doubt_insertions(NewKnee& knee) {
+  std::string unsure;
+  int count = 0;
+  for (const NewLigament& ligament : knee.ligaments)
+    for (std::size_t end = 0; end < 2; ++end) {
+      const CarriedPoint& point = ligament.ends[end];
+      if (point.uncertainty <= kUnsure && point.dropped <= kDropped) continue;
+      const LigamentDescription& from =
+          knee.model.scene.ligaments[static_cast<std::size_t>(ligament.of_template)];
+      ++count;
+      if (count <= 4)
+        unsure += fmt::format("{}\"{}\" {} ±{:.0f} mm", unsure.empty() ? "" : ", ", from.name,
+                              ligament.on_femur[end] ? "femur" : "tibia", point.uncertainty);
+    }
+  if (count > 0)
+    knee.doubts.push_back(fmt::format("insertions to look at, {} of {}: {}{}", count,
+                                      2 * knee.ligaments.size(), unsure, count > 4 ? ", ..." : ""));
+  for (const auto& [carried, bone] : {std::pair{&knee.femur, "femur"}, {&knee.tibia, "tibia"}})
+    if (carried->rms > kPoorFit)
+      knee.doubts.push_back(
+          fmt::format("the template's {} fits this one only to {:.1f} mm rms", bone, carried->rms));
+}
+
+}  // namespace
+
+NewKnee new_knee(const NewKneeFiles& files, const RecogniseOptions& options) {
+  NewKnee knee;
+  knee.files = files;
+  Loaded loaded = load(files);
+  knee.shape = recognise(files, loaded.meshes, options);
+  knee.doubts = knee.shape.doubts;
+  scale(loaded.meshes.femur, knee.shape.to_mm);
+  scale(loaded.meshes.tibia, knee.shape.to_mm);
+  if (loaded.tibial_centers.size() == 2) {
+    const Vector3d across = loaded.tibial_centers[1] - loaded.tibial_centers[0];
+    knee.tibial_file =
+        across.dot(knee.shape.tibia.frame.lateral) > 0 ? std::array{1, 2} : std::array{2, 1};
+  }
+
+  knee.model = load_template(files.template_scene);
+  choose_ligaments(knee);
+  const JointDescription& joint = *knee.model.scene.joint;
+  knee.femur = carry(knee, joint.femur.body, {knee.model.femur, knee.model.shape.femur.frame},
+                     {loaded.meshes.femur, knee.shape.femur.frame}, true);
+  knee.tibia = carry(knee, joint.tibia.body, {knee.model.tibia, knee.model.shape.tibia.frame},
+                     {loaded.meshes.tibia, knee.shape.tibia.frame}, false);
+  doubt_insertions(knee);
+  find_start(knee);
+  return knee;
+}
+
+}  // namespace condyle

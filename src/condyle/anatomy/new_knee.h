@@ -1,0 +1,61 @@
+#pragma once
+
+/// From two meshes to a described knee: unit, side and frames from their shape, ligaments from a
+/// template, and a start pose with the surfaces in touch. docs/new.md.
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/anatomy/carry_points.h"
+#include "condyle/anatomy/recognise_knee.h"
+#include "condyle/anatomy/template_knee.h"
+#include "condyle/elements/joint_coordinates.h"
+#include "condyle/math/rigid_transform.h"
+
+namespace condyle {
+
+struct NewKneeFiles {
+  std::filesystem::path femur, tibia;
+  std::vector<std::filesystem::path>
+      cartilage;  ///< none; femoral and tibial; or femoral and two tibial ones
+  std::filesystem::path template_scene;
+};
+
+/// A ligament of the template on the new bones.
+struct NewLigament {
+  int of_template = -1;               ///< index into the template's ligaments
+  std::array<CarriedPoint, 2> ends;   ///< in the order of the template's
+  std::array<bool, 2> on_femur = {};  ///< which bone each is on
+  double strain = 0;                  ///< at the start pose, the template's and this one's [-]
+};
+
+/// How the start pose came about.
+struct NewStart {
+  RigidTransform X_FT;                ///< of the tibia in the femur's frame; identity: as scanned
+  JointCoordinates scan;              ///< of the scan, in the new frames
+  double extended = 0;                ///< flexion taken away, to that of the template [rad]
+  double shifted = 0;                 ///< along the tibia, towards the femur positive [mm]
+  double tilted = 0;                  ///< adduction added so that both compartments touch [rad]
+  std::array<double, 2> gaps = {};    ///< medial and lateral, before [mm], negative: overlap
+  std::array<double, 2> offset = {};  ///< of each of two surfaces, in place of cartilage [mm]
+};
+
+struct NewKnee {
+  NewKneeFiles files;
+  RecognisedKnee shape;
+  TemplateKnee model;  ///< the template
+  CarriedPoints femur, tibia;
+  std::vector<NewLigament> ligaments;
+  NewStart start;
+  std::array<int, 2> tibial_file = {1, 1};  ///< of files.cartilage, medial and lateral
+  std::vector<std::string> doubts;          ///< what a person should look at, one line each
+};
+
+/// Throws InputError: the file and what is wrong with it, or what cannot be told and the option
+/// that settles it.
+[[nodiscard]] NewKnee new_knee(const NewKneeFiles& files, const RecogniseOptions& options);
+
+}  // namespace condyle

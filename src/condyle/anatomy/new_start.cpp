@@ -1,0 +1,165 @@
+#include "condyle/anatomy/new_start.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/anatomy/new_scene_text.h"
+#include "condyle/math/rotation.h"
+#include "condyle/scene/start_pose.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
+#include "condyle/specimen/start_warnings.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kDegree = M_PI / 180;
+constexpr double kAsScanned = 5 * kDegree;  // flexion that is left as it is
+constexpr double kTouch = 0.02;             // [mm]
+constexpr double kMostTilt = 4 * kDegree;
+constexpr double kMostShift = 1.5;        // of a scan with cartilage, beyond it a doubt [mm]
+constexpr double kMostCartilage = 4;      // that an offset stands for [mm]
+constexpr double kLeastCartilage = 0.15;  // [mm]
+
+/// Gaps of both compartments at a pose of the tibia, with the offsets taken off.
+class Gaps {
+ public:
+  Gaps(Scene scene, const std::array<double, 2>& offset)
+      : scene_(std::move(scene)), surfaces_(fit_surfaces(scene_)), offset_(offset) {}
+
+  [[nodiscard]] Vector2d at(const RigidTransform& X_FT) {
+    BodyDescription& tibia = scene_.bodies[static_cast<std::size_t>(scene_.moving_body())];
+    tibia.start_translation = X_FT.p;
+    tibia.start_rotation = log_rotation(X_FT.R);
+    Vector2d gaps;
+    for (int c = 0; c < 2; ++c) {
+      const auto k = static_cast<std::size_t>(c);
+      gaps[c] = start_gap(scene_, surfaces_, scene_.contacts[k]) - 2 * offset_[k];
+    }
+    return gaps;
+  }
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  void set_offset(const std::array<double, 2>& offset) { offset_ = offset; }
+
+ private:
+  Scene scene_;
+  std::vector<FittedSurface> surfaces_;
+  std::array<double, 2> offset_;
+};
+
+/// Half of each gap between bare bones is taken for cartilage; what cannot be cartilage is 2 mm.
+std::array<double, 2> cartilage_offsets(const Vector2d& gaps) {
+  std::array<double, 2> offset{};
+  for (int c = 0; c < 2; ++c) {
+    const double half = gaps[c] / 2;
+    offset[static_cast<std::size_t>(c)] = !(half > kLeastCartilage) ? 0
+                                          : half > kMostCartilage   ? 2
+                                                                    : std::round(20 * half) / 20;
+  }
+  return offset;
+}
+
+RigidTransform moved(const JointFrames& frames, JointCoordinates q, const Vector2d& step) {
+  q.distraction += step.x();
+  q.adduction += step.y();
+  return pose_from_joint_coordinates(frames, q);
+}
+
+/// Distraction and adduction that close both gaps (Newton, by differences); the least gap alone
+/// where that would take more than kMostTilt.
+Vector2d close_gaps(Gaps& gaps, const JointFrames& frames, const JointCoordinates& q) {
+  Vector2d step = Vector2d::Zero();
+  for (int iteration = 0; iteration < 12; ++iteration) {
+    const Vector2d g = gaps.at(moved(frames, q, step));
+    if (!g.allFinite()) break;
+    if (g.cwiseAbs().maxCoeff() < kTouch) return step;
+    Matrix2d slope;
+    for (int k = 0; k < 2; ++k) {
+      const double h = k == 0 ? 0.2 : 0.2 * kDegree;
+      Vector2d there = step;
+      there[k] += h;
+      slope.col(k) = (gaps.at(moved(frames, q, there)) - g) / h;
+    }
+    if (!slope.allFinite() || std::abs(slope.determinant()) < 1e-3) break;
+    step -= slope.inverse() * g;
+    if (std::abs(step.y()) > kMostTilt) break;
+  }
+  step.setZero();
+  for (int iteration = 0; iteration < 8; ++iteration) {
+    const double least = gaps.at(moved(frames, q, step)).minCoeff();
+    if (!std::isfinite(least) || std::abs(least) < kTouch) break;
+    step.x() -= least;
+  }
+  return step;
+}
+
+void doubt_start(NewKnee& knee, bool bare, const Vector2d& after) {
+  const NewStart& start = knee.start;
+  if (start.extended != 0)
+    knee.doubts.push_back(fmt::format(
+        "the scan is {:.0f} degrees {} than the template at its start pose, for which its strains "
+        "are "
+        "given; the start pose is brought there about the femur's axis",
+        std::abs(start.extended) / kDegree, start.extended > 0 ? "more flexed" : "straighter"));
+  for (std::size_t c = 0; c < 2; ++c) {
+    const char* side = c == 0 ? "medial" : "lateral";
+    if (!std::isfinite(start.gaps[c]))
+      knee.doubts.push_back(
+          fmt::format("the {} surfaces do not face each other at the start pose", side));
+    else if (start.gaps[c] < -1)
+      knee.doubts.push_back(fmt::format("the {} surfaces overlap by {:.1f} mm {}", side,
+                                        -start.gaps[c],
+                                        start.extended != 0 ? "once extended" : "in the scan"));
+    else if (after.allFinite() && after[static_cast<int>(c)] > 1)
+      knee.doubts.push_back(
+          fmt::format("a gap of {:.1f} mm stays between the {} surfaces at the start pose",
+                      after[static_cast<int>(c)], side));
+  }
+  if (bare && start.offset[0] + start.offset[1] > 0)
+    knee.doubts.push_back(fmt::format(
+        "no cartilage was given: the bones' surfaces are moved out by half their gap, {:.2f} mm "
+        "medially and {:.2f} mm laterally",
+        start.offset[0], start.offset[1]));
+  else if (std::abs(start.shifted) > kMostShift)
+    knee.doubts.push_back(fmt::format("the bones are brought {} by {:.1f} mm",
+                                      start.shifted > 0 ? "together" : "apart",
+                                      std::abs(start.shifted)));
+  if (std::abs(start.tilted) > 2 * kDegree)
+    knee.doubts.push_back(fmt::format(
+        "{:.1f} degrees of {} are added so that both compartments touch",
+        std::abs(start.tilted) / kDegree, start.tilted > 0 ? "adduction" : "abduction"));
+}
+
+}  // namespace
+
+void find_start(NewKnee& knee) {
+  const std::filesystem::path nowhere = std::filesystem::current_path() / "new.toml";
+  Gaps gaps(parse_scene(new_scene_text(knee, nowhere), nowhere), {});
+  const JointFrames frames = joint_frames(gaps.scene());
+  NewStart& start = knee.start;
+  start.scan = joint_coordinates(frames, RigidTransform{});
+  JointCoordinates q = start.scan;
+  const double excess = q.flexion - knee.model.start.flexion;
+  if (std::abs(excess) > kAsScanned) {
+    start.extended = excess;
+    q.flexion = knee.model.start.flexion;
+  }
+  const Vector2d before = gaps.at(pose_from_joint_coordinates(frames, q));
+  start.gaps = {before[0], before[1]};
+  const bool bare = knee.files.cartilage.empty();
+  if (bare) gaps.set_offset(start.offset = cartilage_offsets(before));
+  const Vector2d step = close_gaps(gaps, frames, q);
+  start.shifted = -step.x();
+  start.tilted = step.y();
+  start.X_FT = moved(frames, q, step);
+  doubt_start(knee, bare, gaps.at(start.X_FT));
+}
+
+}  // namespace condyle

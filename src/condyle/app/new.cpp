@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "condyle/anatomy/new_knee.h"
+#include "condyle/anatomy/new_scene_text.h"
+#include "condyle/app/commands.h"
+#include "condyle/app/default_template.h"
+#include "condyle/app/start_run.h"
+#include "condyle/input_error.h"
+#include "condyle/results/output_file.h"
+#include "condyle/scene_file/read_scene.h"
+
+namespace condyle {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NewCommand {
+  std::string femur, tibia, side = "auto", units = "auto", scene, output, report;
+  std::vector<std::string> cartilage;
+};
+
+std::optional<Side> side_option(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  return text == "right" ? Side::kRight : Side::kLeft;
+}
+
+std::optional<double> units_option(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  return text == "mm" ? 1.0 : text == "cm" ? 10.0 : 1000.0;
+}
+
+NewKneeFiles files_of(const NewCommand& command) {
+  NewKneeFiles files{command.femur, command.tibia, {}, {}};
+  for (const std::string& file : command.cartilage) files.cartilage.emplace_back(file);
+  files.template_scene = command.scene.empty() ? default_template() : fs::path(command.scene);
+  return files;
+}
+
+void check_outputs(const NewCommand& command) {
+  check_output_file(command.output);
+  if (!command.report.empty()) check_output_file(command.report);
+  std::vector<std::string> read = command.cartilage;
+  read.insert(read.end(), {command.femur, command.tibia, command.scene});
+  for (const std::string& output : {command.output, command.report})
+    for (const std::string& input : read) {
+      std::error_code unknown;
+      if (!input.empty() && !output.empty() && fs::equivalent(output, input, unknown))
+        throw InputError(output + ": is read by this command, expected another file to write");
+    }
+}
+
+void print_shape(const NewKnee& knee) {
+  fmt::print("unit       {}\n", unit_name(knee.shape.to_mm));
+  fmt::print("side       {}, {:.1f} % sure: {}\n",
+             knee.shape.side == Side::kRight ? "right" : "left", 100 * knee.shape.side_confidence,
+             knee.shape.side_evidence);
+  fmt::print("femur      {:.1f} mm wide; {}\n", knee.shape.femur.width, knee.shape.femur.rule);
+  fmt::print("tibia      {:.1f} mm wide; {}\n", knee.shape.tibia.width, knee.shape.tibia.rule);
+}
+
+void print_ligaments(const NewKnee& knee) {
+  fmt::print("template   {}: {}\n", knee.files.template_scene.string(), knee.model.scene.title);
+  for (const auto& [carried, bone] : {std::pair{&knee.femur, "femur"}, {&knee.tibia, "tibia"}})
+    fmt::print(
+        "           {}: {:.2f}, {:.2f}, {:.2f} times as large (anterior, proximal, lateral), "
+        "surfaces to "
+        "{:.1f} mm rms\n",
+        bone, carried->size.x(), carried->size.y(), carried->size.z(), carried->rms);
+  fmt::print("ligament     end    moved  sure to [mm]\n");
+  for (const NewLigament& ligament : knee.ligaments)
+    for (std::size_t k = 0; k < 2; ++k)
+      fmt::print(
+          "  {:<10} {}  {:5.1f}  {:5.1f}\n",
+          k == 0 ? knee.model.scene.ligaments[static_cast<std::size_t>(ligament.of_template)].name
+                 : std::string(),
+          ligament.on_femur[k] ? "femur" : "tibia", ligament.ends[k].moved,
+          ligament.ends[k].uncertainty);
+}
+
+void print_start(const NewKnee& knee) {
+  const NewStart& start = knee.start;
+  const auto degrees = [](double angle) { return std::round(angle * 1800 / M_PI) / 10 + 0.0; };
+  fmt::print("scan       flexion {:.1f}, adduction {:.1f}, internal rotation {:.1f} degrees\n",
+             degrees(start.scan.flexion), degrees(start.scan.adduction),
+             degrees(start.scan.internal_rotation));
+  fmt::print(
+      "start      flexed by {:.1f} degrees, {:.2f} mm along the tibia, adducted by {:.2f} "
+      "degrees\n",
+      degrees(-start.extended), start.shifted, degrees(start.tilted));
+  if (!knee.doubts.empty()) fmt::print("To look at:\n");
+  for (const std::string& doubt : knee.doubts) fmt::print("  {}\n", doubt);
+}
+
+int run_new(const NewCommand& command) {
+  if (command.cartilage.size() == 1)
+    throw InputError(
+        "--cartilage: one file, expected the femoral and the tibial one (or two tibial ones)");
+  check_outputs(command);
+  const NewKnee knee = new_knee(
+      files_of(command), {.to_mm = units_option(command.units), .side = side_option(command.side)});
+  const std::string text = new_scene_text(knee, command.output);
+  const Scene scene = parse_scene(text, command.output);  // what is written can be read
+#ifdef CONDYLE_PICTURES
+  if (!command.report.empty()) write_scene_page(command.report, start_run(scene), knee.doubts);
+#endif
+  write_output_file(command.output, text);
+  print_shape(knee);
+  print_ligaments(knee);
+  print_start(knee);
+  if (!command.report.empty()) fmt::print("wrote {}\n", command.report);
+  fmt::print("wrote {}\n", command.output);
+  return 0;
+}
+
+}  // namespace
+
+void setup_new(CLI::App& program, int& status) {
+  const auto options = std::make_shared<NewCommand>();
+  CLI::App* command = program.add_subcommand("new",
+                                             "Make a scene of two bones: unit, side and frames "
+                                             "from their shape, ligaments from a template");
+  command->add_option("FEMUR", options->femur, "mesh of the femur")->required();
+  command->add_option("TIBIA", options->tibia, "mesh of the tibia, in the same frame and unit")
+      ->required();
+  command
+      ->add_option(
+          "--cartilage", options->cartilage,
+          "meshes of the femoral and the tibial cartilage (two for the tibia if they are apart)")
+      ->expected(2, 3);
+  command->add_option("--side", options->side, "of the body")
+      ->check(CLI::IsMember({"auto", "left", "right"}))
+      ->capture_default_str();
+  command->add_option("--units", options->units, "of the meshes")
+      ->check(CLI::IsMember({"auto", "mm", "cm", "m"}))
+      ->capture_default_str();
+  command->add_option(
+      "--template", options->scene,
+      "scene whose ligaments and loads are carried over; the phantom where none is given");
+  command->add_option("-o,--output", options->output, "scene file to write (TOML)")->required();
+#ifdef CONDYLE_PICTURES
+  command->add_option("--report", options->report,
+                      "picture to write (PNG): bones, frames, insertions, what to look at");
+#endif
+  command->footer("Example: condyle new meshes/femur.stl meshes/tibia.stl -o out/new.toml");
+  command->callback([options, &status] { status = run_new(*options); });
+}
+
+}  // namespace condyle

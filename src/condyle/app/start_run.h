@@ -1,0 +1,21 @@
+#pragma once
+
+/// A scene at its start pose as a run that pictures can be drawn of.
+
+#include <string>
+#include <vector>
+
+#include "condyle/results/run_file.h"
+
+namespace condyle {
+
+/// The scene's meshes and patches with one pose, the start pose: joint coordinates, lengths, strains
+/// and forces of the ligaments as straight lines. Nothing is solved.
+[[nodiscard]] Run start_run(const Scene& scene);
+
+/// Draws it into a PNG file (pictures/scene_page.h).
+void write_scene_page(const std::string& file,
+                      const Run& run,
+                      const std::vector<std::string>& remarks);
+
+}  // namespace condyle
