@@ -58,7 +58,7 @@ bool warns_of_a_layer(const Scene& scene) {
 // Condyles of 20 mm have no room for 30; the bends of a rough plateau's rim are let pass.
 TEST(LayerFold, IsRefusedOverMuchOfAPatch) {
   const std::string message = message_of(layered_phantom(30));
-  EXPECT_NE(message.find("layered.toml: surface \"medial condyle\": layer = 30, expected a "
+  EXPECT_NE(message.find("layered.toml:34: [[surface]] \"medial condyle\": layer = 30, expected a "
                          "thickness less than the radii of curvature of its surface"),
             std::string::npos)
       << message;

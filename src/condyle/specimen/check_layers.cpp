@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "condyle/input_error.h"
+#include "condyle/scene_file/document.h"
 #include "condyle/surface/layer_fold.h"
 
 namespace condyle {
@@ -16,16 +19,30 @@ std::string least_radius(const LayerFold& fold) {
                      fold.where.y(), fold.where.z());
 }
 
-void check_layer(const Scene& scene, const SurfaceDescription& surface, FittedSurface& fitted) {
+/// File, line and table of a surface's layer, as far as the scene still has its text.
+std::string place_of_layer(const Scene& scene, std::size_t surface) {
+  const std::string file = scene.file.string();
+  const std::string table = fmt::format("[[surface]] \"{}\"", scene.surfaces[surface].name);
+  const Value document = parse_document(scene.text, file);
+  const Value* tables = document.find("surface");
+  const Value* layer = tables != nullptr && surface < tables->items.size()
+                           ? tables->items[surface].find("layer")
+                           : nullptr;
+  return layer != nullptr ? fmt::format("{}:{}: {}", file, layer->line, table)
+                          : fmt::format("{}: {}", file, table);
+}
+
+void check_layer(const Scene& scene, std::size_t index, FittedSurface& fitted) {
+  const SurfaceDescription& surface = scene.surfaces[index];
   const double thickness = surface.elastic->layer;
   const LayerFold fold = layer_fold(*fitted.surface, thickness);
   const bool is_patch = surface.kind == SurfaceKind::kPatch;
   if (fold.share() > (is_patch ? kMost : 0))
     throw InputError(fmt::format(
-        "{}: surface \"{}\": layer = {:.6g}, expected a thickness less than the radii of "
+        "{}: layer = {:.6g}, expected a thickness less than the radii of "
         "curvature of its surface: it folds over on {:.0f} % of the known part, and the least is "
         "{}",
-        scene.file.string(), surface.name, thickness / scene.length_to_mm, 100 * fold.share(),
+        place_of_layer(scene, index), thickness / scene.length_to_mm, 100 * fold.share(),
         least_radius(fold)));
   if (fold.share() > kSome && fitted.report)
     fitted.report->notes.push_back(fmt::format(
@@ -35,6 +52,13 @@ void check_layer(const Scene& scene, const SurfaceDescription& surface, FittedSu
 }
 
 }  // namespace
+
+bool carries_layer(const Scene& scene, int surface) {
+  return std::any_of(scene.contacts.begin(), scene.contacts.end(), [&](const auto& contact) {
+    return contact.layer && std::find(contact.surfaces.begin(), contact.surfaces.end(), surface) !=
+                                contact.surfaces.end();
+  });
+}
 
 void check_layers(const Scene& scene, std::vector<FittedSurface>& surfaces) {
   std::vector<bool> done(surfaces.size());
@@ -47,7 +71,7 @@ void check_layers(const Scene& scene, std::vector<FittedSurface>& surfaces) {
           surface.kind == SurfaceKind::kPatch || surface.kind == SurfaceKind::kPolynomial;
       if (done[i] || !surface.elastic || !bends) continue;
       done[i] = true;
-      check_layer(scene, surface, surfaces[i]);
+      check_layer(scene, i, surfaces[i]);
     }
   }
 }

@@ -9,6 +9,9 @@
 
 namespace condyle {
 
+/// Is the surface of that index one of a contact of layers?
+[[nodiscard]] bool carries_layer(const Scene& scene, int surface);
+
 /// Throws InputError for a layer that reaches the least radius of a convex polynomial surface, or folds
 /// over on more than a quarter of the known part of a patch. Fitted to a rough mesh a patch has
 /// small bends that are none of the bone's, at its edges above all: where more than a twentieth

@@ -184,9 +184,14 @@ void load_source(const Scene& scene, const MeshReader& read, Source& source) {
   }
 }
 
+/// That the known part of a patch with a layer goes on beyond that of one with points of contact,
+/// but for limits that the scene sets: an area spreads from where a point would be [mm].
+constexpr double kAreaBeyondPoint = 4;
+
 ArticularRegion find_region(const Scene& scene,
                             const Source& source,
-                            const PatchDescription& patch) {
+                            const PatchDescription& patch,
+                            bool layered) {
   const TriangleMesh& mesh = source.shape;
   std::optional<std::array<Eigen::Vector3d, 2>> box = patch.region_box;
   if (box)
@@ -194,6 +199,8 @@ ArticularRegion find_region(const Scene& scene,
   if (!patch.compartment) return box_region(mesh, *box);
   RegionOptions options;
   options.box = box;
+  if (layered && !patch.region_angles && !patch.region_least_cosine)
+    options.beyond = kAreaBeyondPoint;
   if (patch.region_angles) {
     options.femur_first_angle = (*patch.region_angles)[0];
     options.femur_last_angle = (*patch.region_angles)[1];
@@ -256,11 +263,14 @@ std::string move_out(double offset, ArticularRegion& region, PatchFit& fit) {
       offset, moved.rms, moved.max);
 }
 
-FittedSurface fit_one(const Scene& scene, const Source& source, const SurfaceDescription& surface) {
+FittedSurface fit_one(const Scene& scene, const Source& source, int index) {
+  const SurfaceDescription& surface = scene.surfaces[index];
   const auto start = std::chrono::steady_clock::now();
   try {
-    ArticularRegion region = find_region(scene, source, surface.patch);
+    const bool layered = carries_layer(scene, index);
+    ArticularRegion region = find_region(scene, source, surface.patch, layered);
     FitOptions options;
+    options.to_the_edge = layered;
     options.control_points = surface.patch.control_points;
     options.smoothing_length = surface.patch.smoothing;
     if (surface.patch.smooth_for_position) options.aim = SmoothingAim::kPositions;
@@ -292,7 +302,7 @@ void fit_source(const Scene& scene,
                 const std::function<void()>& on_patch) {
   load_source(scene, read, source);
   for (const int i : source.surfaces) {
-    surfaces[i] = fit_one(scene, source, scene.surfaces[i]);
+    surfaces[i] = fit_one(scene, source, i);
     on_patch();
   }
   if (source.turned) return;

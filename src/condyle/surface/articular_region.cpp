@@ -13,6 +13,7 @@
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/mesh/orient_mesh.h"
 #include "condyle/surface/condyle_chart.h"
+#include "condyle/surface/grow_region.h"
 
 namespace condyle {
 namespace {
@@ -23,6 +24,7 @@ using Eigen::Vector3d;
 constexpr double kCrestCosine = 0.55;   // of normal and radial direction: what the chart follows
 constexpr double kPlateauCosine = 0.5;  // of normal and plateau direction: what gives its slope
 constexpr double kChartCosine = 0.5;    // of normal and chart direction: beyond it the chart folds
+constexpr double kGrownCosine = 0.3;    // the same of what goes on beyond the limits
 constexpr double kBeyondCrest = 3;      // that a plateau may reach over its crest [mm]
 constexpr double kBeyondDivide = 8;     // that a condyle may reach over the dividing plane [mm]
 
@@ -248,13 +250,15 @@ ArticularRegion femoral_region(const TriangleMesh& mesh,
                                const RegionOptions& options) {
   const double radius = half == Half::kMedial ? axis.medial_radius : axis.lateral_radius;
   const std::vector<Vector3d> normals = smoothed_normals(mesh, options.normal_smoothing);
+  const auto may = [&](std::size_t i, const AboutAxis& q) {
+    return q.radius > 0.55 * radius && q.radius < 2.2 * radius && in_box(options, mesh.vertices[i]);
+  };
   const auto passing = [&](const auto& test) {
     std::vector<bool> passes(mesh.vertices.size());
     for (std::size_t i = 0; i < passes.size(); ++i) {
       const AboutAxis q = about_axis(axis, mesh.vertices[i]);
       passes[i] = q.angle > options.femur_first_angle && q.angle < options.femur_last_angle &&
-                  q.radius > 0.55 * radius && q.radius < 2.2 * radius &&
-                  in_box(options, mesh.vertices[i]) && test(i, q);
+                  may(i, q) && test(i, q);
     }
     return select(mesh, passes);
   };
@@ -270,8 +274,13 @@ ArticularRegion femoral_region(const TriangleMesh& mesh,
     return beyond(q) < kBeyondDivide && normals[i].dot(q.radial) > options.femur_least_cosine &&
            normals[i].dot(chart.direction(mesh.vertices[i])) > kChartCosine;
   });
+  std::vector<bool> grows(mesh.vertices.size());
+  for (std::size_t i = 0; i < grows.size(); ++i)
+    grows[i] = may(i, about_axis(axis, mesh.vertices[i])) &&
+               normals[i].dot(chart.direction(mesh.vertices[i])) > kGrownCosine;
   ArticularRegion region = make_region(
-      mesh, keep, crest, [&](const Vector3d& p) { return chart.at(p); },
+      mesh, grow_region(mesh, keep, grows, options.beyond), crest,
+      [&](const Vector3d& p) { return chart.at(p); },
       [&](const Vector3d& p) { return chart.direction(p); });
   double low = 10, high = -10;
   for (const Vector2d& uv : region.chart) {
@@ -304,16 +313,19 @@ ArticularRegion tibial_region(const TriangleMesh& mesh,
   const PlateauEnds ends = inner_ends(mesh, frame, upward);
 
   Vector3d height = frame.proximal;
+  const auto is_on_side = [&](const InnerEnds& inner, std::size_t i) {
+    const Vector3d q = frame.components(mesh.vertices[i] - frame.origin);
+    return (half == Half::kMedial ? q.z() < inner.medial : q.z() > inner.lateral) &&
+           q.y() > top - depth && in_box(options, mesh.vertices[i]);
+  };
   // Vertices whose normal is steeper than that of a plateau pass only on the inner side of
   // `middle`.
   const auto passing = [&](const InnerEnds& inner, double middle, double least_cosine) {
     std::vector<bool> passes(mesh.vertices.size());
     for (std::size_t i = 0; i < passes.size(); ++i) {
-      const Vector3d q = frame.components(mesh.vertices[i] - frame.origin);
-      const bool medial = half == Half::kMedial;
-      const double least = (q.z() > middle) == medial ? least_cosine : kPlateauCosine;
-      passes[i] = (medial ? q.z() < inner.medial : q.z() > inner.lateral) && q.y() > top - depth &&
-                  normals[i].dot(height) > least && in_box(options, mesh.vertices[i]);
+      const double z = frame.lateral.dot(mesh.vertices[i] - frame.origin);
+      const double least = (z > middle) == (half == Half::kMedial) ? least_cosine : kPlateauCosine;
+      passes[i] = is_on_side(inner, i) && normals[i].dot(height) > least;
     }
     return select(mesh, passes);
   };
@@ -326,7 +338,11 @@ ArticularRegion tibial_region(const TriangleMesh& mesh,
   }
   const double middle = frame.lateral.dot(centroid(mesh, face) - frame.origin);
   const std::vector<bool> keep = passing(ends.all, middle, options.tibia_least_cosine);
-  ArticularRegion region = plane_region(mesh, keep, face, frame.origin, height, frame.anterior);
+  std::vector<bool> grows(mesh.vertices.size());
+  for (std::size_t i = 0; i < grows.size(); ++i)
+    grows[i] = is_on_side(ends.all, i) && normals[i].dot(height) > kGrownCosine;
+  ArticularRegion region = plane_region(mesh, grow_region(mesh, keep, grows, options.beyond), face,
+                                        frame.origin, height, frame.anterior);
   const Vector3d h = frame.components(height);
   region.notes.push_back(
       fmt::format("plateau slopes {:.1f} degrees backwards, {:.1f} towards lateral",

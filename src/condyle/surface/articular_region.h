@@ -40,7 +40,9 @@ struct RegionOptions {
   double tibia_least_cosine =
       0.3;  ///< of normal and plateau direction on the side of the eminence: beyond lie its walls
   std::optional<std::array<Eigen::Vector3d, 2>> box =
-      {};  ///< two opposite corners of what may belong to the region [mm]; absent: all
+      {};             ///< two opposite corners of what may belong to the region [mm]; absent: all
+  double beyond = 0;  ///< that the region goes on beyond these limits, but for the box, where the
+                      ///< mesh goes on and its chart does not fold [mm]
   double normal_smoothing =
       1.5;  ///< normals are averaged over this distance before they decide [mm]
 };

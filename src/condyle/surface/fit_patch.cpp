@@ -249,7 +249,7 @@ PatchFit fit_patch(const ArticularRegion& region, const FitOptions& options) {
   fit.smoothing_length = options.smoothing_length ? *options.smoothing_length
                                                   : choose_on_face(grid, region, flat.face, points,
                                                                    cells, options.aim, edge);
-  fit.rim = kUncertainRim * edge.least * fit.smoothing_length;
+  if (!options.to_the_edge) fit.rim = kUncertainRim * edge.least * fit.smoothing_length;
   PatchData data = patch_data(grid, solve_fit(term, penalty, fit.smoothing_length));
 
   const std::vector<double> areas = vertex_areas(region.mesh);

@@ -27,6 +27,8 @@ struct FitOptions {
   double knot_spacing = 2;  ///< [mm of chart length]
   int rounds = 6;           ///< of parameter correction, at most
   double settled = 0.02;    ///< rms change of the parameters that ends them [mm]
+  bool to_the_edge =
+      false;  ///< the known part ends where the data do: kUncertainRim is not cut off
 };
 
 /// The smoothing length near the edge of the articular face, where bones bend with small radii, as
