@@ -1,12 +1,156 @@
 #include "condyle/anatomy/recognise_knee.h"
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "condyle/anatomy/femoral_frame.h"
+#include "condyle/anatomy/knee_ends.h"
+#include "condyle/anatomy/knee_faults.h"
+#include "condyle/anatomy/knee_side.h"
+#include "condyle/anatomy/tibial_frame.h"
 #include "condyle/input_error.h"
 
 namespace condyle {
+namespace {
 
-RecognisedKnee recognise_knee(const KneeMeshes& meshes, const RecogniseOptions&) {
-  if (meshes.femur.triangles.empty()) throw InputError("the femur has no triangles");
-  return {};
+using Eigen::Vector3d;
+
+constexpr double kDegree = M_PI / 180;
+constexpr double kLeastConfidence = 0.8;
+// Features of one bone go together: all of them say half of what they would say if independent.
+constexpr double kIndependence = 0.5;
+
+/// x -> (x - shift) * scale.
+void move(TriangleMesh& mesh, const Vector3d& shift, double scale) {
+  for (Vector3d& p : mesh.vertices) p = (p - shift) * scale;
+}
+
+void scale_ends(KneeEnds& ends, double scale) {
+  ends.joint *= scale;
+  ends.femur_width *= scale;
+  ends.tibia_width *= scale;
+  ends.gap *= scale;
+}
+
+/// Odds of the features as one probability, and those that say most, in words.
+void tell_side(RecognisedKnee& knee,
+               std::vector<SideEvidence> evidence,
+               const RecogniseOptions& options) {
+  double sum = 0;
+  for (const SideEvidence& e : evidence) sum += kIndependence * e.log_ratio;
+  const Side seen = sum >= 0 ? Side::kRight : Side::kLeft;
+  knee.side = options.side.value_or(seen);
+  const double sign = knee.side == Side::kRight ? 1 : -1;
+  knee.side_confidence = 1 / (1 + std::exp(-sign * sum));
+  for (const SideEvidence& e : evidence)
+    knee.side_evidence += fmt::format("{}{} ({:+.1f})", knee.side_evidence.empty() ? "" : ", ",
+                                      e.figure, sign * kIndependence * e.log_ratio);
+  const char* name = seen == Side::kRight ? "right" : "left";
+  if (!options.side && knee.side_confidence < kLeastConfidence)
+    throw InputError(
+        fmt::format("left or right cannot be told from the shape: {} with a probability of {:.2f}; "
+                    "say it by --side left or --side right",
+                    name, knee.side_confidence));
+  if (knee.side_confidence < 0.2)
+    knee.doubts.push_back(fmt::format("the shape says {} knee with a probability of {:.2f}: {}",
+                                      name, 1 - knee.side_confidence, knee.side_evidence));
+  else if (knee.side_confidence < 0.95)
+    knee.doubts.push_back(
+        fmt::format("the side is told with a probability of {:.2f} only", knee.side_confidence));
+}
+
+BoneFrame in_file_frame(BoneFrame frame, const Vector3d& origin, Side side) {
+  frame.origin = origin;
+  if (side == Side::kLeft) frame.lateral *= -1;
+  return frame;
+}
+
+std::string femoral_rule(const FemoralShape& f) {
+  const std::string axis = fmt::format(
+      "lateral: axis of one cylinder through both posterior condyles [Miranda 2010], radius {:.1f} "
+      "mm, {:.2f} mm rms; ",
+      f.cylinder.radius, f.cylinder.rms);
+  const std::string proximal =
+      f.shaft > 0
+          ? fmt::format("proximal: centroids of the shaft's sections {:.0f} to {:.0f} mm above it",
+                        f.shaft_first, f.shaft_first + f.shaft)
+          : std::string(
+                "proximal: between what the outline of the trochlea and the tibia as scanned say");
+  return axis + proximal + "; origin: on the axis, midway between the condyles";
+}
+
+std::string tibial_rule(const TibialShape& t) {
+  const std::string proximal =
+      t.shaft > 0 ? fmt::format(
+                        "proximal: centroids of the shaft's sections {:.0f} to {:.0f} mm below it "
+                        "[Grood and Suntay 1983]",
+                        t.shaft_first, t.shaft_first + t.shaft)
+                  : fmt::format("proximal: plane of the plateau, falling {:.1f} degrees backwards",
+                                t.slope / kDegree);
+  return "lateral: line through the middles of both plateaus; " + proximal +
+         "; origin: that of the femur as scanned";
+}
+
+void doubt_pose(RecognisedKnee& knee, const KneeEnds& ends) {
+  const BoneFrame& f = knee.femur.frame;
+  const Vector3d k = f.components(knee.tibia.frame.proximal);
+  const double flexion = std::atan2(k.x(), k.y()) / kDegree;
+  if (std::abs(flexion) > 8)
+    knee.doubts.push_back(fmt::format("scanned {:.0f} degrees {}, as the frames see it",
+                                      std::abs(flexion),
+                                      flexion > 0 ? "flexed" : "beyond extension"));
+  if (ends.gap > 10) knee.doubts.push_back(fmt::format("the bones are {:.0f} mm apart", ends.gap));
+}
+
+void doubt_shafts(RecognisedKnee& knee) {
+  if (knee.femur.shaft == 0)
+    knee.doubts.push_back(
+        "too little of the femur's shaft for its direction: flexion of its frame is good to about "
+        "6 degrees");
+  if (knee.tibia.shaft == 0)
+    knee.doubts.push_back(
+        "too little of the tibia's shaft for its direction: flexion of its frame is good to about "
+        "3 degrees");
+}
+
+}  // namespace
+
+RecognisedKnee recognise_knee(const KneeMeshes& meshes, const RecogniseOptions& options) {
+  check_meshes(meshes);
+  TriangleMesh femur_mesh = meshes.femur, tibia_mesh = meshes.tibia;
+  const Vector3d shift = surface_extents(tibia_mesh).middle;
+  move(femur_mesh, shift, 1);
+  move(tibia_mesh, shift, 1);
+  KneeEnds ends = find_knee_ends(femur_mesh, tibia_mesh);
+
+  RecognisedKnee knee;
+  knee.to_mm = options.to_mm ? *options.to_mm : tell_unit(ends);
+  move(femur_mesh, Vector3d::Zero(), knee.to_mm);
+  move(tibia_mesh, Vector3d::Zero(), knee.to_mm);
+  scale_ends(ends, knee.to_mm);
+
+  CleanMesh femur_clean = clean_mesh(std::move(femur_mesh)),
+            tibia_clean = clean_mesh(std::move(tibia_mesh));
+  const Condyles condyles = find_condyles_or_say_why(femur_clean, tibia_clean, ends);
+  const TibialShape tibia = find_tibia_or_say_why(tibia_clean, ends, condyles);
+  const FemoralShape femur =
+      find_femoral_frame(femur_clean.mesh, condyles, ends, tibia.frame.proximal);
+  check_they_fit(femur, tibia, ends);
+
+  tell_side(knee, weigh_sides(femur, tibia, tibia_clean.mesh), options);
+  const Vector3d origin = shift * knee.to_mm + femur.frame.origin;
+  knee.femur = {in_file_frame(femur.frame, origin, knee.side), femoral_rule(femur), femur.width,
+                femur.shaft};
+  knee.tibia = {in_file_frame(tibia.frame, origin, knee.side), tibial_rule(tibia),
+                tibia.plateau.width, tibia.shaft};
+  doubt_shafts(knee);
+  doubt_pose(knee, ends);
+  return knee;
 }
 
 }  // namespace condyle

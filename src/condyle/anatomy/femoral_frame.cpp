@@ -1,0 +1,195 @@
+#include "condyle/anatomy/femoral_frame.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "condyle/anatomy/shaft_line.h"
+#include "condyle/input_error.h"
+#include "condyle/mesh/mesh_measures.h"
+#include "condyle/surface/articular_region.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kEnd =
+    0.85;  // radius of the articular end about the middle of the axis, of its width
+constexpr double kShaftFirst = 0.55, kShaftLast = 0.85,
+                 kShaftLeast = 0.15;  // above the axis, of the width
+// Where the sagittal outline lies 1.3 radii from the axis, seen from distal forward: twelve knees had
+// it at 17 +- 4 degrees from their shafts.
+constexpr double kOutlineRadii = 1.3, kOutlineAngle = 17 * M_PI / 180;
+
+constexpr double kMostCorrection =
+    8 * M_PI / 180;  // of the outline by the tibia, which may be flexed
+
+BoneFrame right_frame(const Vector3d& lateral, const Vector3d& proximal, const Vector3d& origin) {
+  BoneFrame frame;
+  frame.origin = origin;
+  frame.lateral = lateral;
+  frame.proximal = (proximal - lateral * lateral.dot(proximal)).normalized();
+  frame.anterior = frame.proximal.cross(lateral);
+  return frame;
+}
+
+/// How far the mesh reaches from the axis, within a wedge seen along it.
+double farthest(const TriangleMesh& end, const BoneFrame& frame, double first, double last) {
+  double most = 0;
+  for (const Vector3d& p : end.vertices) {
+    const Vector3d q = frame.components(p - frame.origin);
+    const double angle = std::atan2(-q.x(), -q.y());
+    if (angle > first && angle < last) most = std::max(most, std::hypot(q.x(), q.y()));
+  }
+  return most;
+}
+
+double width_of(const TriangleMesh& end, const BoneFrame& frame, double reach) {
+  double low = 1e300, high = -1e300;
+  for (const Vector3d& p : end.vertices) {
+    const Vector3d q = frame.components(p - frame.origin);
+    if (std::abs(q.y()) > reach) continue;
+    low = std::min(low, q.z());
+    high = std::max(high, q.z());
+  }
+  return high - low;
+}
+
+/// Share of the arc behind and below the axis that the mesh fills midway between the condyles, where a
+/// femur has its notch and in front the trochlea.
+double filled_between(const TriangleMesh& end,
+                      const BoneFrame& frame,
+                      double radius,
+                      double strip) {
+  constexpr int kSteps = 10;
+  constexpr double kFirst = 0.35, kLast = 1.75;
+  std::array<bool, kSteps> filled{};
+  for (const Vector3d& p : end.vertices) {
+    const Vector3d q = frame.components(p - frame.origin);
+    const double at = (std::atan2(-q.x(), -q.y()) - kFirst) / (kLast - kFirst);
+    if (std::abs(q.z()) < strip && at > 0 && at < 1 && std::hypot(q.x(), q.y()) > 0.75 * radius)
+      filled[static_cast<int>(at * kSteps)] = true;
+  }
+  return static_cast<double>(std::count(filled.begin(), filled.end(), true)) / kSteps;
+}
+
+/// The lower, the more like posterior condyles; none where it is none. Behind and below the axis the
+/// outline is round and open between the condyles, in front the trochlea reaches farther.
+std::optional<double> unlikeness(const TriangleMesh& end,
+                                 const CondylarAxis& axis,
+                                 const KneeEnds& ends) {
+  const double radius = (axis.medial_radius + axis.lateral_radius) / 2, width = ends.femur_width;
+  const BoneFrame frame =
+      right_frame(axis.direction, -axis.distal, axis.point + axis.split * axis.direction);
+  const double behind = farthest(end, frame, 0.8, 1.9) / radius,
+               before = farthest(end, frame, -1.9, -0.8) / radius;
+  const double filled = filled_between(end, frame, radius, 0.04 * width);
+  const double turned = std::acos(std::min(1.0, std::abs(axis.direction.dot(ends.across))));
+  if (axis.coverage < 0.8 || axis.rms > 2 || radius < 0.17 * width || radius > 0.42 * width ||
+      behind > 1.35 || before < 1.4 || filled > 0.5 || turned > 0.45)
+    return std::nullopt;
+  return axis.rms + 2 * filled + 3 * (behind - 1) + 2 * turned;
+}
+
+std::optional<Condyles> best_candidate(const TriangleMesh& end, const KneeEnds& ends) {
+  const std::vector<Vector3d> normals = vertex_normals(end);
+  std::optional<Condyles> best;
+  double least = 1e300;
+  for (const double sign : {1.0, -1.0})
+    for (const double degrees : {0.0, 25.0, -25.0}) {
+      const Eigen::AngleAxisd turn(degrees * M_PI / 180, ends.across);
+      const BoneFrame frame = right_frame(sign * ends.across, turn * ends.proximal, ends.joint);
+      try {
+        const Condyles c{fit_condylar_axis(end, normals, frame), frame};
+        const std::optional<double> found = unlikeness(end, c.axis, ends);
+        if (!found || *found >= least) continue;
+        least = *found;
+        best = c;
+      } catch (const InputError&) {  // no condyles where this candidate has them
+      }
+    }
+  return best;
+}
+
+/// From the axis distal, turned forward, where the outline's support first reaches a multiple of the radius.
+double outline_angle(const FemoralShape& shape) {
+  std::vector<Eigen::Vector2d> outline;
+  for (const Vector3d& p : shape.end.vertices) {
+    const Vector3d q = shape.frame.components(p - shape.frame.origin);
+    if (q.y() < shape.cylinder.radius) outline.emplace_back(q.x(), -q.y());
+  }
+  const auto support = [&](double angle) {
+    const Eigen::Vector2d e(std::sin(angle), std::cos(angle));
+    double most = 0;
+    for (const Eigen::Vector2d& q : outline) most = std::max(most, e.dot(q));
+    return most - kOutlineRadii * shape.cylinder.radius;
+  };
+  double low = -0.7, high = 1.4;
+  if (support(low) > 0 || support(high) < 0) return kOutlineAngle;
+  for (int i = 0; i < 40; ++i) (support((low + high) / 2) < 0 ? low : high) = (low + high) / 2;
+  return low;
+}
+
+/// Forward by `angle` about the lateral direction.
+Vector3d lean_forward(const BoneFrame& frame, double angle) {
+  return frame.proximal * std::cos(angle) + frame.anterior * std::sin(angle);
+}
+
+/// Proximal by the shaft where it is there, otherwise between what the outline and the tibia say.
+void set_proximal(FemoralShape& shape, const TriangleMesh& femur, const Vector3d& tibia_proximal) {
+  BoneFrame& frame = shape.frame;
+  const double w = shape.width;
+  const auto line = find_shaft_line(femur, frame.origin, frame.proximal,
+                                    {kShaftFirst * w, kShaftLast * w, kShaftLeast * w});
+  shape.shaft = line ? line->length : 0;
+  shape.shaft_first = kShaftFirst * w;
+  shape.outline = kOutlineAngle - outline_angle(shape);
+  if (line) {
+    shape.lean = std::asin(line->direction.dot(frame.lateral));
+    frame = right_frame(frame.lateral, line->direction, frame.origin);
+    return;
+  }
+  const double tibia =
+      std::atan2(frame.anterior.dot(tibia_proximal), frame.proximal.dot(tibia_proximal));
+  const double correction =
+      std::clamp((tibia - shape.outline) / 2, -kMostCorrection, kMostCorrection);
+  frame = right_frame(frame.lateral, lean_forward(frame, shape.outline + correction), frame.origin);
+}
+
+}  // namespace
+
+Condyles find_condyles(CleanMesh& femur, const KneeEnds& ends) {
+  face_out_of_femur(femur, right_frame(ends.across, ends.proximal, ends.joint));
+  const TriangleMesh end = crop_ball(femur.mesh, ends.joint, 0.95 * ends.femur_width);
+  const std::optional<Condyles> found = best_candidate(end, ends);
+  if (!found) throw InputError("no posterior condyles");
+  return *found;
+}
+
+FemoralShape find_femoral_frame(const TriangleMesh& femur,
+                                const Condyles& condyles,
+                                const KneeEnds& ends,
+                                const Vector3d& tibia_proximal) {
+  FemoralShape shape;
+  shape.frame = condyles.frame;
+  shape.axis = condyles.axis;
+  shape.width = ends.femur_width;
+  shape.end = crop_ball(femur, ends.joint, 0.95 * ends.femur_width);
+  for (int iteration = 0; iteration < 5; ++iteration) {
+    const std::vector<Vector3d> normals = vertex_normals(shape.end);
+    if (iteration > 0) shape.axis = fit_condylar_axis(shape.end, normals, shape.frame);
+    shape.cylinder = fit_posterior_cylinder(shape.end, normals, shape.axis);
+    shape.frame =
+        right_frame(shape.cylinder.direction, shape.frame.proximal, shape.cylinder.middle);
+    shape.width = width_of(shape.end, shape.frame, 0.35 * shape.width);
+    set_proximal(shape, femur, tibia_proximal);
+    shape.end = crop_ball(femur, shape.frame.origin, kEnd * shape.width);
+  }
+  return shape;
+}
+
+}  // namespace condyle

@@ -1,0 +1,117 @@
+#include "condyle/anatomy/knee_ends.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/mesh/mesh_measures.h"
+#include "condyle/surface/point_tree.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+struct Moments {
+  double area = 0;
+  Vector3d first = Vector3d::Zero();
+  Matrix3d second = Matrix3d::Zero();
+
+  void add(const Vector3d& p, double weight) {
+    area += weight;
+    first += weight * p;
+    second += weight * p * p.transpose();
+  }
+  [[nodiscard]] Vector3d middle() const { return first / std::max(area, 1e-300); }
+  /// Columns by rising variance.
+  [[nodiscard]] Matrix3d principal() const {
+    const Vector3d m = middle();
+    return Eigen::SelfAdjointEigenSolver<Matrix3d>(second / std::max(area, 1e-300) -
+                                                   m * m.transpose())
+        .eigenvectors();
+  }
+};
+
+Moments moments_of(const TriangleMesh& mesh) {
+  const std::vector<double> areas = vertex_areas(mesh);
+  Moments m;
+  for (std::size_t i = 0; i < areas.size(); ++i) m.add(mesh.vertices[i], areas[i]);
+  return m;
+}
+
+/// Distance from each vertex of `mesh` to the nearest one of `other`.
+std::vector<double> distances(const TriangleMesh& mesh, const TriangleMesh& other) {
+  const PointCloud cloud{other.vertices};
+  const PointTree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(20));
+  std::vector<double> found(mesh.vertices.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    std::size_t nearest = 0;
+    double squared = 0;
+    nanoflann::KNNResultSet<double> result(1);
+    result.init(&nearest, &squared);
+    tree.findNeighbors(result, mesh.vertices[i].data(), nanoflann::SearchParams());
+    found[i] = std::sqrt(squared);
+  }
+  return found;
+}
+
+/// Width along `across` of what lies within `reach` of the joint.
+double width_there(const TriangleMesh& mesh, const KneeEnds& ends, double reach) {
+  double low = 1e300, high = -1e300;
+  for (const Vector3d& p : mesh.vertices) {
+    if ((p - ends.joint).squaredNorm() > reach * reach) continue;
+    low = std::min(low, ends.across.dot(p));
+    high = std::max(high, ends.across.dot(p));
+  }
+  return std::max(high - low, 0.0);
+}
+
+}  // namespace
+
+SurfaceExtents surface_extents(const TriangleMesh& mesh) {
+  const Moments m = moments_of(mesh);
+  const Matrix3d axes = m.principal().rowwise().reverse();
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& p : mesh.vertices) box.extend(Vector3d(axes.transpose() * (p - m.middle())));
+  Vector3d sizes = box.sizes();
+  std::sort(sizes.data(), sizes.data() + 3, std::greater<>());
+  return {m.middle(), axes, sizes};
+}
+
+KneeEnds find_knee_ends(const TriangleMesh& femur, const TriangleMesh& tibia) {
+  constexpr double kDepth =
+      0.15;  // of what counts as facing the femur, of the tibia's middle extent
+  const SurfaceExtents whole_femur = surface_extents(femur), whole_tibia = surface_extents(tibia);
+  const double size = whole_tibia.sizes[1];
+  const std::vector<double> distance = distances(tibia, femur);
+  const std::vector<double> areas = vertex_areas(tibia);
+  KneeEnds ends;
+  ends.gap = *std::min_element(distance.begin(), distance.end());
+  Moments zone;
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    if (distance[i] < ends.gap + kDepth * size) zone.add(tibia.vertices[i], areas[i]);
+  ends.joint = zone.middle();
+  const Matrix3d axes = zone.principal();
+  ends.proximal = axes.col(0);
+  ends.across = axes.col(2);
+  if (ends.proximal.dot(whole_femur.middle - whole_tibia.middle) < 0) ends.proximal *= -1;
+  ends.femur_width = width_there(femur, ends, 0.75 * size);
+  ends.tibia_width = width_there(tibia, ends, 0.75 * size);
+  return ends;
+}
+
+TriangleMesh crop_ball(const TriangleMesh& mesh, const Vector3d& middle, double radius) {
+  std::vector<bool> keep(mesh.triangles.size());
+  for (std::size_t t = 0; t < keep.size(); ++t) {
+    const auto& c = mesh.triangles[t];
+    keep[t] = std::all_of(c.begin(), c.end(), [&](int v) {
+      return (mesh.vertices[v] - middle).squaredNorm() < radius * radius;
+    });
+  }
+  return sub_mesh(mesh, keep).mesh;
+}
+
+}  // namespace condyle

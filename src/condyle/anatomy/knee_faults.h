@@ -1,0 +1,28 @@
+#pragma once
+
+/// What two meshes are where they are no knee, in one line each.
+
+#include "condyle/anatomy/femoral_frame.h"
+#include "condyle/anatomy/recognise_knee.h"
+#include "condyle/anatomy/tibial_frame.h"
+
+namespace condyle {
+
+/// Empty meshes, two of one bone, sizes that no one unit explains, cartilage that lies elsewhere.
+void check_meshes(const KneeMeshes& meshes);
+
+/// Factor to mm in which both ends are as wide as knees are.
+[[nodiscard]] double tell_unit(const KneeEnds& ends);
+
+/// As find_condyles and find_tibial_frame; where they fail the message says what the meshes look like instead. In mm.
+[[nodiscard]] Condyles find_condyles_or_say_why(CleanMesh& femur,
+                                                const CleanMesh& tibia,
+                                                const KneeEnds& ends);
+[[nodiscard]] TibialShape find_tibia_or_say_why(CleanMesh& tibia,
+                                                const KneeEnds& ends,
+                                                const Condyles& condyles);
+
+/// Widths of one person, ends that face each other.
+void check_they_fit(const FemoralShape& femur, const TibialShape& tibia, const KneeEnds& ends);
+
+}  // namespace condyle

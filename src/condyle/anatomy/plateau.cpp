@@ -1,0 +1,130 @@
+#include "condyle/anatomy/plateau.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/input_error.h"
+#include "condyle/mesh/mesh_measures.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kLeastCosine = 0.6;       // of a face's normal and the plateau's
+constexpr double kBelow = 6, kAbove = 10;  // what belongs to the plateau, from its plane [mm]
+constexpr double kScale = 2;  // beyond it a face loses its say in the plane: eminence and rims [mm]
+
+struct Face {
+  Vector3d p;
+  double weight;  // area seen along the normal [mm²]
+};
+
+std::vector<Face> faces_along(const TriangleMesh& mesh,
+                              const std::vector<Vector3d>& normals,
+                              const std::vector<double>& areas,
+                              const Plateau& plateau,
+                              double below,
+                              double reach) {
+  std::vector<Face> faces;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const Vector3d q = mesh.vertices[i] - plateau.middle;
+    const double height = plateau.normal.dot(q), cosine = plateau.normal.dot(normals[i]);
+    if (cosine < kLeastCosine || height < -below || height > kAbove || q.norm() > reach) continue;
+    faces.push_back({mesh.vertices[i], areas[i] * cosine});
+  }
+  return faces;
+}
+
+/// Heights over the plane, z = a + b·(u, v), by reweighted least squares.
+void fit_plane(Plateau& plateau, const std::vector<Face>& faces) {
+  const Vector3d u = plateau.across, v = plateau.normal.cross(u);
+  Vector3d x = Vector3d::Zero();
+  for (int iteration = 0; iteration < 8; ++iteration) {
+    Eigen::Matrix3d A = 1e-9 * Eigen::Matrix3d::Identity();
+    Vector3d b = Vector3d::Zero();
+    for (const Face& f : faces) {
+      const Vector3d q = f.p - plateau.middle;
+      const Vector3d row(1, u.dot(q), v.dot(q));
+      const double z = plateau.normal.dot(q), r = (z - row.dot(x)) / kScale;
+      const double weight = f.weight / (1 + r * r);
+      A += weight * row * row.transpose();
+      b += weight * z * row;
+    }
+    x = A.ldlt().solve(b);
+  }
+  plateau.middle += x[0] * plateau.normal;
+  plateau.normal = (plateau.normal - x[1] * u - x[2] * v).normalized();
+}
+
+/// Middle and longest extent of what belongs to the plane.
+void fit_outline(Plateau& plateau, const std::vector<Face>& faces) {
+  plateau.across =
+      (plateau.across - plateau.normal * plateau.normal.dot(plateau.across)).normalized();
+  const Vector3d u = plateau.across, v = plateau.normal.cross(u);
+  double area = 0;
+  Vector2d first = Vector2d::Zero();
+  Matrix2d second = Matrix2d::Zero();
+  for (const Face& f : faces) {
+    const Vector2d q(u.dot(f.p - plateau.middle), v.dot(f.p - plateau.middle));
+    area += f.weight;
+    first += f.weight * q;
+    second += f.weight * q * q.transpose();
+  }
+  first /= area;
+  const Eigen::SelfAdjointEigenSolver<Matrix2d> axes(second / area - first * first.transpose());
+  const Vector2d longest = axes.eigenvectors().col(1);
+  plateau.area = area;
+  plateau.middle += u * first.x() + v * first.y();
+  plateau.across = (longest.x() * u + longest.y() * v) * (longest.x() < 0 ? -1 : 1);
+}
+
+/// Middles of the two halves, the middle between them, and extents.
+void measure(Plateau& plateau, const std::vector<Face>& faces) {
+  Vector3d sum[2] = {Vector3d::Zero(), Vector3d::Zero()};
+  double area[2] = {1e-300, 1e-300};
+  const Vector3d forward = plateau.normal.cross(plateau.across);
+  Eigen::AlignedBox2d box;
+  for (const Face& f : faces) {
+    const Vector3d q = f.p - plateau.middle;
+    const int half = plateau.across.dot(q) > 0;
+    sum[half] += f.weight * q;
+    area[half] += f.weight;
+    box.extend(Vector2d(plateau.across.dot(q), forward.dot(q)));
+  }
+  const Vector3d a = sum[0] / area[0], b = sum[1] / area[1];
+  plateau.halves = (b - a).normalized();
+  const Vector3d between = (a + b) / 2;
+  plateau.middle += between - plateau.normal * plateau.normal.dot(between);
+  plateau.width = box.sizes().x();
+  plateau.depth = box.sizes().y();
+}
+
+}  // namespace
+
+Plateau fit_plateau(const TriangleMesh& mesh,
+                    const std::vector<Vector3d>& normals,
+                    const Vector3d& at,
+                    const Vector3d& proximal,
+                    const Vector3d& across) {
+  constexpr double kReach = 65;  // from the middle to the farthest corner [mm]
+  const std::vector<double> areas = vertex_areas(mesh);
+  Plateau plateau{.middle = at, .normal = proximal, .across = across, .halves = across};
+  std::vector<Face> faces;
+  for (int iteration = 0; iteration < 12; ++iteration) {
+    faces = faces_along(mesh, normals, areas, plateau, iteration < 3 ? 2 * kBelow : kBelow, kReach);
+    if (faces.size() < 40) throw InputError("no tibial plateau faces the femur");
+    fit_plane(plateau, faces);
+    fit_outline(plateau, faces);
+  }
+  measure(plateau, faces);
+  return plateau;
+}
+
+}  // namespace condyle

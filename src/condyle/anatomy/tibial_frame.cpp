@@ -1,0 +1,54 @@
+#include "condyle/anatomy/tibial_frame.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+#include "condyle/anatomy/shaft_line.h"
+#include "condyle/mesh/mesh_measures.h"
+#include "condyle/surface/articular_region.h"
+
+namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kShaftFirst = 0.7, kShaftLast = 1.1,
+                 kShaftLeast = 0.22;  // below the plateau, of its width
+constexpr double kMeanSlope = 6.5 * M_PI / 180;
+
+}  // namespace
+
+TibialShape find_tibial_frame(CleanMesh& tibia, const KneeEnds& ends, const Vector3d& anterior) {
+  BoneFrame rough;
+  rough.proximal = ends.proximal;
+  face_out_of_tibia(tibia, rough);
+  TibialShape shape;
+  const TriangleMesh end = crop_ball(tibia.mesh, ends.joint, 1.1 * ends.tibia_width);
+  shape.plateau = fit_plateau(end, vertex_normals(end), ends.joint, ends.proximal, ends.across);
+  Plateau& plateau = shape.plateau;
+  if (anterior.dot(plateau.normal.cross(plateau.halves)) < 0) {
+    plateau.halves *= -1;
+    plateau.across *= -1;
+  }
+  BoneFrame& frame = shape.frame;
+  frame.origin = plateau.middle;
+  frame.lateral = plateau.halves;
+  const Vector3d forward = plateau.normal.cross(frame.lateral);
+  frame.proximal = plateau.normal * std::cos(kMeanSlope) + forward * std::sin(kMeanSlope);
+  const double w = plateau.width;
+  for (int iteration = 0; iteration < 4; ++iteration) {
+    const auto line = find_shaft_line(tibia.mesh, frame.origin, -frame.proximal,
+                                      {kShaftFirst * w, kShaftLast * w, kShaftLeast * w});
+    if (!line) break;
+    shape.shaft = line->length;
+    shape.shaft_first = kShaftFirst * w;
+    frame.proximal =
+        -(line->direction - frame.lateral * frame.lateral.dot(line->direction)).normalized();
+  }
+  frame.anterior = frame.proximal.cross(frame.lateral);
+  shape.slope = -std::asin(frame.anterior.dot(plateau.normal));
+  return shape;
+}
+
+}  // namespace condyle
