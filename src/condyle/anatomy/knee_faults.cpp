@@ -63,10 +63,10 @@ bool has_condyles(CleanMesh mesh) {
     double lowest = -1e300;
     for (const Vector3d& p : mesh.mesh.vertices)
       lowest = std::max(lowest, distal.dot(p - extents.middle));
-    KneeEnds ends{.joint = extents.middle + distal * (lowest - 0.05 * width),
-                  .proximal = -distal,
-                  .femur_width = width,
-                  .tibia_width = width};
+    KneeEnds ends;
+    ends.joint = extents.middle + distal * (lowest - 0.05 * width);
+    ends.proximal = -distal;
+    ends.femur_width = ends.tibia_width = width;
     for (int i = 0; i < 6; ++i) {
       ends.across = Eigen::AngleAxisd(i * M_PI / 6, distal) * extents.axes.col(1);
       try {
