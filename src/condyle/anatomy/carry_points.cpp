@@ -1,15 +1,117 @@
 #include "condyle/anatomy/carry_points.h"
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "condyle/anatomy/register_bones.h"
+#include "condyle/surface/mesh_distance.h"
+
 namespace condyle {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The bone in anatomical components, facing as it did.
+TriangleMesh in_components(const FramedBone& bone) {
+  TriangleMesh mesh = bone.mesh;
+  for (Vector3d& p : mesh.vertices) p = bone.frame.components(p - bone.frame.origin);
+  const bool mirrored = bone.frame.anterior.cross(bone.frame.proximal).dot(bone.frame.lateral) < 0;
+  if (mirrored)
+    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+Vector3d from_components(const BoneFrame& frame, const Vector3d& c) {
+  return frame.origin + frame.anterior * c.x() + frame.proximal * c.y() + frame.lateral * c.z();
+}
+
+/// How the registration is where a point is.
+struct Neighbourhood {
+  double rms = 0;      ///< gap of what is near [mm]
+  double covered = 0;  ///< share of it that has a counterpart
+  double away = 0;     ///< to the nearest that has one [mm]
+  std::size_t nearest = 0;
+};
+
+Neighbourhood around(const Vector3d& aligned, const BoneRegistration& bones) {
+  constexpr double kRadius = 12;
+  Neighbourhood out;
+  out.away = 1e300;
+  double near = 0, sum = 0, squares = 0, least = 1e300;
+  const SurfaceSamples& samples = bones.surface.before;
+  for (std::size_t i = 0; i < samples.points.size(); ++i) {
+    const double d = (samples.points[i] - aligned).norm(), trust = bones.found.trust[i];
+    if (d < least) least = d, out.nearest = i;
+    if (trust > 0) out.away = std::min(out.away, d);
+    if (d > kRadius) continue;
+    near += samples.areas[i];
+    sum += trust * samples.areas[i];
+    squares += trust * samples.areas[i] * bones.found.gaps[i] * bones.found.gaps[i];
+  }
+  out.rms = sum > 0 ? std::sqrt(squares / sum) : 0;
+  out.covered = near > 0 ? sum / near : 0;
+  return out;
+}
+
+/// Calibrated on knees whose insertions are known (docs/new.md) [mm]: what remains where all is well,
+/// the misfit around, and shares of how far the field was needed, of how far off the nearest
+/// registered surface is, and of how far from its own bone the point is; and where no bone was found.
+double estimated_deviation(const Neighbourhood& near, double moved, double height, bool on_bone) {
+  constexpr double kLeast = 1.5, kOffBone = 2, kShare = 0.2, kSpacing = 3;
+  const double away = std::max(0.0, near.away - kSpacing);
+  return std::sqrt(kLeast * kLeast + near.rms * near.rms + (on_bone ? 0 : kOffBone * kOffBone) +
+                   kShare * kShare * (moved * moved + away * away + height * height));
+}
+
+/// Along the normal of the bone below or above, where there is bone: a point beside an edge stays.
+std::optional<Vector3d> onto(const SampledSurface& samples,
+                             const MeshDistance& mesh,
+                             const Vector3d& p,
+                             const Vector3d& normal) {
+  constexpr double kDrop = 4, kBeside = 0.75;  // [mm]
+  const auto footing = samples.under(p, normal, kDrop);
+  if (!footing) return std::nullopt;
+  const Vector3d below = p - footing->height * samples.samples().normals[footing->sample];
+  const Vector3d down = mesh.closest(below);
+  return (down - below).norm() < kBeside ? std::optional(down) : std::nullopt;
+}
+
+}  // namespace
 
 CarriedPoints carry_points(const FramedBone& from,
                            const FramedBone& to,
-                           const std::vector<Eigen::Vector3d>& points) {
+                           const std::vector<Vector3d>& points) {
+  const TriangleMesh one = in_components(from), other = in_components(to);
+  std::vector<Vector3d> at;
+  for (const Vector3d& p : points) at.push_back(from.frame.components(p - from.frame.origin));
+  const BoneRegistration bones = register_bones(one, other, at);
+  const MeshDistance on_one(one), on_other(other);
+
+  constexpr double kInserted = 3;  // a point farther from the bone is on another one [mm]
   CarriedPoints carried;
-  for (const Eigen::Vector3d& p : points) {
-    const Eigen::Vector3d c = from.frame.components(p - from.frame.origin);
-    carried.points.push_back({to.frame.origin + to.frame.anterior * c.x() +
-                              to.frame.proximal * c.y() + to.frame.lateral * c.z()});
+  carried.size = bones.alignment.size;
+  carried.rms = bones.found.rms;
+  for (const Vector3d& p : at) {
+    const Vector3d foot = on_one.closest(p), aligned = bones.alignment.at(foot);
+    const double height = (p - foot).norm();
+    const Neighbourhood near = around(aligned, bones);
+    Vector3d place = aligned + bones.field.at(aligned);
+    CarriedPoint point;
+    bool on_bone = false;
+    if (const auto down = onto(bones.to, on_other, place, bones.surface.normals[near.nearest])) {
+      point.dropped = (*down - place).norm();
+      place = *down;
+      on_bone = true;
+    }
+    if (height > kInserted) place += bones.at(p) - bones.at(foot);
+    point.at = from_components(to.frame, place);
+    point.moved = (place - bones.alignment.at(p)).norm();
+    point.uncertainty = estimated_deviation(near, point.moved, height, on_bone);
+    carried.covered += near.covered / static_cast<double>(at.size());
+    carried.points.push_back(point);
   }
   return carried;
 }

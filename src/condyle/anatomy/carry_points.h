@@ -19,7 +19,7 @@ struct FramedBone {
 
 struct CarriedPoint {
   Eigen::Vector3d at;      ///< on the other bone, frame of its mesh [mm]
-  double moved = 0;        ///< from where frames and size alone put it [mm]
+  double moved = 0;        ///< from where alignment by frames and size puts it [mm]
   double dropped = 0;      ///< distance of the last step, onto the bone [mm]
   double uncertainty = 0;  ///< estimated standard deviation of `at` along the bone [mm]
 };
