@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "anatomy/carried_errors.h"
+#include "condyle/anatomy/recognise_knee.h"
 
 namespace condyle {
 namespace {
@@ -24,20 +26,23 @@ bool on_fibula(const std::string& ligament, int body) {
   return body == 1 && (ligament.starts_with("LCL") || ligament.starts_with("PFL"));
 }
 
+using Knee = std::array<test::KneeBone, 2>;
+using Reframe = std::function<void(Knee&)>;
+
 /// One of the statistical model's knees has the vertices of its mean, and the insertions with them;
 /// fibular ends go by another rule.
-void carry_to_population(double turn, double shift) {
+void carry_to_population(const Reframe& reframe) {
   if (!fs::exists(kMean)) GTEST_SKIP() << "no specimens here";
-  test::Random random(7);
-  const auto mean = test::knee_bones(kMean);
+  Knee mean = test::knee_bones(kMean);
+  reframe(mean);
   test::CarriedErrors on_bone, fibula, all;
   for (const char* name : {"S001", "S010", "S020", "S030", "S040", "S060", "S080", "S100"}) {
-    const auto knee =
+    Knee knee =
         test::knee_bones(kMean.parent_path() / "population" / (std::string(name) + ".toml"));
+    reframe(knee);
     for (int b = 0; b < 2; ++b) {
-      const BoneFrame frame = test::disturbed(knee[b].frame, turn, shift, random);
       const CarriedPoints carried =
-          carry_points(mean[b].framed(), {knee[b].mesh, frame}, mean[b].insertions);
+          carry_points(mean[b].framed(), knee[b].framed(), mean[b].insertions);
       for (std::size_t i = 0; i < carried.points.size(); ++i) {
         const double error = (carried.points[i].at - knee[b].insertions[i]).norm(),
                      estimate = carried.points[i].uncertainty;
@@ -55,9 +60,22 @@ void carry_to_population(double turn, double shift) {
   EXPECT_GT(on_bone.within_twice, 0.9 * on_bone.count);
 }
 
-TEST(CarriedSpecimens, FromTheMeanToEightKnees) { carry_to_population(0, 0); }
+void as_given(Knee&) {}
+void by_rule(Knee& knee) {
+  const RecognisedKnee recognised =
+      recognise_knee({knee[0].mesh, knee[1].mesh, {}, {}}, {1.0, Side::kRight});
+  knee[0].frame = recognised.femur.frame;
+  knee[1].frame = recognised.tibia.frame;
+}
+
+TEST(CarriedSpecimens, FromTheMeanToEightKnees) { carry_to_population(as_given); }
+TEST(CarriedSpecimens, FromTheMeanToEightKneesByTheirOwnFrames) { carry_to_population(by_rule); }
 TEST(CarriedSpecimens, FromTheMeanToEightKneesByScatteredFrames) {
-  carry_to_population(3 * M_PI / 180, 4);
+  test::Random random(7);
+  carry_to_population([&](Knee& knee) {
+    for (test::KneeBone& bone : knee)
+      bone.frame = test::disturbed(bone.frame, 3 * M_PI / 180, 4, random);
+  });
 }
 
 /// Strand by strand, the same names in both.

@@ -40,7 +40,7 @@ Neighbourhood around(const Vector3d& aligned, const BoneRegistration& bones) {
   constexpr double kRadius = 12;
   Neighbourhood out;
   out.away = 1e300;
-  double near = 0, sum = 0, squares = 0, least = 1e300;
+  double near = 0, facing = 0, sum = 0, squares = 0, least = 1e300;
   const SurfaceSamples& samples = bones.surface.before;
   for (std::size_t i = 0; i < samples.points.size(); ++i) {
     const double d = (samples.points[i] - aligned).norm(), trust = bones.found.trust[i];
@@ -48,21 +48,24 @@ Neighbourhood around(const Vector3d& aligned, const BoneRegistration& bones) {
     if (trust > 0) out.away = std::min(out.away, d);
     if (d > kRadius) continue;
     near += samples.areas[i];
+    facing += trust > 0 ? samples.areas[i] : 0;
     sum += trust * samples.areas[i];
     squares += trust * samples.areas[i] * bones.found.gaps[i] * bones.found.gaps[i];
   }
   out.rms = sum > 0 ? std::sqrt(squares / sum) : 0;
-  out.covered = near > 0 ? sum / near : 0;
+  out.covered = near > 0 ? facing / near : 0;
   return out;
 }
 
 /// Calibrated on knees whose insertions are known (docs/new.md) [mm]: what remains where all is well,
-/// the misfit around, and shares of how far the field was needed, of how far off the nearest
+/// the misfit around, how much around has no counterpart, and shares of how far the field was needed, of how far off the nearest
 /// registered surface is, and of how far from its own bone the point is; and where no bone was found.
 double estimated_deviation(const Neighbourhood& near, double moved, double height, bool on_bone) {
-  constexpr double kLeast = 1.5, kOffBone = 2, kShare = 0.2, kSpacing = 3;
+  constexpr double kLeast = 1.5, kOffBone = 2, kEdge = 3, kShare = 0.2, kSpacing = 3;
+  const double edge = kEdge * (1 - near.covered);
   const double away = std::max(0.0, near.away - kSpacing);
-  return std::sqrt(kLeast * kLeast + near.rms * near.rms + (on_bone ? 0 : kOffBone * kOffBone) +
+  return std::sqrt(kLeast * kLeast + near.rms * near.rms + edge * edge +
+                   (on_bone ? 0 : kOffBone * kOffBone) +
                    kShare * kShare * (moved * moved + away * away + height * height));
 }
 
