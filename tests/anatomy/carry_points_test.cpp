@@ -178,6 +178,16 @@ TEST_P(CarryPoints, GoBeyondAnOpenSheet) {
     }
 }
 
+/// Some muscle's origin: carried by size alone, and nothing to the others.
+TEST_P(CarryPoints, BearAPointFarFromTheJoint) {
+  std::vector<Vector3d> points = bone().insertions;
+  points.emplace_back(-40, femur() ? 380 : -330, 50);
+  const CarriedPoints carried = carry_points(bone().framed(), bone().framed(), points);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    EXPECT_LT((carried.points[i].at - points[i]).norm(), i + 1 < points.size() ? 0.1 : 2);
+  EXPECT_GT(carried.points.back().uncertainty, 20);
+}
+
 TEST_P(CarryPoints, AreTheSameEveryTime) {
   const CarriedPoints one = carried_to(bone().mesh, bone().frame),
                       two = carried_to(bone().mesh, bone().frame);

@@ -118,9 +118,12 @@ BoneRegistration register_bones(const TriangleMesh& from,
     low = low.cwiseMin(alignment.at(p));
     high = high.cwiseMax(alignment.at(p));
   }
-  LatticeField field(low, high, kStages[0].spacing);
+  // A few hundred nodes are solved for at most, however far from the joint a point may be.
+  constexpr double kMostCells = 200;
+  const double least = std::cbrt((high - low).prod() / kMostCells);
+  LatticeField field(low, high, std::max(least, kStages[0].spacing));
   for (const Stage& stage : kStages) {
-    LatticeField finer(low, high, stage.spacing);
+    LatticeField finer(low, high, std::max(least, stage.spacing));
     for (int i = 0; i < stage.times; ++i) {
       const LatticeField& now = i == 0 ? field : finer;
       const SurfacePairs found = pair_surfaces(moved_by(aligned, now), moved_by(aligned_fine, now),
