@@ -178,13 +178,14 @@ TEST_P(CarryPoints, GoBeyondAnOpenSheet) {
     }
 }
 
-/// Some muscle's origin: carried by size alone, and nothing to the others.
+/// Some muscle's origin goes by size alone. More of the shaft is looked at for it, as far as the mesh
+/// goes: what is inserted near its end feels that a little.
 TEST_P(CarryPoints, BearAPointFarFromTheJoint) {
   std::vector<Vector3d> points = bone().insertions;
   points.emplace_back(-40, femur() ? 380 : -330, 50);
   const CarriedPoints carried = carry_points(bone().framed(), bone().framed(), points);
   for (std::size_t i = 0; i < points.size(); ++i)
-    EXPECT_LT((carried.points[i].at - points[i]).norm(), i + 1 < points.size() ? 0.1 : 2);
+    EXPECT_LT((carried.points[i].at - points[i]).norm(), i + 1 < points.size() ? 0.5 : 2);
   EXPECT_GT(carried.points.back().uncertainty, 20);
 }
 
