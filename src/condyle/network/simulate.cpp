@@ -18,6 +18,7 @@
 #include "condyle/network/motion_lattices.h"
 #include "condyle/network/motion_poses.h"
 #include "condyle/network/network_equations.h"
+#include "condyle/scene/ligament_path.h"
 #include "condyle/specimen/fit_surfaces.h"
 
 namespace condyle {
@@ -93,13 +94,11 @@ void complete(const Scene& scene, const BodyOrigins& origins, KneeNetwork& knee)
     };
   for (LineComponent& line : network.lines) line.viscous_time = simulation.viscous_time;
   for (const DamperDescription& damper : simulation.dampers) {
-    const bool first_fixed = damper.ends[0].body == scene.fixed_body();
+    const auto [fixed_end, moving_end] = fixed_then_moving(scene, damper.ends);
     LineComponent line;
     line.name = damper.name;
-    line.from = add_port(network, damper.name + ": fixed end", kGround,
-                         damper.ends[first_fixed ? 0 : 1].at - origins.B);
-    line.to = add_port(network, damper.name + ": moving end", 0,
-                       damper.ends[first_fixed ? 1 : 0].at - origins.A);
+    line.from = add_port(network, damper.name + ": fixed end", kGround, fixed_end - origins.B);
+    line.to = add_port(network, damper.name + ": moving end", 0, moving_end - origins.A);
     line.damping = damper.coefficient;
     network.lines.push_back(line);
   }

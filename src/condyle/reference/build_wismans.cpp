@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "condyle/input_error.h"
+#include "condyle/scene/ligament_path.h"
 #include "condyle/scene/start_pose.h"
 
 namespace condyle {
@@ -51,10 +52,9 @@ Load load_of(const LoadDescription& description) {
   return load;
 }
 
-LineElement spring_of(const LigamentDescription& ligament, int fixed) {
-  const bool first_fixed = ligament.ends[0].body == fixed;
-  return {ligament.ends[first_fixed ? 0 : 1].at, ligament.ends[first_fixed ? 1 : 0].at,
-          ligament.law};
+LineElement spring_of(const Scene& scene, const LigamentDescription& ligament) {
+  const auto [fixed_end, moving_end] = fixed_then_moving(scene, ligament.ends);
+  return {fixed_end, moving_end, ligament.law};
 }
 
 }  // namespace
@@ -109,7 +109,7 @@ WismansModel build_wismans_model(const Scene& scene, const std::vector<HeightFit
   model.start = start_pose(scene);
   model.flexion = scene.conditions[0].value;
   for (const LigamentDescription& ligament : scene.ligaments)
-    model.springs.push_back(spring_of(ligament, fixed));
+    model.springs.push_back(spring_of(scene, ligament));
   for (const LoadDescription& load : scene.loads) model.loads.push_back(load_of(load));
   std::size_t next = 0;
   model.scene_contacts = scene.contacts.size();

@@ -31,11 +31,6 @@ constexpr const char* kStiffnessUnits = "N, mm, rad: N mm/rad among the three an
 constexpr const char* kComplianceUnits =
     "N, mm, rad: rad/(N mm) among the three angles, rad/N, mm/N";
 
-Shape with_width(Shape shape, std::size_t width) {
-  if (width > 1) shape.push_back(width);
-  return shape;
-}
-
 /// Of rigid points: a layer knows its pressures itself.
 bool is_elastic(const Scene& scene, std::size_t contact) {
   if (scene.contacts.at(contact).layer) return false;

@@ -38,6 +38,12 @@ class Hdf5Handle {
 
 using Shape = std::vector<std::size_t>;
 
+/// With one dimension more for columns of a table that hold several numbers.
+[[nodiscard]] inline Shape with_width(Shape shape, std::size_t width) {
+  if (width > 1) shape.push_back(width);
+  return shape;
+}
+
 struct Hdf5Array {
   std::vector<double> values;  ///< last index fastest
   Shape shape;

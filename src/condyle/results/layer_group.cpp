@@ -47,11 +47,6 @@ constexpr std::array<FieldColumn, 5> kFieldColumns = {{
     {"area", "mm^2", 1, [](PressurePoint& point) { return &point.area; }},
 }};
 
-Shape with_width(Shape shape, std::size_t width) {
-  if (width > 1) shape.push_back(width);
-  return shape;
-}
-
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Names of the two surfaces, the fixed body's first.

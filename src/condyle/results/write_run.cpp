@@ -129,11 +129,6 @@ ContactPointResult main_point(const ContactResult& contact) {
   return point;
 }
 
-Shape with_width(Shape shape, std::size_t width) {
-  if (width > 1) shape.push_back(width);
-  return shape;
-}
-
 // All the points of a pair, in slots that are NaN where a pose has fewer.
 void write_points(const Hdf5Group& group, const Poses& poses, std::size_t index) {
   const std::size_t n = poses.size();
