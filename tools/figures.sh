@@ -6,7 +6,8 @@
 #     <!-- end -->
 #
 # says that COMMAND, run by bash at the top of the project, prints what stands between. Words have to be the same, numbers as
-# well, or within what "made within 5 % by:" allows; a number before µs, us, ms or s is a time and only has to be there. A command that cannot run here (no specimens beside the project) ends with 77 and is passed over.
+# well, or within what "made within 5 % by:" allows; a number before µs, us, ms or s is a time and only has to be there. What takes minutes is "made when asked by:",
+# that is where its page is named. A command that cannot run here (no specimens beside the project) ends with 77 and is passed over.
 #
 #     tools/figures.sh [--write] [PAGE...]       --write puts what the commands print into the pages
 #
@@ -20,6 +21,7 @@ if [ "${1:-}" = --write ]; then
   write=1
   shift
 fi
+asked=$#
 [ $# -gt 0 ] || set -- README.md docs/*.md
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -40,6 +42,10 @@ replace() {
 # check PAGE LINE MARKER: one block.
 check() {
   local page=$1 line=$2 command within status=0
+  if [ "$asked" -eq 0 ] && [[ $3 == '<!-- made when asked by:'* ]]; then
+    passed_over=$((passed_over + 1))
+    return
+  fi
   command=$(sed -E 's/^<!-- made [^:]*by: (.*) -->$/\1/' <<<"$3")
   within=$(sed -nE 's/^<!-- made within ([0-9.]+) % by: .*/\1/p' <<<"$3")
   awk -v start="$line" 'NR > start && /^<!-- end -->/ { exit } NR > start' "$page" >"$work/old"

@@ -1,0 +1,173 @@
+/// A scene from two meshes: the phantom's own come back as the phantom, wherever its files have it, in
+/// whatever unit, and mirrored as a left knee.
+
+#include "condyle/anatomy/new_knee.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "condyle/anatomy/new_scene_text.h"
+#include "condyle/exchange/ply_file.h"
+#include "condyle/input_error.h"
+#include "condyle/mesh_files/load_mesh.h"
+#include "condyle/results/output_file.h"
+#include "condyle/scene/start_pose.h"
+#include "condyle/scene_file/read_scene.h"
+#include "support/scratch_folder.h"
+
+namespace condyle {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+const fs::path kPhantom = fs::path(CONDYLE_SOURCE_DIR) / "data/phantom/knee.toml";
+const fs::path kMeshes = fs::path(CONDYLE_SOURCE_DIR) / "meshes";
+
+/// p -> factor (R p + shift), R maybe a reflection.
+struct Map {
+  Matrix3d R = Matrix3d::Identity();
+  Vector3d shift = Vector3d::Zero();
+  double factor = 1;
+  [[nodiscard]] Vector3d operator()(const Vector3d& p) const { return factor * (R * p + shift); }
+  [[nodiscard]] bool mirrors() const { return R.determinant() < 0; }
+};
+
+class NewKneeOfThePhantom : public testing::Test {
+ protected:
+  void TearDown() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] NewKneeFiles files(const Map& map) const {
+    NewKneeFiles files;
+    files.femur = folder_ / "femur.ply";
+    files.tibia = folder_ / "tibia.ply";
+    files.template_scene = kPhantom;
+    for (const char* bone : {"femur", "tibia"}) {
+      TriangleMesh mesh = load_mesh(kMeshes / (std::string(bone) + ".stl"), 1);
+      for (Vector3d& v : mesh.vertices) v = map(v);
+      if (map.mirrors())
+        for (std::array<int, 3>& t : mesh.triangles) std::swap(t[0], t[1]);
+      write_output_file(folder_ / (std::string(bone) + ".ply"), ply(mesh));
+    }
+    return files;
+  }
+
+  /// Insertions back in the phantom's frame, the farthest from the phantom's own [mm].
+  [[nodiscard]] static double farthest(const NewKnee& knee, const Map& map) {
+    double worst = 0;
+    for (const NewLigament& ligament : knee.ligaments)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const Vector3d own =
+            knee.model.scene.ligaments[static_cast<std::size_t>(ligament.of_template)].ends[k].at;
+        worst = std::max(worst, (ligament.ends[k].at - knee.shape.to_mm * map(own)).norm());
+      }
+    return worst;
+  }
+
+  fs::path folder_ = test::fresh_folder("new knee");
+};
+
+TEST_F(NewKneeOfThePhantom, IsThePhantom) {
+  const NewKnee knee = new_knee(files({}), {});
+  EXPECT_EQ(knee.shape.to_mm, 1);
+  EXPECT_EQ(knee.shape.side, Side::kRight);
+  EXPECT_LT(farthest(knee, {}), 0.5);
+  EXPECT_LT(knee.start.X_FT.p.norm(), 0.5);
+  EXPECT_EQ(knee.start.extended, 0);
+}
+
+TEST_F(NewKneeOfThePhantom, IsTheSameFarOffTurnedAndInMetres) {
+  const NewKnee here = new_knee(files({}), {});
+  const Map map{Eigen::AngleAxisd(2.1, Vector3d(1, -2, 0.5).normalized()).toRotationMatrix(),
+                {1500, -800, 2300},
+                1e-3};
+  const NewKnee there = new_knee(files(map), {});
+  EXPECT_EQ(there.shape.to_mm, 1000);
+  EXPECT_EQ(there.shape.side, Side::kRight);
+  ASSERT_EQ(there.ligaments.size(), here.ligaments.size());
+  for (std::size_t l = 0; l < here.ligaments.size(); ++l)
+    for (std::size_t k = 0; k < 2; ++k)
+      EXPECT_LT((there.ligaments[l].ends[k].at - 1e3 * map(here.ligaments[l].ends[k].at)).norm(),
+                0.02)
+          << l;
+  EXPECT_NEAR(there.start.scan.flexion, here.start.scan.flexion, 1e-4);
+  EXPECT_NEAR(there.start.shifted, here.start.shifted, 0.01);
+}
+
+TEST_F(NewKneeOfThePhantom, MirroredIsALeftKneeThatMovesTheSame) {
+  const NewKnee right = new_knee(files({}), {});
+  Map map;
+  map.R(2, 2) = -1;
+  const NewKnee left = new_knee(files(map), {});
+  EXPECT_EQ(left.shape.side, Side::kLeft);
+  for (std::size_t l = 0; l < right.ligaments.size(); ++l)
+    for (std::size_t k = 0; k < 2; ++k)
+      EXPECT_LT((left.ligaments[l].ends[k].at - map(right.ligaments[l].ends[k].at)).norm(), 0.02)
+          << l;
+  EXPECT_NEAR(left.start.scan.adduction, right.start.scan.adduction, 1e-4);
+  EXPECT_NEAR(left.start.shifted, right.start.shifted, 0.01);
+}
+
+TEST_F(NewKneeOfThePhantom, IsBroughtTogetherAndExtended) {
+  // The tibia flexed by 20 degrees about z through the origin and 3 mm away from the femur.
+  NewKneeFiles apart = files({});
+  TriangleMesh tibia = load_mesh(kMeshes / "tibia.stl", 1);
+  const Matrix3d flexed = Eigen::AngleAxisd(-20 * M_PI / 180, Vector3d::UnitZ()).toRotationMatrix();
+  for (Vector3d& v : tibia.vertices) v = flexed * (v - Vector3d(0, 3, 0));
+  write_output_file(apart.tibia, ply(tibia));
+  apart.cartilage = {apart.femur,
+                     apart.tibia};  // as cartilage: no offsets, the bones have to touch
+  const NewKnee knee = new_knee(apart, {});
+  EXPECT_NEAR(knee.start.extended * 180 / M_PI, 20, 1.5);
+  EXPECT_NEAR(knee.start.shifted, 3, 0.7);
+  // The tibia where the phantom has it.
+  const RigidTransform back{flexed, flexed * Vector3d(0, -3, 0)};
+  const RigidTransform error = knee.start.X_FT * back;
+  EXPECT_LT(error.p.norm(), 1.5);
+  EXPECT_LT(Eigen::AngleAxisd(error.R).angle() * 180 / M_PI, 2);
+  EXPECT_FALSE(knee.doubts.empty());
+}
+
+TEST_F(NewKneeOfThePhantom, IsASceneThatCanBeRead) {
+  const NewKnee knee = new_knee(files({}), {});
+  const fs::path file = folder_ / "knee.toml";
+  const std::string text = new_scene_text(knee, file);
+  EXPECT_NE(text.find("mesh = \"femur.ply\""), std::string::npos);
+  const Scene scene = parse_scene(text, file);
+  EXPECT_EQ(scene.ligaments.size(), knee.ligaments.size());
+  EXPECT_EQ(scene.loads.size(), knee.model.scene.loads.size());
+  EXPECT_LT((start_pose(scene).p - knee.start.X_FT.p).norm(), 1e-9);
+  for (std::size_t l = 0; l < scene.ligaments.size(); ++l)
+    EXPECT_NEAR(*scene.ligaments[l].reference_strain,
+                *knee.model.scene.ligaments[l].reference_strain, 1e-4);
+}
+
+TEST_F(NewKneeOfThePhantom, NamesWhatIsWrong) {
+  const auto refused = [](const NewKneeFiles& files, const std::string& words) {
+    try {
+      (void)new_knee(files, {});
+      FAIL() << "expected: " << words;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+  };
+  const NewKneeFiles good = files({});
+  NewKneeFiles missing = good;
+  missing.tibia = folder_ / "none.stl";
+  refused(missing, "none.stl");
+  NewKneeFiles twice = good;
+  twice.tibia = twice.femur;
+  refused(twice, "femur");
+  NewKneeFiles swapped = good;
+  std::swap(swapped.femur, swapped.tibia);
+  refused(swapped, "tibia");
+  NewKneeFiles no_joint = good;
+  no_joint.template_scene = fs::path(CONDYLE_SOURCE_DIR) / "data/dortmans/problem1.toml";
+  refused(no_joint, "as a template, expected a scene with [joint]");
+}
+
+}  // namespace
+}  // namespace condyle
