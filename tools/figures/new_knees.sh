@@ -42,7 +42,7 @@ for model in phantom "$ssm/knee.toml"; do
   printf '| knee | side, sure | femur: axes, origin off | tibia | insertions off, mm rms | worst, mm | which | poses | false |\n|---|---|---|---|---|---|---|---|---|\n'
   knee Lenhart "$lenhart/knee.toml" "$model" "$lenhart"/lenhart2015-R-{femur,tibia}-subchondral-bone.stl "$lenhart"/ACLC01-R-{femur,tibia}-cart.obj
   knee 'Lenhart, bare' "$lenhart/knee.toml" "$model" "$lenhart"/lenhart2015-R-{femur,tibia}-subchondral-bone.stl
-  knee OAI - "$model" "$oai"/{femur,tibia}_bone.ply "$oai"/femur_cartilage.ply "$oai"/tibia_cartilage_{medial,lateral}.ply
+  knee OAI tests/data/oai_pymskt.toml "$model" "$oai"/{femur,tibia}_bone.ply "$oai"/femur_cartilage.ply "$oai"/tibia_cartilage_{medial,lateral}.ply
   [ "$model" != phantom ] || knee "Clouthier's mean" "$ssm/knee.toml" phantom "$ssm"/mean_{Femur,Tibia_shifted}.ply "$ssm"/mean_{Femur_Cartilage,Tibia_Cartilage_shifted}.ply
   for scene in "$ssm"/population/S*.toml; do
     s=${scene%.toml}

@@ -6,12 +6,15 @@
 #include <cmath>
 #include <utility>
 
+#include "condyle/anatomy/new_scene_text.h"
 #include "condyle/anatomy/new_start.h"
 #include "condyle/input_error.h"
 #include "condyle/mesh/clean_mesh.h"
 #include "condyle/mesh_files/load_mesh.h"
 #include "condyle/scene/ligament_path.h"
 #include "condyle/scene/start_pose.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_wraps.h"
 
 namespace condyle {
 namespace {
@@ -106,6 +109,13 @@ CarriedPoints carry(
   return carried;
 }
 
+/// Whether all that a ligament wraps on is fitted to bone: then it can be fitted to other bones.
+bool on_bone(const Scene& scene, const LigamentDescription& ligament) {
+  return std::all_of(ligament.path.wraps.begin(), ligament.path.wraps.end(), [&](int wrap) {
+    return scene.wraps[static_cast<std::size_t>(wrap)].fit.has_value();
+  });
+}
+
 /// Laws that know their slack length can be carried to bones of another size.
 void choose_ligaments(NewKnee& knee) {
   const Scene& scene = knee.model.scene;
@@ -119,11 +129,13 @@ void choose_ligaments(NewKnee& knee) {
           ligament.name));
       continue;
     }
-    wrapped += ligament.path.wraps.empty() ? 0 : 1;
+    wrapped += on_bone(scene, ligament) ? 0 : 1;
+    knee.wraps = knee.wraps || (!ligament.path.wraps.empty() && on_bone(scene, ligament));
     NewLigament chosen;
     chosen.of_template = static_cast<int>(l);
-    chosen.strain = ligament.reference_strain.value_or(
-        ligament_length(scene, ligament, X_BA) / slack_length(ligament.law) - 1);
+    chosen.strain = ligament.reference_strain
+                        ? *ligament.reference_strain
+                        : ligament_length(scene, ligament, X_BA) / slack_length(ligament.law) - 1;
     knee.ligaments.push_back(chosen);
   }
   if (knee.ligaments.empty())
@@ -159,6 +171,22 @@ void doubt_insertions(NewKnee& knee) {
           fmt::format("the template's {} fits this one only to {:.1f} mm rms", bone, carried->rms));
 }
 
+/// Are there surfaces on these bones that the ligaments can wrap on? Else they are straight.
+void try_wraps(NewKnee& knee, const KneeMeshes& meshes) {
+  if (!knee.wraps) return;
+  const std::filesystem::path nowhere = std::filesystem::current_path() / "new.toml";
+  Scene scene = parse_scene(new_scene_text(knee, nowhere), nowhere);
+  try {
+    fit_wraps(scene, {meshes.femur, meshes.tibia});
+  } catch (const InputError& error) {
+    knee.wraps = false;
+    const std::string text = error.what();
+    knee.doubts.push_back(
+        "the template's wraps do not fit these bones, ligaments are straight: " +
+        text.substr(text.find("[[wrap]]") == std::string::npos ? 0 : text.find("[[wrap]]")));
+  }
+}
+
 }  // namespace
 
 NewKnee new_knee(const NewKneeFiles& files, const RecogniseOptions& options) {
@@ -184,6 +212,7 @@ NewKnee new_knee(const NewKneeFiles& files, const RecogniseOptions& options) {
                      {loaded.meshes.tibia, knee.shape.tibia.frame}, false);
   doubt_insertions(knee);
   find_start(knee);
+  try_wraps(knee, loaded.meshes);
   return knee;
 }
 

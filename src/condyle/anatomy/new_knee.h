@@ -49,6 +49,7 @@ struct NewKnee {
   TemplateKnee model;  ///< the template
   CarriedPoints femur, tibia;
   std::vector<NewLigament> ligaments;
+  bool wraps = false;  ///< ligaments lie on the bone as those of the template do (fit = "bone")
   NewStart start;
   std::array<int, 2> tibial_file = {1, 1};  ///< of files.cartilage, medial and lateral
   std::vector<std::string> doubts;          ///< what a person should look at, one line each

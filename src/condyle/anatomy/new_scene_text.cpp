@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <variant>
@@ -63,6 +64,7 @@ class SceneText {
     add_bodies();
     add_joint();
     add_surfaces();
+    add_wraps();
     add_ligaments();
     add_motion();
     return std::move(text_);
@@ -163,6 +165,16 @@ class SceneText {
                        point(ligament.ends[k].at));
   }
 
+  void add_path(const LigamentDescription& from) {
+    std::string names;
+    for (const int wrap : wraps_of(from))
+      names += (names.empty() ? "" : ", ") +
+               quoted(knee_.model.scene.wraps[static_cast<std::size_t>(wrap)].name);
+    if (names.empty()) return;
+    line("wraps = [{}]", names);
+    if (from.path.thickness > 0) line("thickness = {}", number(from.path.thickness));
+  }
+
   void add_law(const LigamentDescription& from, double strain) {
     if (const auto* law = std::get_if<ToeLinearLaw>(&from.law))
       line("law = \"toe-linear\"\nstiffness = {}\ntransition_strain = {}", number(law->stiffness),
@@ -170,6 +182,32 @@ class SceneText {
     else
       line("law = \"quadratic\"\nstiffness = {:.6g}", std::get<QuadraticLaw>(from.law).stiffness);
     line("reference_strain = {}", number(strain));
+  }
+
+  /// Of the template, on the new bones.
+  [[nodiscard]] std::vector<int> wraps_of(const LigamentDescription& from) const {
+    std::vector<int> wraps;
+    if (!knee_.wraps) return wraps;
+    for (const int wrap : from.path.wraps) {
+      if (!knee_.model.scene.wraps[static_cast<std::size_t>(wrap)].fit) return {};
+      wraps.push_back(wrap);
+    }
+    return wraps;
+  }
+
+  /// Those that a ligament uses.
+  void add_wraps() {
+    const Scene& scene = knee_.model.scene;
+    std::set<int> used;
+    for (const NewLigament& ligament : knee_.ligaments)
+      for (const int wrap :
+           wraps_of(scene.ligaments[static_cast<std::size_t>(ligament.of_template)]))
+        used.insert(wrap);
+    for (const int wrap : used) {
+      const WrapDescription& from = scene.wraps[static_cast<std::size_t>(wrap)];
+      line("\n[[wrap]]\nname = {}\nbody = \"{}\"\nkind = \"ellipsoid\"\nfit = \"bone\"",
+           quoted(from.name), from.body == scene.joint->femur.body ? "femur" : "tibia");
+    }
   }
 
   void add_ligaments() {
@@ -186,6 +224,7 @@ class SceneText {
            ligament.ends[0].uncertainty);
       line("         {} ]  # moved {:.1f} mm, ±{:.1f}", end(ligament, 1), ligament.ends[1].moved,
            ligament.ends[1].uncertainty);
+      add_path(from);
       add_law(from, ligament.strain);
     }
   }

@@ -1,14 +1,17 @@
 #include "condyle/anatomy/template_knee.h"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
 #include "condyle/input_error.h"
 #include "condyle/mesh/clean_mesh.h"
 #include "condyle/mesh_files/load_mesh.h"
+#include "condyle/scene/ligament_path.h"
 #include "condyle/scene/start_pose.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
+#include "condyle/specimen/fit_wraps.h"
 
 namespace condyle {
 namespace {
@@ -85,6 +88,18 @@ TemplateKnee load_template(const std::filesystem::path& file) {
   const int femur = knee.scene.joint->femur.body, tibia = knee.scene.joint->tibia.body;
   knee.femur = load_body_mesh(knee.scene.bodies[static_cast<std::size_t>(femur)]);
   knee.tibia = load_body_mesh(knee.scene.bodies[static_cast<std::size_t>(tibia)]);
+
+  const bool strain_follows_from_wraps =
+      std::any_of(knee.scene.ligaments.begin(), knee.scene.ligaments.end(),
+                  [&](const LigamentDescription& ligament) {
+                    return !ligament.reference_strain && !has_known_path(knee.scene, ligament);
+                  });
+  if (strain_follows_from_wraps) {
+    std::vector<TriangleMesh> bones(knee.scene.bodies.size());
+    bones[static_cast<std::size_t>(femur)] = knee.femur;
+    bones[static_cast<std::size_t>(tibia)] = knee.tibia;
+    fit_wraps(knee.scene, bones);
+  }
 
   // As they stand at the start pose, in the fixed body's frame.
   const RigidTransform X_BA = start_pose(knee.scene);
