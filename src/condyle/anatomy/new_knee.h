@@ -1,7 +1,6 @@
 #pragma once
 
-/// From two meshes to a described knee: unit, side and frames from their shape, ligaments from a
-/// template, and a start pose with the surfaces in touch. docs/new.md.
+/// A knee made of two meshes, before it is written as a scene: plain data.
 
 #include <array>
 #include <filesystem>
@@ -54,9 +53,5 @@ struct NewKnee {
   std::array<int, 2> tibial_file = {1, 1};  ///< of files.cartilage, medial and lateral
   std::vector<std::string> doubts;          ///< what a person should look at, one line each
 };
-
-/// Throws InputError: the file and what is wrong with it, or what cannot be told and the option
-/// that settles it.
-[[nodiscard]] NewKnee new_knee(const NewKneeFiles& files, const RecogniseOptions& options);
 
 }  // namespace condyle

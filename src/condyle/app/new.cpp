@@ -10,7 +10,7 @@
 #include <system_error>
 #include <vector>
 
-#include "condyle/anatomy/new_knee.h"
+#include "condyle/anatomy/knee_from_meshes.h"
 #include "condyle/anatomy/new_scene_text.h"
 #include "condyle/app/commands.h"
 #include "condyle/app/default_template.h"
@@ -106,7 +106,7 @@ int run_new(const NewCommand& command) {
     throw InputError(
         "--cartilage: one file, expected the femoral and the tibial one (or two tibial ones)");
   check_outputs(command);
-  const NewKnee knee = new_knee(
+  const NewKnee knee = knee_from_meshes(
       files_of(command), {.to_mm = units_option(command.units), .side = side_option(command.side)});
   const std::string text = new_scene_text(knee, command.output);
   const Scene scene = parse_scene(text, command.output);  // what is written can be read

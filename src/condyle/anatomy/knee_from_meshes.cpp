@@ -1,4 +1,4 @@
-#include "condyle/anatomy/new_knee.h"
+#include "condyle/anatomy/knee_from_meshes.h"
 
 #include <fmt/format.h>
 
@@ -189,7 +189,7 @@ void try_wraps(NewKnee& knee, const KneeMeshes& meshes) {
 
 }  // namespace
 
-NewKnee new_knee(const NewKneeFiles& files, const RecogniseOptions& options) {
+NewKnee knee_from_meshes(const NewKneeFiles& files, const RecogniseOptions& options) {
   NewKnee knee;
   knee.files = files;
   Loaded loaded = load(files);

@@ -1,7 +1,7 @@
 /// A scene from two meshes: the phantom's own come back as the phantom, wherever its files have it, in
 /// whatever unit, and mirrored as a left knee.
 
-#include "condyle/anatomy/new_knee.h"
+#include "condyle/anatomy/knee_from_meshes.h"
 
 #include <gtest/gtest.h>
 
@@ -70,7 +70,7 @@ class NewKneeOfThePhantom : public testing::Test {
 };
 
 TEST_F(NewKneeOfThePhantom, IsThePhantom) {
-  const NewKnee knee = new_knee(files({}), {});
+  const NewKnee knee = knee_from_meshes(files({}), {});
   EXPECT_EQ(knee.shape.to_mm, 1);
   EXPECT_EQ(knee.shape.side, Side::kRight);
   EXPECT_LT(farthest(knee, {}), 0.5);
@@ -79,11 +79,11 @@ TEST_F(NewKneeOfThePhantom, IsThePhantom) {
 }
 
 TEST_F(NewKneeOfThePhantom, IsTheSameFarOffTurnedAndInMetres) {
-  const NewKnee here = new_knee(files({}), {});
+  const NewKnee here = knee_from_meshes(files({}), {});
   const Map map{Eigen::AngleAxisd(2.1, Vector3d(1, -2, 0.5).normalized()).toRotationMatrix(),
                 {1500, -800, 2300},
                 1e-3};
-  const NewKnee there = new_knee(files(map), {});
+  const NewKnee there = knee_from_meshes(files(map), {});
   EXPECT_EQ(there.shape.to_mm, 1000);
   EXPECT_EQ(there.shape.side, Side::kRight);
   ASSERT_EQ(there.ligaments.size(), here.ligaments.size());
@@ -97,10 +97,10 @@ TEST_F(NewKneeOfThePhantom, IsTheSameFarOffTurnedAndInMetres) {
 }
 
 TEST_F(NewKneeOfThePhantom, MirroredIsALeftKneeThatMovesTheSame) {
-  const NewKnee right = new_knee(files({}), {});
+  const NewKnee right = knee_from_meshes(files({}), {});
   Map map;
   map.R(2, 2) = -1;
-  const NewKnee left = new_knee(files(map), {});
+  const NewKnee left = knee_from_meshes(files(map), {});
   EXPECT_EQ(left.shape.side, Side::kLeft);
   for (std::size_t l = 0; l < right.ligaments.size(); ++l)
     for (std::size_t k = 0; k < 2; ++k)
@@ -119,7 +119,7 @@ TEST_F(NewKneeOfThePhantom, IsBroughtTogetherAndExtended) {
   write_output_file(apart.tibia, ply(tibia));
   apart.cartilage = {apart.femur,
                      apart.tibia};  // as cartilage: no offsets, the bones have to touch
-  const NewKnee knee = new_knee(apart, {});
+  const NewKnee knee = knee_from_meshes(apart, {});
   EXPECT_NEAR(knee.start.extended * 180 / M_PI, 20, 1.5);
   EXPECT_NEAR(knee.start.shifted, 3, 0.7);
   // The tibia where the phantom has it.
@@ -131,7 +131,7 @@ TEST_F(NewKneeOfThePhantom, IsBroughtTogetherAndExtended) {
 }
 
 TEST_F(NewKneeOfThePhantom, IsASceneThatCanBeRead) {
-  const NewKnee knee = new_knee(files({}), {});
+  const NewKnee knee = knee_from_meshes(files({}), {});
   const fs::path file = folder_ / "knee.toml";
   const std::string text = new_scene_text(knee, file);
   EXPECT_NE(text.find("mesh = \"femur.ply\""), std::string::npos);
@@ -147,7 +147,7 @@ TEST_F(NewKneeOfThePhantom, IsASceneThatCanBeRead) {
 TEST_F(NewKneeOfThePhantom, NamesWhatIsWrong) {
   const auto refused = [](const NewKneeFiles& files, const std::string& words) {
     try {
-      (void)new_knee(files, {});
+      (void)knee_from_meshes(files, {});
       FAIL() << "expected: " << words;
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
