@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Sweeps knees that condyle was not tuned to (specimens beside the source, moved, turned, roughened), verifies every pose,
-# and writes docs/strangers.md with each figure beside the one wanted. All of it takes about an hour on two cores; parts
-# are known, steps, places, roughness, time. Ends with 2 where a figure is not met.
+# and writes docs/strangers.md with each figure beside the one wanted, and the tables of docs/new.md: scenes that condyle new
+# makes of their meshes. All of it takes about an hour on two cores; parts are known, steps, places, roughness, time, new.
+# Ends with 2 where a figure is not met.
 #
 #   tools/strangers.sh [--quick] [--sweeps N] [--threads N] [--parts known,steps]
 #
@@ -20,6 +21,11 @@ case " $* " in
 esac
 mkdir -p out
 status=0
-build/condyle_strangers build/condyle . -o "$page" "$@" || status=$?
-[ "$status" -eq 1 ] || echo "wrote $page" >&2
+if [[ " $* " != *" --parts new "* ]]; then
+  build/condyle_strangers build/condyle . -o "$page" "$@" || status=$?
+  [ "$status" -eq 1 ] || echo "wrote $page" >&2
+fi
+if [[ " $* " != *" --parts "* || " $* " == *" --parts new "* ]]; then
+  CONDYLE=$PWD/build/condyle tools/figures.sh --write docs/new.md
+fi
 exit "$status"
