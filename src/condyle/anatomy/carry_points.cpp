@@ -58,8 +58,9 @@ Neighbourhood around(const Vector3d& aligned, const BoneRegistration& bones) {
 }
 
 /// Calibrated on knees whose insertions are known (docs/new.md) [mm]: what remains where all is well,
-/// the misfit around, how much around has no counterpart, and shares of how far the field was needed, of how far off the nearest
-/// registered surface is, and of how far from its own bone the point is; and where no bone was found.
+/// the misfit around, how much around has no counterpart, that no bone was found, and shares of how
+/// far the field moved the point, how far the nearest registered surface is and how far from its own
+/// bone the point is.
 double estimated_deviation(const Neighbourhood& near, double moved, double height, bool on_bone) {
   constexpr double kLeast = 1.5, kOffBone = 2, kEdge = 3, kShare = 0.2, kSpacing = 3;
   const double edge = kEdge * (1 - near.covered);
@@ -82,6 +83,27 @@ std::optional<Vector3d> onto(const SampledSurface& samples,
   return (down - below).norm() < kBeside ? std::optional(down) : std::nullopt;
 }
 
+/// `point` and what comes back in anatomical components; `foot` below it on its own bone.
+CarriedPoint carry(const BoneRegistration& bones,
+                   const MeshDistance& other,
+                   const Vector3d& point,
+                   const Vector3d& foot,
+                   const Neighbourhood& near) {
+  constexpr double kInserted = 3;  // a point farther from the bone is on another one [mm]
+  CarriedPoint carried;
+  const double height = (point - foot).norm();
+  carried.at = bones.at(foot);
+  const auto down = onto(bones.to, other, carried.at, bones.surface.normals[near.nearest]);
+  if (down) {
+    carried.dropped = (*down - carried.at).norm();
+    carried.at = *down;
+  }
+  if (height > kInserted) carried.at += bones.at(point) - bones.at(foot);
+  carried.moved = (carried.at - bones.alignment.at(point)).norm();
+  carried.uncertainty = estimated_deviation(near, carried.moved, height, down.has_value());
+  return carried;
+}
+
 }  // namespace
 
 CarriedPoints carry_points(const FramedBone& from,
@@ -93,26 +115,14 @@ CarriedPoints carry_points(const FramedBone& from,
   const BoneRegistration bones = register_bones(one, other, at);
   const MeshDistance on_one(one), on_other(other);
 
-  constexpr double kInserted = 3;  // a point farther from the bone is on another one [mm]
   CarriedPoints carried;
   carried.size = bones.alignment.size;
   carried.rms = bones.found.rms;
   for (const Vector3d& p : at) {
-    const Vector3d foot = on_one.closest(p), aligned = bones.alignment.at(foot);
-    const double height = (p - foot).norm();
-    const Neighbourhood near = around(aligned, bones);
-    Vector3d place = aligned + bones.field.at(aligned);
-    CarriedPoint point;
-    bool on_bone = false;
-    if (const auto down = onto(bones.to, on_other, place, bones.surface.normals[near.nearest])) {
-      point.dropped = (*down - place).norm();
-      place = *down;
-      on_bone = true;
-    }
-    if (height > kInserted) place += bones.at(p) - bones.at(foot);
-    point.at = from_components(to.frame, place);
-    point.moved = (place - bones.alignment.at(p)).norm();
-    point.uncertainty = estimated_deviation(near, point.moved, height, on_bone);
+    const Vector3d foot = on_one.closest(p);
+    const Neighbourhood near = around(bones.alignment.at(foot), bones);
+    CarriedPoint point = carry(bones, on_other, p, foot, near);
+    point.at = from_components(to.frame, point.at);
     carried.covered += near.covered / static_cast<double>(at.size());
     carried.points.push_back(point);
   }

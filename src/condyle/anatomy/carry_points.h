@@ -20,7 +20,7 @@ struct FramedBone {
 struct CarriedPoint {
   Eigen::Vector3d at;      ///< on the other bone, frame of its mesh [mm]
   double moved = 0;        ///< from where alignment by frames and size puts it [mm]
-  double dropped = 0;      ///< distance of the last step, onto the bone [mm]
+  double dropped = 0;      ///< distance of the last step, onto the bone [mm]; 0 where there is none
   double uncertainty = 0;  ///< estimated standard deviation of `at` along the bone [mm]
 };
 
@@ -32,7 +32,9 @@ struct CarriedPoints {
   double covered = 0;  ///< share of the one bone's surface near the points that has a counterpart
 };
 
-/// `points` in the frame of `from.mesh`, on or near its surface [mm].
+/// `points` in the frame of `from.mesh`, on or near its surface [mm]. Either mesh may be cut or open:
+/// beyond what they have in common a point goes with the field and is less sure. Frames may be off by
+/// some degrees and mm. Throws InputError where the bones do not lie over each other.
 [[nodiscard]] CarriedPoints carry_points(const FramedBone& from,
                                          const FramedBone& to,
                                          const std::vector<Eigen::Vector3d>& points);

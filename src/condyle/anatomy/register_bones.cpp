@@ -103,9 +103,12 @@ BoneRegistration register_bones(const TriangleMesh& from,
                        fine = sample_surface(from, keep, kFine);
   SurfaceSamples to_coarse = sample_surface(to, keep_to, kCoarse),
                  to_fine = sample_surface(to, keep_to, kFine);
-  if (coarse.points.empty() || to_coarse.points.empty())
-    throw InputError(
-        "the bones do not lie over each other near the joint: are frames and units right?");
+  const auto need = [](bool met) {
+    if (!met)
+      throw InputError(
+          "the bones do not lie over each other near the joint: are frames and units right?");
+  };
+  need(!coarse.points.empty() && !to_coarse.points.empty());
   turn_parts(to_coarse, fine);
   turn_parts(to_fine, fine);
   SampledSurface other(std::move(to_fine));
@@ -135,6 +138,7 @@ BoneRegistration register_bones(const TriangleMesh& from,
   MovedSurface surface = moved_by(aligned, field);
   SurfacePairs found = pair_surfaces(surface, moved_by(aligned_fine, field), to_coarse, other,
                                      kStages[std::size(kStages) - 1].reach);
+  need(std::any_of(found.trust.begin(), found.trust.end(), [](double t) { return t > 0; }));
   return {alignment, std::move(field), std::move(other), std::move(surface), std::move(found)};
 }
 
