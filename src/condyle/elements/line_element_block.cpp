@@ -6,6 +6,7 @@
 #include <numeric>
 #include <variant>
 
+#include "condyle/elements/bounded_path.h"
 #include "condyle/math/simd.h"
 
 namespace condyle {
@@ -156,8 +157,9 @@ void LineElementBlock::add_curved(const RigidTransform& X_BA,
   else
     std::fill(paths_.begin(), paths_.end(), std::numeric_limits<double>::quiet_NaN());
   for (const Curved& curved : curved_) {
-    const LineElementState state =
-        add_line_element(*curved.element, X_BA, wrench, paths_.data() + curved.numbers);
+    double* numbers = paths_.data() + curved.numbers;
+    if (is_surely_slack(*curved.element, X_BA, numbers)) continue;
+    const LineElementState state = add_line_element(*curved.element, X_BA, wrench, numbers);
     summary.force_magnitudes += std::abs(state.force);
     if (!(state.length > kLeastLength)) summary.zero_element = curved.index;
   }
@@ -165,9 +167,15 @@ void LineElementBlock::add_curved(const RigidTransform& X_BA,
 
 bool LineElementBlock::revise_paths(const RigidTransform& X_BA) {
   bool changed = false;
-  for (const Curved& curved : curved_)
-    changed |= curved.element->path->revise(ends_of(*curved.element, X_BA), X_BA,
-                                            paths_.data() + curved.numbers);
+  for (const Curved& curved : curved_) {
+    double* numbers = paths_.data() + curved.numbers;
+    // One that was passed over here is followed now: how it lies is told, and it may have slipped.
+    if (is_surely_slack(*curved.element, X_BA, numbers)) {
+      const LineElementState state = line_element_state(*curved.element, X_BA, numbers);
+      changed |= !(state.length > kLeastLength) || state.force != 0;
+    }
+    changed |= curved.element->path->revise(ends_of(*curved.element, X_BA), X_BA, numbers);
+  }
   return changed;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/elements/bounded_path.h"
 #include "condyle/equilibrium/descent.h"
 
 namespace condyle {
@@ -30,9 +31,11 @@ void Descent::set_forces(Programme& programme) {
   Wrench wrench;
   programme.force_scale = kLeastForce;
   KeptPaths kept(parameters().elements, paths_);
-  for (const LineElement& element : parameters().elements)
-    programme.force_scale +=
-        std::abs(add_line_element(element, X_, wrench, kept.of(element)).force);
+  for (const LineElement& element : parameters().elements) {
+    double* numbers = kept.of(element);
+    if (is_surely_slack(element, X_, numbers)) continue;
+    programme.force_scale += std::abs(add_line_element(element, X_, wrench, numbers).force);
+  }
   for (std::size_t i = 0; i < parameters().loads.size(); ++i) {
     const Vector6 before = scaled_wrench(wrench, L);
     add_load(parameters().loads[i], drive_->scales[i], X_, wrench);

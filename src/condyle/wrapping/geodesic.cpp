@@ -64,12 +64,12 @@ struct EllipsoidField {
     }
     det = -D.prod();
   }
-  inline __attribute__((always_inline)) void operator()(const Four (&y)[5], Four (&f)[5]) const {
+  template <int n>
+  inline __attribute__((always_inline)) void operator()(const Four (&y)[n], Four (&f)[n]) const {
     const Four q = D2[0] * y[0] * y[0] + D2[1] * y[1] * y[1] + D2[2] * y[2] * y[2];
     const Four w = 1.0 / (q * q), G = det * w;
     for (int i = 0; i < 3; ++i) f[i] = JD[i] * w * y[i];
-    f[3] = G * y[3];
-    f[4] = G * y[4];
+    for (int i = 3; i < n; ++i) f[i] = G * y[i];
   }
 };
 
@@ -83,7 +83,8 @@ struct TorusField {
     const double h = from.x.x() * from.t.y() - from.x.y() * from.t.x();
     hh = h * h;
   }
-  inline __attribute__((always_inline)) void operator()(const Four (&y)[5], Four (&f)[5]) const {
+  template <int n>
+  inline __attribute__((always_inline)) void operator()(const Four (&y)[n], Four (&f)[n]) const {
     const Four rr = y[0] * y[0] + y[1] * y[1];
     const Four per_rho = {1 / std::sqrt(rr[0]), 1 / std::sqrt(rr[1]), 1 / std::sqrt(rr[2]),
                           1 / std::sqrt(rr[3])};
@@ -93,24 +94,37 @@ struct TorusField {
     f[0] = inwards * y[0];
     f[1] = inwards * y[1];
     f[2] = kn * y[2];
-    f[3] = G * y[3];
-    f[4] = G * y[4];
+    for (int i = 3; i < n; ++i) f[i] = G * y[i];
   }
 };
 
+using WithFields = GeodesicState<5>;
+using PointAlone = GeodesicState<3>;
+
 CONDYLE_FMA_CLONE __attribute__((noinline)) void step(const EllipsoidField& field,
                                                       double h,
-                                                      GeodesicState& s) {
+                                                      WithFields& s) {
   nystrom::step(field, h, s);
 }
 CONDYLE_FMA_CLONE __attribute__((noinline)) void step(const TorusField& field,
                                                       double h,
-                                                      GeodesicState& s) {
+                                                      WithFields& s) {
+  nystrom::step(field, h, s);
+}
+CONDYLE_FMA_CLONE __attribute__((noinline)) void step(const EllipsoidField& field,
+                                                      double h,
+                                                      PointAlone& s) {
+  nystrom::step(field, h, s);
+}
+CONDYLE_FMA_CLONE __attribute__((noinline)) void step(const TorusField& field,
+                                                      double h,
+                                                      PointAlone& s) {
   nystrom::step(field, h, s);
 }
 
 /// How far the state is off the surface, in parts of the least radius.
-double off_surface(const WrapEllipsoid& ellipsoid, const GeodesicState& s) {
+template <int n>
+double off_surface(const WrapEllipsoid& ellipsoid, const GeodesicState<n>& s) {
   double level = -1;
   for (int i = 0; i < 3; ++i) {
     const double q = s.y[i] / ellipsoid.semi_axes[i];
@@ -118,15 +132,18 @@ double off_surface(const WrapEllipsoid& ellipsoid, const GeodesicState& s) {
   }
   return level;
 }
-double off_surface(const WrapTorus& torus, const GeodesicState& s) {
+template <int n>
+double off_surface(const WrapTorus& torus, const GeodesicState<n>& s) {
   return std::hypot(std::hypot(s.y[0], s.y[1]) - torus.ring, s.y[2]) / torus.tube - 1;
 }
 
 /// Of the normal curvature κ, only a torus has any but negative ones.
-bool presses(const WrapEllipsoid&, const WrapShape&, const GeodesicState&) { return true; }
-bool presses(const WrapTorus&, const WrapShape& shape, const GeodesicState& s) {
+bool presses(const WrapEllipsoid&, const WrapShape&, const WithFields&) { return true; }
+bool presses(const WrapTorus&, const WrapShape& shape, const WithFields& s) {
   return frame_at(shape, {s.y[0], s.y[1], s.y[2]}, {s.v[0], s.v[1], s.v[2]}).kappa < 0;
 }
+
+constexpr double kOffSurface = 5e-13;
 
 /// Steps that turn by 0.5 rad at most where they begin, halved where one loses the surface or the
 /// Wronskian a r' - a' r = 1.
@@ -135,11 +152,11 @@ Geodesic integrate(const Shape& solid,
                    const WrapShape& shape,
                    const SurfaceFrame& from,
                    double arc) {
-  constexpr double kTurn = 0.5, kTolerance = 5e-13;
+  constexpr double kTurn = 0.5;
   constexpr int kMostSteps = 400;
   const Field field(solid, from);
-  GeodesicState at = {{from.x.x(), from.x.y(), from.x.z(), 1, 0},
-                      {from.t.x(), from.t.y(), from.t.z(), 0, 1}};
+  WithFields at = {{from.x.x(), from.x.y(), from.x.z(), 1, 0},
+                   {from.t.x(), from.t.y(), from.t.z(), 0, 1}};
   Geodesic g;
   g.from = from;
   g.presses = from.kappa < 0;
@@ -149,12 +166,12 @@ Geodesic integrate(const Shape& solid,
   for (; std::abs(left) > 0 && steps < kMostSteps; ++steps) {
     const double pieces = std::ceil(std::abs(left) / longest - 1e-6),
                  h = left / std::max(1.0, pieces);
-    GeodesicState next = at;
+    WithFields next = at;
     step(field, h, next);
     const double off = off_surface(solid, next),
                  wronskian = next.y[3] * next.v[4] - next.v[3] * next.y[4];
-    if (!(std::abs(off - last_off) < kTolerance) ||
-        !(std::abs(wronskian - last_wronskian) < kTolerance)) {
+    if (!(std::abs(off - last_off) < kOffSurface) ||
+        !(std::abs(wronskian - last_wronskian) < kOffSurface)) {
       longest = 0.5 * std::abs(h);
       continue;
     }
@@ -188,7 +205,51 @@ Geodesic shoot_on(const WrapTorus& solid,
   return integrate<TorusField>(solid, shape, from, arc);
 }
 
+/// One step, or as many halves as keep it on the surface.
+template <class Field, class Shape>
+void advance(const Field& field, const Shape& solid, double h, int halvings, PointAlone& at) {
+  PointAlone next = at;
+  step(field, h, next);
+  const double off = std::abs(off_surface(solid, next) - off_surface(solid, at));
+  if (off < kOffSurface || halvings == 0) {
+    at = next;
+    return;
+  }
+  advance(field, solid, h / 2, halvings - 1, at);
+  advance(field, solid, h / 2, halvings - 1, at);
+}
+
+template <class Field, class Shape>
+void add_steps(const Shape& solid,
+               const SurfaceFrame& from,
+               double piece,
+               int pieces,
+               const RigidTransform& X,
+               std::vector<Vector3d>& points) {
+  constexpr int kMostHalvings = 8;
+  const Field field(solid, from);
+  PointAlone at = {{from.x.x(), from.x.y(), from.x.z()}, {from.t.x(), from.t.y(), from.t.z()}};
+  for (int k = 0; k < pieces; ++k) {
+    advance(field, solid, piece, kMostHalvings, at);
+    points.push_back(X * Vector3d(at.y[0], at.y[1], at.y[2]));
+  }
+}
+
 }  // namespace
+
+void add_points_along(const WrapShape& shape,
+                      const SurfaceFrame& from,
+                      double arc,
+                      int pieces,
+                      const RigidTransform& X,
+                      std::vector<Vector3d>& points) {
+  const double piece = arc / pieces;
+  if (const auto* ellipsoid = std::get_if<WrapEllipsoid>(&shape))
+    return add_steps<EllipsoidField>(*ellipsoid, from, piece, pieces, X, points);
+  if (const auto* torus = std::get_if<WrapTorus>(&shape))
+    return add_steps<TorusField>(*torus, from, piece, pieces, X, points);
+  for (int k = 1; k <= pieces; ++k) points.push_back(X * shoot(shape, from, k * piece).to.x);
+}
 
 Geodesic shoot(const WrapShape& shape, const SurfaceFrame& from, double arc) {
   Geodesic g = std::visit([&](const auto& s) { return shoot_on(s, shape, from, arc); }, shape);

@@ -5,6 +5,9 @@
 /// with G = κ κ_b - τ²: a neighbour that starts shifted by δb along b and turned by δθ from t towards
 /// b ends shifted by a δb + r δθ along b.
 
+#include <vector>
+
+#include "condyle/math/rigid_transform.h"
 #include "condyle/wrapping/shape_geometry.h"
 
 namespace condyle {
@@ -22,5 +25,14 @@ struct Geodesic {
 /// From a frame on the surface along its t. Sphere and cylinder in closed form, ellipsoid and torus
 /// by steps of order 12, each of which keeps surface and Wronskian to 5e-13.
 [[nodiscard]] Geodesic shoot(const WrapShape& shape, const SurfaceFrame& from, double arc);
+
+/// Appends where equal pieces of the arc end, in order, moved by X: for drawing. In
+/// such steps, without fields.
+void add_points_along(const WrapShape& shape,
+                      const SurfaceFrame& from,
+                      double arc,
+                      int pieces,
+                      const RigidTransform& X,
+                      std::vector<Eigen::Vector3d>& points);
 
 }  // namespace condyle

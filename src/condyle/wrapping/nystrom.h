@@ -1,8 +1,8 @@
 #pragma once
 
 /// One step of y'' = f(y), y = (x, a, r): a point that runs along a geodesic, with its two Jacobi
-/// fields. Störmer's rule with h/1 .. h/6, extrapolated to h = 0: order 12, the global errors being
-/// even in h [Hairer 1993, II.14]. Four of them run side by side. Only for .cpp
+/// fields, or y = x alone. Störmer's rule with h/1 .. h/6, extrapolated to h = 0: order 12, the
+/// global errors being even in h [Hairer 1993, II.14]. Four of them run side by side. Only for .cpp
 /// files.
 
 #include <algorithm>
@@ -11,8 +11,10 @@
 
 namespace condyle {
 
+/// (x, y, z, a, r) or (x, y, z), and their derivatives along the arc.
+template <int n>
 struct GeodesicState {
-  double y[5], v[5];  ///< (x, y, z, a, r) and their derivatives along the arc
+  double y[n], v[n];
 };
 
 namespace nystrom {
@@ -28,31 +30,31 @@ constexpr double weight(int n) {
 }
 
 /// The lanes run with first, first - 1, first - 2 and first - 3 steps; what each reaches at h counts.
-template <int first, class Field>
+template <int first, int size, class Field>
 inline __attribute__((always_inline)) void add_lanes(const Field& field,
                                                      double h,
-                                                     const GeodesicState& from,
-                                                     const double (&f0)[5],
-                                                     Four (&u_sum)[5],
-                                                     Four (&v_sum)[5]) {
+                                                     const GeodesicState<size>& from,
+                                                     const double (&f0)[size],
+                                                     Four (&u_sum)[size],
+                                                     Four (&v_sum)[size]) {
   const Four n = {first, std::max(1, first - 1), std::max(1, first - 2), std::max(1, first - 3)};
   const Four H = h / n, half = 0.5 * H, HH = H * H, per_H = n / h;
-  Four u[5], d[5];
-  for (int i = 0; i < 5; ++i) u[i] = d[i] = H * (from.v[i] + half * f0[i]);
+  Four u[size], d[size];
+  for (int i = 0; i < size; ++i) u[i] = d[i] = H * (from.v[i] + half * f0[i]);
 #pragma GCC unroll 8
   for (int k = 1; k <= first; ++k) {
-    Four y[5], f[5];
-    for (int i = 0; i < 5; ++i) y[i] = from.y[i] + u[i];
+    Four y[size], f[size];
+    for (int i = 0; i < size; ++i) y[i] = from.y[i] + u[i];
     field(y, f);
     if (k >= first - 3) {
       Four w = {0, 0, 0, 0};
       w[first - k] = weight(k);
-      for (int i = 0; i < 5; ++i) {
+      for (int i = 0; i < size; ++i) {
         u_sum[i] += w * u[i];
         v_sum[i] += w * (per_H * d[i] + half * f[i]);
       }
     }
-    for (int i = 0; i < 5; ++i) {
+    for (int i = 0; i < size; ++i) {
       d[i] += HH * f[i];
       u[i] += d[i];
     }
@@ -63,15 +65,18 @@ inline __attribute__((always_inline)) double sum(const Four& v) {
   return (v[0] + v[1]) + (v[2] + v[3]);
 }
 
-template <class Field>
-inline __attribute__((always_inline)) void step(const Field& field, double h, GeodesicState& s) {
-  Four y[5], f[5], u[5] = {}, v[5] = {};
-  for (int i = 0; i < 5; ++i) y[i] = s.y[i] - Four{};
+template <int size, class Field>
+inline __attribute__((always_inline)) void step(const Field& field,
+                                                double h,
+                                                GeodesicState<size>& s) {
+  Four y[size], f[size], u[size] = {}, v[size] = {};
+  for (int i = 0; i < size; ++i) y[i] = s.y[i] - Four{};
   field(y, f);
-  const double f0[5] = {f[0][0], f[1][0], f[2][0], f[3][0], f[4][0]};
+  double f0[size];
+  for (int i = 0; i < size; ++i) f0[i] = f[i][0];
   add_lanes<kMost>(field, h, s, f0, u, v);
   add_lanes<kMost - 4>(field, h, s, f0, u, v);
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < size; ++i) {
     s.y[i] += sum(u[i]);
     s.v[i] = sum(v[i]);
   }

@@ -10,6 +10,14 @@ RigidTransform placed(const PathPose& pose, int i) {
   return surface.on_A ? pose.X_BA * surface.X_WS : surface.X_WS;
 }
 
+/// Most ends lie outside, which is told at less cost than how far.
+bool is_inside(const WrapShape& shape, const Vector3d& x) {
+  const auto* ellipsoid = std::get_if<WrapEllipsoid>(&shape);
+  if (ellipsoid != nullptr && x.cwiseQuotient(ellipsoid->semi_axes).squaredNorm() >= 1)
+    return false;
+  return signed_distance(shape, x) < -kTouch;
+}
+
 }  // namespace
 
 ChainLink link_of(const PathPose& pose, int i) {
@@ -74,8 +82,7 @@ Passing passing(const PathPose& pose, const PathChain& chain, int wrap) {
 }
 
 bool ends_inside(const WrapShape& shape, const Passing& line) {
-  return (line.from_C && signed_distance(shape, line.U) < -kTouch) ||
-         (line.to_D && signed_distance(shape, line.V) < -kTouch);
+  return (line.from_C && is_inside(shape, line.U)) || (line.to_D && is_inside(shape, line.V));
 }
 
 }  // namespace condyle

@@ -106,9 +106,30 @@ bool change_one(const PathPose& pose, PathChain& chain, PathState& state, bool f
   return true;
 }
 
-bool touches_lone_convex(const PathPose& pose, const PathState& state) {
-  return count(pose) == 1 && state.touches(0) &&
-         !std::holds_alternative<WrapTorus>(pose.surfaces[0].shape);
+bool has_lone_convex(const PathPose& pose) {
+  return count(pose) == 1 && !std::holds_alternative<WrapTorus>(pose.surfaces[0].shape);
+}
+
+/// A lone convex surface that the path, straight from end to end, passes; no end is anchored on it.
+std::optional<Passing> passes_lone_convex(const PathPose& pose, const PathState& state) {
+  if (!has_lone_convex(pose) || state.touches(0)) return std::nullopt;
+  if (pose.ends.end[0].wrap >= 0 || pose.ends.end[1].wrap >= 0) return std::nullopt;
+  const PathSurface& surface = pose.surfaces[0];
+  const Vector3d &C = pose.ends.end[0].at, &D = pose.ends.end[1].at;
+  const RigidTransform& X = pose.X_BA;
+  if (!surface.on_A) return Passing{surface.X_SW * C, surface.X_SW * (X * D), true, true};
+  return Passing{surface.X_SW * (X.R.transpose() * (C - X.p)), surface.X_SW * D, true, true};
+}
+
+/// Nothing changes of a path that stays off its lone surface.
+bool stays_off(const PathPose& pose, const Passing& line, PathState& state) {
+  if (pose.ends.passed_over[0]) return true;
+  const WrapShape& shape = pose.surfaces[0].shape;
+  if (state.finding().outcome != Outcome::kFound || ends_inside(shape, line)) return false;
+  double part = 0;
+  const double height = clearance(shape, line.U, line.V, &part);
+  if (height > kTouch) state.leave(0, normal_at(shape, line.U + part * (line.V - line.U)));
+  return height >= -kTouch;
 }
 
 /// A torus that one straight piece of a path over it runs through again, if any.
@@ -143,8 +164,12 @@ bool settle(const PathPose& pose, PathChain& chain, PathState& state, bool first
 }  // namespace
 
 int surface_run_through(const PathPose& pose, const PathState& state) {
-  constexpr double kDeep = -1e-7;                   // [mm]
-  if (touches_lone_convex(pose, state)) return -1;  // lines that touch it do not run into it
+  constexpr double kDeep = -1e-7;                            // [mm]
+  if (has_lone_convex(pose) && state.touches(0)) return -1;  // lines that touch it do not run in
+  if (const std::optional<Passing> line = passes_lone_convex(pose, state)) {
+    if (pose.ends.passed_over[0]) return -1;
+    return clearance(pose.surfaces[0].shape, line->U, line->V) < kDeep ? 0 : -1;
+  }
   PathChain chain = kept_chain(pose, state);
   if (!solve(chain)) return -1;
   for (int wrap = 0; wrap < count(pose); ++wrap) {
@@ -209,9 +234,11 @@ bool revise_path(const PathPose& pose, PathState state) {
   if (!state.known()) return false;
   // Of a lone convex surface that is touched the last pull knows all: it stays while its arc is not
   // negative.
-  if (touches_lone_convex(pose, state) && state.finding().outcome == Outcome::kFound &&
+  if (has_lone_convex(pose) && state.touches(0) && state.finding().outcome == Outcome::kFound &&
       state.place(0).arc >= -kTouch)
     return false;
+  if (const std::optional<Passing> line = passes_lone_convex(pose, state))
+    if (stays_off(pose, *line, state)) return false;
   PathChain chain = kept_chain(pose, state);
   if (!solve(chain)) return false;
   if (state.finding().outcome != Outcome::kNotShortest)

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What a wrapped path keeps, as doubles: the outcome of the last pull, and of each surface its status and
-/// the geodesic on it, or, while it is off it, the normal at the side where it passes.
+/// What a wrapped path keeps, as doubles: the outcome of the last pull, its length with the pose
+/// (noted_length.h), and of each surface its status and the geodesic on it, or, while it is off it, the normal at the side where it passes.
 
 #include <algorithm>
 #include <cmath>
@@ -16,11 +16,13 @@ class PathState {
  public:
   static constexpr int numbers(std::size_t wraps) {
     const int n = static_cast<int>(wraps);
-    return kHead + kPerWrap * n + (n <= kMostWithEnd ? kEnd : 0);
+    return kHead + kPerWrap * n + (n <= kMostNoted ? kNoted : 0) + (n <= kMostWithEnd ? kEnd : 0);
   }
 
   PathState(double* numbers, std::size_t wraps)
-      : d_(numbers), end_(wraps <= kMostWithEnd ? numbers + kHead + kPerWrap * wraps : nullptr) {}
+      : d_(numbers),
+        noted_(noted(numbers, wraps)),
+        end_(wraps <= kMostWithEnd ? numbers + kHead + kPerWrap * wraps + kNoted : nullptr) {}
 
   [[nodiscard]] bool known() const { return !std::isnan(d_[0]); }
   [[nodiscard]] WrappedPath::Finding finding() const {
@@ -32,6 +34,18 @@ class PathState {
     d_[1] = wrap;
     d_[2] = conjugate;
   }
+  /// The length where the path was last followed, kNoted numbers; the first is 0 where it may have
+  /// changed since. Null where there is no room for them.
+  static constexpr int kNoted = 11;
+  template <class Number>
+  [[nodiscard]] static Number* noted(Number* numbers, std::size_t wraps) {
+    return wraps <= kMostNoted ? numbers + kHead + kPerWrap * wraps : nullptr;
+  }
+  [[nodiscard]] double* noted() { return noted_; }
+  void forget_length() {
+    if (noted_ != nullptr) std::fill_n(noted_, kNoted, 0.0);
+  }
+
   [[nodiscard]] bool touches(int wrap) const { return of(wrap)[0] == 1; }
   [[nodiscard]] ArcPlace place(int wrap) const {
     const double* w = of(wrap);
@@ -45,6 +59,7 @@ class PathState {
       w[4 + i] = at.t[i];
     }
     w[7] = at.arc;
+    forget_length();
     if (end_ == nullptr) return;
     if (std::isnan(end_[0])) std::fill(end_, end_ + kEnd, -1.0);
     end_[0] = -1;
@@ -77,14 +92,16 @@ class PathState {
 
  private:
   static constexpr int kHead = 3, kPerWrap = 8, kEnd = 11;
-  static constexpr int kMostWithEnd = 6;
-  static_assert(kHead + 7 * kPerWrap <= kMostPathNumbers);
-  static_assert(kHead + kMostWithEnd * kPerWrap + kEnd <= kMostPathNumbers);
+  static constexpr int kMostNoted = 6, kMostWithEnd = 4;
+  static_assert(kHead + kMostWraps * kPerWrap <= kMostPathNumbers);
+  static_assert(kHead + kMostNoted * kPerWrap + kNoted <= kMostPathNumbers);
+  static_assert(kHead + kMostWithEnd * kPerWrap + kNoted + kEnd <= kMostPathNumbers);
 
   [[nodiscard]] double* of(int wrap) { return d_ + kHead + kPerWrap * wrap; }
   [[nodiscard]] const double* of(int wrap) const { return d_ + kHead + kPerWrap * wrap; }
 
   double* d_;
+  double* noted_;
   double* end_;
 };
 

@@ -13,7 +13,10 @@ namespace {
 using Eigen::Vector3d;
 using Outcome = WrappedPath::Outcome;
 
-double straight(const PathPose& pose, Wrench* unit) {
+bool is_convex(const WrapShape& shape) { return !std::holds_alternative<WrapTorus>(shape); }
+
+double straight(const PathPose& pose, Wrench* unit, LastPiece& last) {
+  last.rest = 0;
   const Vector3d q = pose.X_BA.R * pose.ends.end[1].at;
   const Vector3d d = pose.X_BA.p + q - pose.ends.end[0].at;
   const double L = d.norm();
@@ -24,7 +27,7 @@ double straight(const PathPose& pose, Wrench* unit) {
   return L;
 }
 
-/// The wrap that alone is touched, its end D free of it; -1 where there is none.
+/// The wrap that alone is touched; -1 where there is none.
 int only_one(const PathPose& pose, const PathState& state, int& touched) {
   int one = -1;
   touched = 0;
@@ -33,12 +36,57 @@ int only_one(const PathPose& pose, const PathState& state, int& touched) {
     one = i;
     ++touched;
   }
-  const bool free = pose.ends.end[1].wrap != one;
-  return touched == 1 && free ? one : -1;
+  return touched == 1 ? one : -1;
+}
+
+/// The same geodesic run the other way: of its Jacobi fields, whose Wronskian is 1, a and r' change
+/// places.
+void reverse(const WrapShape& shape, ArcPlace& place, std::optional<ArcEnd>& end) {
+  if (!end) {
+    const Geodesic g = shoot(shape, frame_at(shape, place.P, place.t), place.arc);
+    end = {g.to.x, g.to.t, g.a, g.da, g.r, g.dr};
+  }
+  const ArcPlace forwards = place;
+  place = {end->Q, -end->t, forwards.arc};
+  end = {forwards.P, -forwards.t, end->dr, end->da, end->r, end->a};
+}
+
+bool has_closed_form(const WrapShape& shape) {
+  return std::holds_alternative<WrapSphere>(shape) || std::holds_alternative<WrapCylinder>(shape);
+}
+
+/// Its end D, on A, is anchored on the surface: seen from there it is anchored where it begins. 0 as
+/// of pull_over_one.
+double pull_from_anchor(
+    const PathPose& pose, int wrap, PathState& state, Wrench* unit, LastPiece& last) {
+  const PathSurface& surface = pose.surfaces[wrap];
+  const RigidTransform& X_BA = pose.X_BA;
+  const Vector3d& C = pose.ends.end[0].at;
+  const Vector3d& X = pose.ends.end[1].anchor;
+  const Vector3d Y = surface.X_SW * (X_BA.R.transpose() * (C - X_BA.p));
+  ArcPlace place = state.place(wrap);
+  std::optional<ArcEnd> end = state.end(wrap);
+  reverse(surface.shape, place, end);
+  place.P = X;
+  const OneSurfacePath path = path_over(surface.shape, X, Y, true, place, end);
+  if (!path.found || !path.shortest) return 0;
+  if (has_closed_form(surface.shape)) end.reset();
+  reverse(surface.shape, place, end);
+  state.touch(wrap, place);
+  state.set_end(wrap, *end);
+  state.set(Outcome::kFound, -1, path.B / path.length);
+  if (is_convex(surface.shape))
+    last = {surface.X_WS * (Y - path.l2 * path.e_Y), surface.X_WS.R * path.n_Q,
+            path.length - path.l2};
+  if (unit == nullptr) return path.length;
+  const Eigen::Matrix3d R = X_BA.R * surface.X_WS.R;
+  *unit = pull_at_fixed_end(R * -path.e_Y, R * path.H_YY() * R.transpose(), C - X_BA.p);
+  return path.length;
 }
 
 /// In the frame of the surface; 0 where the path was not found or is not the shortest.
-double pull_over_one(const PathPose& pose, int wrap, PathState& state, Wrench* unit) {
+double pull_over_one(
+    const PathPose& pose, int wrap, PathState& state, Wrench* unit, LastPiece& last) {
   const PathSurface& surface = pose.surfaces[wrap];
   const RigidTransform& X_BA = pose.X_BA;
   const Vector3d &C = pose.ends.end[0].at, &D = pose.ends.end[1].at;
@@ -55,6 +103,12 @@ double pull_over_one(const PathPose& pose, int wrap, PathState& state, Wrench* u
   state.touch(wrap, place);
   if (end) state.set_end(wrap, *end);
   state.set(Outcome::kFound, -1, path.B / path.length);
+  if (is_convex(surface.shape) && surface.on_A)
+    last = {surface.X_WS * (X + path.l1 * path.e_X), surface.X_WS.R * path.n,
+            path.length - path.l1};
+  else if (is_convex(surface.shape))
+    last = {surface.X_WS * (Y - path.l2 * path.e_Y), surface.X_WS.R * path.n_Q,
+            path.length - path.l2};
   if (unit == nullptr) return path.length;
   if (surface.on_A) {
     const Eigen::Matrix3d R = X_BA.R * surface.X_WS.R;
@@ -102,16 +156,18 @@ double pull_chain(const PathPose& pose, PathState& state, Wrench* unit) {
 
 }  // namespace
 
-double pull_path(const PathPose& pose, PathState state, Wrench* unit) {
+double pull_path(const PathPose& pose, PathState state, Wrench* unit, LastPiece& last) {
   if (!state.known() || state.finding().outcome == Outcome::kNotFound) {
     start_path(pose, state);
     if (state.finding().outcome == Outcome::kNotFound) return 0;
   }
   int touched = 0;
   const int one = only_one(pose, state, touched);
-  if (touched == 0) return straight(pose, unit);
+  if (touched == 0) return straight(pose, unit, last);
   if (one >= 0) {
-    const double L = pull_over_one(pose, one, state, unit);
+    const bool from_anchor = pose.ends.end[1].wrap == one;
+    const double L = from_anchor ? pull_from_anchor(pose, one, state, unit, last)
+                                 : pull_over_one(pose, one, state, unit, last);
     if (L > 0) return L;
   }
   return pull_chain(pose, state, unit);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "condyle/wrapping/noted_length.h"
 #include "condyle/wrapping/one_surface.h"
 #include "condyle/wrapping/path_ends.h"
 #include "condyle/wrapping/path_revision.h"
@@ -22,6 +23,7 @@ class SurfacesPath final : public WrappedPath {
   SurfacesPath(std::vector<PathWrap> wraps, const PathEnds& ends, InsideRule inside)
       : wraps_(std::move(wraps)), ends_(ends), inside_(inside) {
     for (const PathWrap& wrap : wraps_) surfaces_.push_back(make_surface(wrap));
+    lead_ = lead_of(surfaces_, ends_);
   }
 
   [[nodiscard]] int numbers() const override { return PathState::numbers(wraps_.size()); }
@@ -35,13 +37,16 @@ class SurfacesPath final : public WrappedPath {
   [[nodiscard]] double length(const LineEnds& ends,
                               const RigidTransform& X_BA,
                               double* kept) const override {
+    if (is_followed(ends, X_BA, kept)) return noted(kept)[0];
     return at(ends, X_BA, kept, nullptr);
   }
-  bool revise(const LineEnds& ends, const RigidTransform& X_BA, double* kept) const override {
-    PathEnds other;
-    const PathEnds& found = ends_at(ends, X_BA, other);
-    return revise_path({surfaces_, found, X_BA}, PathState(kept, wraps_.size()));
+  [[nodiscard]] double at_most(const LineEnds& ends,
+                               const RigidTransform& X_BA,
+                               const double* kept) const override {
+    if (!are_given(ends, X_BA)) return std::numeric_limits<double>::infinity();
+    return length_at_most(lead_, ends, X_BA, noted(kept));
   }
+  bool revise(const LineEnds& ends, const RigidTransform& X_BA, double* kept) const override;
   void add_points(const LineEnds& ends,
                   const RigidTransform& X_BA,
                   const double* kept,
@@ -59,19 +64,22 @@ class SurfacesPath final : public WrappedPath {
   [[nodiscard]] Finding finding(const LineEnds& ends,
                                 const RigidTransform& X_BA,
                                 const double* kept) const override {
-    return PathState(known(ends, X_BA, kept).data(), wraps_.size()).finding();
+    Numbers copy;
+    return PathState(known(ends, X_BA, kept, copy), wraps_.size()).finding();
   }
 
  private:
+  using Numbers = std::array<double, kMostPathNumbers>;
+
   /// Last of all a look at the path that was found.
   [[nodiscard]] std::string run_through(const LineEnds& ends,
                                         const RigidTransform& X_BA,
                                         const double* kept) const {
-    auto numbers = known(ends, X_BA, kept);
+    Numbers copy;
+    double* numbers = known(ends, X_BA, kept, copy);
     PathEnds other;
     const PathEnds& at = ends_at(ends, X_BA, other);
-    const int wrap =
-        surface_run_through({surfaces_, at, X_BA}, PathState(numbers.data(), wraps_.size()));
+    const int wrap = surface_run_through({surfaces_, at, X_BA}, PathState(numbers, wraps_.size()));
     if (wrap < 0) return {};
     return "a straight piece of it runs through \"" + wraps_[static_cast<std::size_t>(wrap)].name +
            "\"";
@@ -84,49 +92,105 @@ class SurfacesPath final : public WrappedPath {
   }
 
   /// Those that were given when the path was made need not be looked at again.
+  [[nodiscard]] bool are_given(const LineEnds& ends, const RigidTransform& X_BA) const {
+    const Vector3d s_D = X_BA.R.transpose() * ends.q;
+    return ends.x_C == ends_.end[0].given &&
+           (s_D - ends_.end[1].given).squaredNorm() <= 1e-26 * (1 + s_D.squaredNorm());
+  }
   [[nodiscard]] const PathEnds& ends_at(const LineEnds& ends,
                                         const RigidTransform& X_BA,
                                         PathEnds& other) const {
-    const Vector3d s_D = X_BA.R.transpose() * ends.q;
-    const bool same = ends.x_C == ends_.end[0].given &&
-                      (s_D - ends_.end[1].given).squaredNorm() <= 1e-26 * (1 + s_D.squaredNorm());
-    if (same) return ends_;
-    return other = path_ends(wraps_, ends.x_C, s_D, inside_);
+    if (are_given(ends, X_BA)) return ends_;
+    return other = path_ends(wraps_, ends.x_C, X_BA.R.transpose() * ends.q, inside_);
   }
 
-  /// `kept`, found where it is unknown.
-  [[nodiscard]] std::array<double, kMostPathNumbers> known(const LineEnds& ends,
-                                                           const RigidTransform& X_BA,
-                                                           const double* kept) const {
-    std::array<double, kMostPathNumbers> copy = unknown_path();
+  [[nodiscard]] const double* noted(const double* kept) const {
+    return PathState::noted(kept, wraps_.size());
+  }
+  /// The last pull was at this pose, and nothing has changed since.
+  [[nodiscard]] bool is_followed(const LineEnds& ends,
+                                 const RigidTransform& X_BA,
+                                 const double* kept) const {
+    return noted_at(lead_, ends, X_BA, noted(kept)) && are_given(ends, X_BA);
+  }
+  /// It was at another pose.
+  [[nodiscard]] bool is_elsewhere(const LineEnds& ends,
+                                  const RigidTransform& X_BA,
+                                  const double* kept) const {
+    return is_noted(noted(kept)) && !noted_at(lead_, ends, X_BA, noted(kept)) &&
+           are_given(ends, X_BA);
+  }
+
+  /// Numbers of the path at this pose: a copy of `kept`, followed from there if it was elsewhere.
+  [[nodiscard]] double* known(const LineEnds& ends,
+                              const RigidTransform& X_BA,
+                              const double* kept,
+                              Numbers& copy) const {
     std::copy(kept, kept + numbers(), copy.begin());
-    if (std::isnan(copy[0])) at(ends, X_BA, copy.data(), nullptr);
-    return copy;
+    if (std::isnan(copy[0]) || is_elsewhere(ends, X_BA, kept)) at(ends, X_BA, copy.data(), nullptr);
+    return copy.data();
   }
 
   double at(const LineEnds& ends, const RigidTransform& X_BA, double* kept, Wrench* unit) const {
     PathEnds other;
     const PathEnds& found = ends_at(ends, X_BA, other);
-    return pull_path({surfaces_, found, X_BA}, PathState(kept, wraps_.size()), unit);
+    PathState state(kept, wraps_.size());
+    LastPiece last;
+    const double L = pull_path({surfaces_, found, X_BA}, state, unit, last);
+    if (last.rest == 0) last.begin = ends_.end[lead_.all_on_A ? 1 : 0].at;
+    const bool found_here = &found == &ends_ && state.finding().outcome == Outcome::kFound;
+    if (found_here && L > 0)
+      note_length(lead_, ends, X_BA, L, last, state.noted());
+    else
+      state.forget_length();
+    return L;
   }
 
   std::vector<PathWrap> wraps_;
   PathEnds ends_;
   InsideRule inside_;
   std::vector<PathSurface> surfaces_;
+  PathLead lead_;
 };
 
-/// Angle between the tangents at either end [rad].
-double turn_of(const Geodesic& g) {
-  return std::atan2(g.from.t.cross(g.to.t).norm(), g.from.t.dot(g.to.t));
+bool SurfacesPath::revise(const LineEnds& ends, const RigidTransform& X_BA, double* kept) const {
+  if (is_elsewhere(ends, X_BA, kept) && !(at(ends, X_BA, kept, nullptr) > 0)) return true;
+  PathEnds other;
+  const PathEnds& found = ends_at(ends, X_BA, other);
+  PathState state(kept, wraps_.size());
+  std::array<double, PathState::kNoted> noted;
+  const bool has_length = state.noted() != nullptr;
+  if (has_length) std::copy_n(state.noted(), PathState::kNoted, noted.begin());
+  if (revise_path({surfaces_, found, X_BA}, state)) return true;
+  const bool stands = has_length && state.finding().outcome == Outcome::kFound;
+  if (stands) std::copy_n(noted.begin(), PathState::kNoted, state.noted());
+  return false;
+}
+
+/// [rad], of unit vectors.
+double angle_between(const Vector3d& a, const Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// A point of a geodesic with its unit tangent.
+struct PathDirections {
+  Vector3d x, t;
+};
+
+PathDirections directions_at_end(const WrapShape& shape,
+                                 const ArcPlace& place,
+                                 const std::optional<ArcEnd>& end) {
+  if (end) return {end->Q, frame_at(shape, end->Q, end->t).t};
+  const Geodesic g = shoot(shape, frame_at(shape, place.P, place.t), place.arc);
+  return {g.to.x, g.to.t};
 }
 
 void SurfacesPath::add_touches(const LineEnds& ends,
                                const RigidTransform& X_BA,
                                const double* kept,
                                std::vector<LineTouch>& touches) const {
-  auto numbers = known(ends, X_BA, kept);
-  const PathState state(numbers.data(), wraps_.size());
+  Numbers copy;
+  const PathState state(known(ends, X_BA, kept, copy), wraps_.size());
   for (std::size_t i = 0; i < wraps_.size(); ++i) {
     LineTouch& touch = touches.emplace_back();
     touch.on_moving = wraps_[i].on_moving;
@@ -137,14 +201,15 @@ void SurfacesPath::add_touches(const LineEnds& ends,
     const ArcPlace place = state.place(static_cast<int>(i));
     const WrapShape& shape = wraps_[i].shape;
     const RigidTransform& X = wraps_[i].placement;
-    const Geodesic g = shoot(shape, frame_at(shape, place.P, place.t), place.arc);
+    const PathDirections from{place.P, frame_at(shape, place.P, place.t).t};
+    const PathDirections to = directions_at_end(shape, place, state.end(static_cast<int>(i)));
     touch.touching = true;
-    touch.P = X * g.from.x;
-    touch.Q = X * g.to.x;
-    touch.t_P = X.R * g.from.t;
-    touch.t_Q = X.R * g.to.t;
+    touch.P = X * from.x;
+    touch.Q = X * to.x;
+    touch.t_P = X.R * from.t;
+    touch.t_Q = X.R * to.t;
     touch.arc = place.arc;
-    touch.turn = turn_of(g);
+    touch.turn = angle_between(from.t, to.t);
   }
 }
 
@@ -188,8 +253,8 @@ void SurfacesPath::add_points(const LineEnds& ends,
                               const double* kept,
                               std::vector<Vector3d>& points) const {
   constexpr double kChord = 0.1;
-  auto numbers = known(ends, X_BA, kept);
-  const PathState state(numbers.data(), wraps_.size());
+  Numbers copy;
+  const PathState state(known(ends, X_BA, kept, copy), wraps_.size());
   PathEnds other;
   const PathEnds& found = ends_at(ends, X_BA, other);
   const auto anchored = [&](int end) {
@@ -201,13 +266,11 @@ void SurfacesPath::add_points(const LineEnds& ends,
     const ArcPlace place = state.place(static_cast<int>(i));
     const WrapShape& shape = wraps_[i].shape;
     const RigidTransform X = wraps_[i].on_moving ? X_BA * wraps_[i].placement : wraps_[i].placement;
-    SurfaceFrame at = frame_at(shape, place.P, place.t);
-    const int chords = static_cast<int>(std::ceil(turn_of(shoot(shape, at, place.arc)) / kChord));
-    points.push_back(X * at.x);
-    for (int k = 0; k < chords; ++k) {
-      at = shoot(shape, at, place.arc / chords).to;
-      points.push_back(X * at.x);
-    }
+    const SurfaceFrame from = frame_at(shape, place.P, place.t);
+    const PathDirections to = directions_at_end(shape, place, state.end(static_cast<int>(i)));
+    const int chords = static_cast<int>(std::ceil(angle_between(from.t, to.t) / kChord));
+    points.push_back(X * from.x);
+    add_points_along(shape, from, place.arc, chords, X, points);
   }
   if (anchored(1)) points.push_back(X_BA * found.end[1].at);
 }
