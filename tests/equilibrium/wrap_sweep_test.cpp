@@ -59,6 +59,28 @@ TEST(WrappedSweep, HasTheClosedFormsOfAStringOverAPost) {
   }
 }
 
+// Over a ball of 20 mm whose centre lies 0.8 mm beside the line, B = 3.2 mm of 90 (S12 of the checks);
+// 10.8 mm beside it, half of L.
+TEST(WrappedSweep, SaysWhereAPathIsCloseToAConjugatePoint) {
+  Scene scene = parse_scene(test::kWrappedHead + R"(
+[[wrap]]
+name = "post"
+body = "femur"
+kind = "sphere"
+center = [0, -0.8, 0]
+radius = 20
+)" + test::kSlidingStrand.substr(test::kSlidingStrand.find("[[ligament]]")),
+                            "knee.toml");
+  scene.sweep->values = {20, 0};
+  const SweepResult result = swept(scene);
+  ASSERT_EQ(result.count_converged(), 2);
+  EXPECT_EQ(result.poses[0].remark.find("conjugate point"), std::string::npos);
+  EXPECT_NE(result.poses[1].remark.find("ligament \"strand\": its path is close to a conjugate "
+                                        "point"),
+            std::string::npos)
+      << result.poses[1].remark;
+}
+
 TEST(WrappedSweep, TellsWhereAStrandTouchesAndLiftsOff) {
   Scene scene = parse_scene(test::kSlidingStrand, "knee.toml");
   const SweepResult down = swept(scene);

@@ -13,6 +13,7 @@
 #include "condyle/equilibrium/motion_name.h"
 #include "condyle/equilibrium/second_equilibrium.h"
 #include "condyle/equilibrium/stability.h"
+#include "condyle/wrapping/wrapped_path.h"
 
 namespace condyle {
 namespace {
@@ -151,6 +152,21 @@ void describe_open(const ContactPair& pair,
   contact.closed = pair.law && lowest.gap < 0;
 }
 
+/// Of a path that is hardly the shortest any more: its stiffness sideways goes as 1/B.
+std::string near_conjugate_point(const LinePath& path,
+                                 const LineEnds& ends,
+                                 const RigidTransform& X_BA,
+                                 const double* numbers) {
+  constexpr double kNear = 0.05;  // of L
+  const auto* wrapped = dynamic_cast<const WrappedPath*>(&path);
+  if (wrapped == nullptr) return {};
+  const WrappedPath::Finding found = wrapped->finding(ends, X_BA, numbers);
+  if (found.outcome != WrappedPath::Outcome::kFound || found.conjugate >= kNear) return {};
+  return fmt::format(
+      "its path is close to a conjugate point, past which it is not the shortest: B/L = {:.2g}",
+      found.conjugate);
+}
+
 /// A path of which something speaks against it lowers the status.
 void judge_paths(const Linearization& at, PoseResult& result) {
   const std::vector<LineElement>& elements = at.system.parameters().elements;
@@ -160,11 +176,14 @@ void judge_paths(const Linearization& at, PoseResult& result) {
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const double* numbers = next.of(elements[i]);
     if (!elements[i].path) continue;
-    const std::string words =
-        elements[i].path->objection(ends_of(elements[i], at.state.X), at.state.X, numbers);
-    if (words.empty()) continue;
-    set_status(result, {PoseStatus::kNoPath,
-                        "ligament " + quoted(at.model.element_names[i]) + ": " + words});
+    const LineEnds ends = ends_of(elements[i], at.state.X);
+    const auto of_ligament = [&](const std::string& words) {
+      return "ligament " + quoted(at.model.element_names[i]) + ": " + words;
+    };
+    const std::string words = elements[i].path->objection(ends, at.state.X, numbers);
+    if (!words.empty()) set_status(result, {PoseStatus::kNoPath, of_ligament(words)});
+    const std::string remark = near_conjugate_point(*elements[i].path, ends, at.state.X, numbers);
+    if (!remark.empty()) add_remark(result, of_ligament(remark));
   }
 }
 
@@ -200,7 +219,7 @@ void describe_pose(const Linearization& at,
     const Stability s = stability(at);
     result.lowest_stiffness = s.lowest_stiffness;
     result.stability = s.stable() ? 1 : 0;
-    result.remark = stability_remark(at, s);
+    add_remark(result, stability_remark(at, s));
     for (std::size_t k = 0; k < at.contacts().size(); ++k)
       add_remark(result, nearly_conforming(at.pair(k), at.contacts()[k], at.state.X.R));
   }
