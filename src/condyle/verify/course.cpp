@@ -15,45 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A wrap on the path of a ligament at a pose, from the end on the fixed body on.
-struct WrapAt {
-  const WrapDescription* wrap;
-  double larger;
-  RigidTransform X;  ///< from its frame to the ground frame
-  [[nodiscard]] Vector3d own(const Vector3d& ground) const { return X.inverse() * ground; }
-};
-
-std::vector<WrapAt> wraps_at(const Scene& scene, const PoseResult& pose, std::size_t ligament) {
-  const LigamentDescription& described = scene.ligaments[ligament];
-  std::vector<WrapAt> wraps;
-  for (const int index : described.path.wraps) {
-    const WrapDescription& wrap = scene.wraps[static_cast<std::size_t>(index)];
-    const RigidTransform body = wrap.body == scene.moving_body() ? pose.X_BA : RigidTransform{};
-    wraps.push_back({&wrap, described.path.thickness / 2, body * wrap.placement});
-  }
-  if (described.ends[0].body != scene.fixed_body()) std::reverse(wraps.begin(), wraps.end());
-  return wraps;
-}
-
-/// Where the string begins: an end inside a wrap of its own body is on that, closest to it.
-Vector3d begin_of(const Scene& scene,
-                  const PoseResult& pose,
-                  std::size_t ligament,
-                  bool moving,
-                  const std::vector<WrapAt>& wraps) {
-  const LigamentDescription& described = scene.ligaments[ligament];
-  const bool first = (described.ends[0].body == scene.moving_body()) == moving;
-  const Attachment& end = described.ends[first ? 0 : 1];
-  const Vector3d at = in_ground(scene, end, pose.X_BA);
-  if (!described.path.anchors_inside) return at;
-  for (const WrapAt& wrap : wraps) {
-    if (wrap.wrap->body != end.body) continue;
-    if (field_at(wrap.wrap->shape, wrap.larger, wrap.own(at)).f < 0)
-      return wrap.X * closest_on(wrap.wrap->shape, wrap.larger, wrap.own(at));
-  }
-  return at;
-}
-
 /// Of a touch in the ground frame.
 struct TouchAt {
   std::size_t wrap;
@@ -77,37 +38,68 @@ std::vector<TouchAt> touches_at(const PoseResult& pose, std::size_t ligament) {
 
 constexpr double kNoticed = 0.1;  // [mm]
 
-/// Is the surface left out because the ligament's end lies inside it?
+}  // namespace
+
+std::vector<WrapAt> wraps_at(const Scene& scene, const RigidTransform& X_BA, std::size_t ligament) {
+  const LigamentDescription& described = scene.ligaments[ligament];
+  std::vector<WrapAt> wraps;
+  for (const int index : described.path.wraps) {
+    const WrapDescription& wrap = scene.wraps[static_cast<std::size_t>(index)];
+    const RigidTransform body = wrap.body == scene.moving_body() ? X_BA : RigidTransform{};
+    wraps.push_back({&wrap, described.path.thickness / 2, body * wrap.placement});
+  }
+  if (described.ends[0].body != scene.fixed_body()) std::reverse(wraps.begin(), wraps.end());
+  return wraps;
+}
+
+BeginAt begin_of(const Scene& scene,
+                 const RigidTransform& X_BA,
+                 std::size_t ligament,
+                 bool moving,
+                 const std::vector<WrapAt>& wraps) {
+  const LigamentDescription& described = scene.ligaments[ligament];
+  const bool first = (described.ends[0].body == scene.moving_body()) == moving;
+  const Attachment& end = described.ends[first ? 0 : 1];
+  const Vector3d at = in_ground(scene, end, X_BA);
+  if (!described.path.anchors_inside) return {at};
+  for (std::size_t w = 0; w < wraps.size(); ++w) {
+    const WrapAt& wrap = wraps[w];
+    if (wrap.wrap->body != end.body) continue;
+    if (field_at(wrap.wrap->shape, wrap.larger, wrap.own(at)).f < 0)
+      return {wrap.X * closest_on(wrap.wrap->shape, wrap.larger, wrap.own(at)),
+              static_cast<int>(w)};
+  }
+  return {at};
+}
+
 bool passed_over(const LigamentDescription& ligament,
                  const WrapAt& wrap,
-                 const PoseResult& pose,
+                 const RigidTransform& X_BA,
                  const Scene& scene) {
   if (ligament.path.anchors_inside) return false;
   return std::any_of(ligament.ends.begin(), ligament.ends.end(), [&](const Attachment& end) {
-    const Vector3d x = wrap.own(in_ground(scene, end, pose.X_BA));
+    const Vector3d x = wrap.own(in_ground(scene, end, X_BA));
     return end.body == wrap.wrap->body && field_at(wrap.wrap->shape, wrap.larger, x).f < 0;
   });
 }
 
-/// How far a straight piece runs into a surface, at most [mm], about.
-double runs_into(const WrapAt& wrap, const Vector3d& from, const Vector3d& to) {
+Deepest runs_into(const WrapAt& wrap, const Vector3d& from, const Vector3d& to) {
   constexpr int kPlaces = 200;
-  double deepest = 0;
+  Deepest deepest{0, from};
   for (int k = 1; k < kPlaces; ++k) {
-    const Vector3d x = wrap.own(from + (to - from) * k / kPlaces);
-    const Field field = field_at(wrap.wrap->shape, wrap.larger, x);
-    deepest = std::max(deepest, -field.f / std::max(1e-12, field.gradient.norm()));
+    const Vector3d x = from + (to - from) * k / kPlaces;
+    const Field field = field_at(wrap.wrap->shape, wrap.larger, wrap.own(x));
+    const double depth = -field.f / std::max(1e-12, field.gradient.norm());
+    if (depth > deepest.depth) deepest = {depth, x};
   }
   return deepest;
 }
 
-}  // namespace
-
 Course course_of(const Scene& scene, const PoseResult& pose, std::size_t ligament) {
-  const std::vector<WrapAt> wraps = wraps_at(scene, pose, ligament);
+  const std::vector<WrapAt> wraps = wraps_at(scene, pose.X_BA, ligament);
   Course course;
-  course.on_B = begin_of(scene, pose, ligament, false, wraps);
-  const Vector3d end = begin_of(scene, pose, ligament, true, wraps);
+  course.on_B = begin_of(scene, pose.X_BA, ligament, false, wraps).x;
+  const Vector3d end = begin_of(scene, pose.X_BA, ligament, true, wraps).x;
   course.on_A = end;
   Vector3d last = course.on_B;
   bool crossed = false;
@@ -122,7 +114,7 @@ Course course_of(const Scene& scene, const PoseResult& pose, std::size_t ligamen
 }
 
 void check_path(const Scene& scene, const PoseResult& pose, std::size_t ligament, Ledger& ledger) {
-  const std::vector<WrapAt> wraps = wraps_at(scene, pose, ligament);
+  const std::vector<WrapAt> wraps = wraps_at(scene, pose.X_BA, ligament);
   const std::string& name = scene.ligaments[ligament].name;
   const auto note = [&](double off, const WrapAt& wrap, const char* what) {
     ledger.note(Check::kPath, off,
@@ -134,16 +126,16 @@ void check_path(const Scene& scene, const PoseResult& pose, std::size_t ligament
                                : 0.0;
   };
   const std::vector<TouchAt> touches = touches_at(pose, ligament);
-  const Vector3d end = begin_of(scene, pose, ligament, true, wraps);
-  Vector3d from = begin_of(scene, pose, ligament, false, wraps);
+  const Vector3d end = begin_of(scene, pose.X_BA, ligament, true, wraps).x;
+  Vector3d from = begin_of(scene, pose.X_BA, ligament, false, wraps).x;
   for (std::size_t k = 0; k <= touches.size(); ++k) {
     const Vector3d to = k < touches.size() ? touches[k].P : end;
     // Wraps come in their order: each lies at the piece between those that are touched about it.
     const std::size_t first = k > 0 ? touches[k - 1].wrap : 0;
     const std::size_t last = k < touches.size() ? touches[k].wrap : wraps.size() - 1;
     for (std::size_t w = 0; w < wraps.size(); ++w) {
-      if (passed_over(scene.ligaments[ligament], wraps[w], pose, scene)) continue;
-      const double depth = runs_into(wraps[w], from, to);
+      if (passed_over(scene.ligaments[ligament], wraps[w], pose.X_BA, scene)) continue;
+      const double depth = runs_into(wraps[w], from, to).depth;
       if (w >= first && w <= last)
         note(depth, wraps[w], "a straight piece runs through it");
       else if (depth > kNoticed)

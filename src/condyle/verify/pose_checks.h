@@ -31,8 +31,8 @@ struct PairOfSides {
 /// The factor on a load at a pose.
 [[nodiscard]] double load_scale(const Subject& subject, std::size_t load, const PoseResult& pose);
 
-/// Once for a run.
-void check_slack_lengths(const Scene& scene, Ledger& ledger);
+/// Once for a run. Says in `not_checked` of which ligaments they are not.
+void check_slack_lengths(const Run& run, Ledger& ledger, std::vector<std::string>& not_checked);
 
 /// False where the pose is no rigid motion: then nothing else can be said.
 [[nodiscard]] bool check_motion(const Subject& subject, const PoseResult& pose, Ledger& ledger);

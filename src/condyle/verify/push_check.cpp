@@ -17,10 +17,17 @@ namespace condyle::verification {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-constexpr double kPush = 0.02;   ///< [mm], rotations at an arm of kArm
-constexpr double kArm = 30;      ///< [mm]
-constexpr int kDirections = 16;  ///< a pose
+constexpr double kPush = 0.02;     ///< [mm], rotations at an arm of kArm
+constexpr double kArm = 30;        ///< [mm]
+constexpr double kFarthest = 0.5;  ///< [mm] that no push makes a ligament longer by
+constexpr int kDirections = 16;    ///< a pose
 constexpr int kCorrections = 6;
+
+double straight_length(const Scene& scene,
+                       const LigamentDescription& ligament,
+                       const RigidTransform& X) {
+  return (in_ground(scene, ligament.ends[0], X) - in_ground(scene, ligament.ends[1], X)).norm();
+}
 
 struct Nearest {
   double gap;
@@ -82,17 +89,42 @@ std::vector<PushCheck::Constraint> PushCheck::constraints(const PoseResult& pose
   return list;
 }
 
-/// Energy that ligaments and layers gain, less the work of loads, on a short way [N mm].
+/// One that wraps and is slack, however it is pushed, needs no string; a length that is not found is
+/// no number.
+std::vector<PushCheck::Line> PushCheck::lines(const PoseResult& pose) const {
+  const Scene& scene = subject_.run.scene;
+  std::vector<Line> lines(scene.ligaments.size());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const LigamentDescription& ligament = scene.ligaments[i];
+    lines[i].length = pose.ligaments[i].length;
+    if (ligament.path.wraps.empty()) {
+      lines[i].length = straight_length(scene, ligament, pose.X_BA);
+      continue;
+    }
+    const auto pulls = [&](double more) {
+      return force_at(ligament.law, lines[i].length + more) != 0;
+    };
+    if (!pulls(-kFarthest) && !pulls(0) && !pulls(kFarthest)) continue;
+    lines[i].string.emplace(scene, pose, i);
+    lines[i].length = lines[i].string->pulled_to(pose.X_BA).value_or(std::nan(""));
+  }
+  return lines;
+}
+
+/// Energy that ligaments and layers gain, less the work of loads, on a short way from the pose
+/// [N mm].
 double PushCheck::work(const PoseResult& pose,
-                       const RigidTransform& from,
+                       std::vector<Line>& lines,
                        const RigidTransform& to) const {
   const Scene& scene = subject_.run.scene;
+  const RigidTransform& from = pose.X_BA;
   double sum = 0;
-  for (const LigamentDescription& ligament : scene.ligaments) {
-    const auto length = [&](const RigidTransform& X) {
-      return (in_ground(scene, ligament.ends[0], X) - in_ground(scene, ligament.ends[1], X)).norm();
-    };
-    sum += work_between(ligament.law, length(from), length(to));
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const LigamentDescription& ligament = scene.ligaments[i];
+    if (!ligament.path.wraps.empty() && !lines[i].string) continue;
+    const double length = lines[i].string ? lines[i].string->pulled_to(to).value_or(std::nan(""))
+                                          : straight_length(scene, ligament, to);
+    sum += work_between(ligament.law, lines[i].length, length);
   }
   sum += layer_energy(subject_, pose, to) - layer_energy(subject_, pose, from);
   const Eigen::AngleAxisd turned(Eigen::Matrix3d(to.R * from.R.transpose()));
@@ -107,6 +139,13 @@ double PushCheck::work(const PoseResult& pose,
   return sum;
 }
 
+void PushCheck::not_tried(Ledger& ledger) {
+  ledger.warn("pushes", 0,
+              fmt::format("{}: energy under pushes is not checked: a ligament that wraps does not "
+                          "settle on the surfaces that it is told to touch",
+                          ledger.pose_name()));
+}
+
 void PushCheck::check(const PoseResult& pose, Ledger& ledger) const {
   if (pose.stability != 1) return;
   for (const ContactResult& contact : pose.contacts)
@@ -115,6 +154,7 @@ void PushCheck::check(const PoseResult& pose, Ledger& ledger) const {
   scale << 1, 1, 1, 1 / kArm, 1 / kArm, 1 / kArm;
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
+  std::vector<Line> lines = this->lines(pose);
   double worst = 0;
   for (int k = 0; k < kDirections; ++k) {
     Vector6 push;
@@ -141,8 +181,9 @@ void PushCheck::check(const PoseResult& pose, Ledger& ledger) const {
         X = moved(X, taken.head<3>(), taken.tail<3>(), X.p);
         step.setZero();
       }
-      gained += work(pose, pose.X_BA, X);
+      gained += work(pose, lines, X);
     }
+    if (std::isnan(gained)) return not_tried(ledger);
     if (length > 1e-3 * kPush) worst = std::max(worst, -gained / (length * length));
   }
   ledger.note(

@@ -3,10 +3,12 @@
 /// Stability by trying: the moving body is pushed a little in many directions, contacts that carry
 /// kept closed and conditions kept, and the energy of ligaments and loads must not fall.
 
+#include <optional>
 #include <vector>
 
 #include "condyle/verify/gap_probe.h"
 #include "condyle/verify/pose_checks.h"
+#include "condyle/verify/taut_string.h"
 
 namespace condyle::verification {
 
@@ -25,9 +27,17 @@ class PushCheck {
   };
   [[nodiscard]] std::vector<Constraint> constraints(const PoseResult& pose,
                                                     const RigidTransform& X) const;
+  /// Of each ligament at the pose: its length, and how it lies where it wraps and may pull.
+  struct Line {
+    double length = 0;
+    std::optional<TautString> string;
+  };
+  [[nodiscard]] std::vector<Line> lines(const PoseResult& pose) const;
   [[nodiscard]] double work(const PoseResult& pose,
-                            const RigidTransform& from,
+                            std::vector<Line>& lines,
                             const RigidTransform& to) const;
+
+  static void not_tried(Ledger& ledger);
 
   const Subject& subject_;
 };

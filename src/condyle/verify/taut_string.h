@@ -1,0 +1,60 @@
+#pragma once
+
+/// The length of a ligament that wraps at poses that no run tells, by geodesics of the verifier's own:
+/// from how it lies at a pose that is told, to poses near it or, step by step, to another one.
+
+#include <Eigen/LU>
+
+#include <optional>
+#include <vector>
+
+#include "condyle/verify/course.h"
+
+namespace condyle::verification {
+
+class TautString {
+ public:
+  /// As the pose tells it; `scene` must outlive it.
+  TautString(const Scene& scene, const PoseResult& told, std::size_t ligament);
+
+  /// [mm] at a pose near the last one, on the surfaces that are touched; nothing where it does not
+  /// settle. It lies there then.
+  [[nodiscard]] std::optional<double> pulled_to(const RigidTransform& X_BA);
+
+  /// The same at any pose: it leaves surfaces and comes to others on the way.
+  [[nodiscard]] std::optional<double> led_to(const RigidTransform& X_BA);
+
+ private:
+  /// A geodesic, frame of its surface.
+  struct Arc {
+    std::size_t wrap;
+    Eigen::Vector3d P, t;
+    double length;
+  };
+  /// Either end of it, ground frame: n out of the solid, b = t x n.
+  struct Ends {
+    Eigen::Vector3d P, n_P, t_P, b_P, Q, n_Q, t_Q, b_Q;
+  };
+  /// What the string lies between at a pose.
+  struct Place {
+    std::vector<WrapAt> wraps;
+    BeginAt first, last;
+  };
+  [[nodiscard]] Place place_at(const RigidTransform& X_BA) const;
+  [[nodiscard]] static Arc changed(const Place& at, const Arc& arc, const Eigen::Vector4d& by);
+  [[nodiscard]] static Ends ends_of(const Place& at, const Arc& arc);
+  [[nodiscard]] static std::vector<Ends> all_ends(const Place& at, const std::vector<Arc>& arcs);
+  [[nodiscard]] static Eigen::VectorXd bends(const Place& at,
+                                             const std::vector<Arc>& arcs,
+                                             const std::vector<Ends>& ends);
+  void set_rates(const Place& at, const std::vector<Ends>& ends);
+  bool changes_touch(const Place& at);
+
+  const Scene& scene_;
+  std::size_t ligament_;
+  RigidTransform X_BA_;
+  std::vector<Arc> arcs_;
+  std::optional<Eigen::PartialPivLU<Eigen::MatrixXd>> rates_;  ///< of bends, at some pose near
+};
+
+}  // namespace condyle::verification

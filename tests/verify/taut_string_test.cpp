@@ -1,0 +1,62 @@
+#include "condyle/verify/taut_string.h"
+
+#include <gtest/gtest.h>
+
+#include "condyle/verify/verify.h"
+#include "verify/computed_run.h"
+
+namespace condyle::verification {
+namespace {
+
+const Run& wrapped_run() {
+  static const Run run = test::computed_run(test::kSource / "data/phantom/wrapped.toml");
+  return run;
+}
+
+// From 20 degrees to each other pose: strands lift off and come to touch on the way. The solver finds
+// its paths in another way (docs/wrapping.md).
+TEST(TautString, LeadsToTheLengthsOfOtherPoses) {
+  const condyle::Run& run = wrapped_run();
+  const std::vector<PoseResult>& poses = run.sweep.poses;
+  int wrapped = 0, changed = 0;
+  for (std::size_t i = 0; i < run.scene.ligaments.size(); ++i) {
+    if (run.scene.ligaments[i].path.wraps.empty()) continue;
+    for (const std::size_t k : {0, 8, 12}) {
+      const auto length = TautString(run.scene, poses.at(4), i).led_to(poses.at(k).X_BA);
+      ASSERT_TRUE(length) << run.scene.ligaments[i].name << " at pose " << k;
+      EXPECT_NEAR(*length, poses[k].ligaments[i].length, 1e-8) << run.scene.ligaments[i].name;
+      const auto &from = poses[4].paths[i].touches, &to = poses[k].paths[i].touches;
+      ++wrapped;
+      for (std::size_t w = 0; w < to.size(); ++w)
+        changed += from[w].touching != to[w].touching ? 1 : 0;
+    }
+  }
+  EXPECT_GT(wrapped, 0);
+  EXPECT_GT(changed, 0);
+}
+
+// 0.01 mm off.
+TEST(TautString, AFalseSlackLengthOfALigamentThatWrapsIsFound) {
+  condyle::Run run = wrapped_run();
+  run.sweep.poses.resize(1);
+  for (LigamentDescription& ligament : run.scene.ligaments)
+    if (!ligament.path.wraps.empty() && ligament.reference_strain)
+      std::get<ToeLinearLaw>(ligament.law).slack_length += 0.01;
+  const CheckSummary& slack = verify_run(run).checks.at(static_cast<std::size_t>(Check::kSlack));
+  EXPECT_GT(slack.failed, 0);
+  EXPECT_NEAR(slack.figure, 0.01, 1e-6);
+}
+
+TEST(TautString, PushesAreTriedOnLigamentsThatWrap) {
+  condyle::Run run = wrapped_run();
+  run.sweep.poses.resize(3);
+  VerifyOptions options;
+  options.pushes = true;
+  const Verification verified = verify_run(run, options);
+  EXPECT_TRUE(verified.verified());
+  EXPECT_EQ(verified.checks.at(static_cast<std::size_t>(Check::kStability)).count, 3);
+  EXPECT_TRUE(verified.warnings.empty());
+}
+
+}  // namespace
+}  // namespace condyle::verification
