@@ -19,8 +19,8 @@ using Eigen::Vector3d;
 
 constexpr double kEnd =
     0.85;  // radius of the articular end about the middle of the axis, of its width
-constexpr double kShaftFirst = 0.55, kShaftLast = 0.85,
-                 kShaftLeast = 0.15;  // above the axis, of the width
+constexpr double kShaftFirst = 0.5, kShaftLast = 0.76,
+                 kShaftLeast = 0.08;  // above the axis, of the width
 // Where the sagittal outline lies 1.3 radii from the axis, seen from distal forward: twelve knees had
 // it at 17 +- 4 degrees from their shafts.
 constexpr double kOutlineRadii = 1.3, kOutlineAngle = 17 * M_PI / 180;
@@ -59,22 +59,24 @@ double width_of(const TriangleMesh& end, const BoneFrame& frame, double reach) {
   return high - low;
 }
 
-/// Share of the arc behind and below the axis that the mesh fills midway between the condyles, where a
-/// femur has its notch and in front the trochlea.
-double filled_between(const TriangleMesh& end,
-                      const BoneFrame& frame,
-                      double radius,
-                      double strip) {
+/// Share of an arc about the axis, 0 distal, + posterior, that the mesh fills between two distances from
+/// the middle between the condyles.
+double filled(const TriangleMesh& end,
+              const BoneFrame& frame,
+              double radius,
+              const std::array<double, 2>& arc,
+              const std::array<double, 2>& aside) {
   constexpr int kSteps = 10;
-  constexpr double kFirst = 0.35, kLast = 1.75;
-  std::array<bool, kSteps> filled{};
+  std::array<bool, kSteps> steps{};
   for (const Vector3d& p : end.vertices) {
     const Vector3d q = frame.components(p - frame.origin);
-    const double at = (std::atan2(-q.x(), -q.y()) - kFirst) / (kLast - kFirst);
-    if (std::abs(q.z()) < strip && at > 0 && at < 1 && std::hypot(q.x(), q.y()) > 0.75 * radius)
-      filled[static_cast<int>(at * kSteps)] = true;
+    const double at = (std::atan2(-q.x(), -q.y()) - arc[0]) / (arc[1] - arc[0]),
+                 z = std::abs(q.z());
+    if (z >= aside[0] && z < aside[1] && at > 0 && at < 1 &&
+        std::hypot(q.x(), q.y()) > 0.75 * radius)
+      steps[static_cast<std::size_t>(at * kSteps)] = true;
   }
-  return static_cast<double>(std::count(filled.begin(), filled.end(), true)) / kSteps;
+  return static_cast<double>(std::count(steps.begin(), steps.end(), true)) / kSteps;
 }
 
 /// The lower, the more like posterior condyles; none where it is none. Behind and below the axis the
@@ -87,22 +89,26 @@ std::optional<double> unlikeness(const TriangleMesh& end,
       right_frame(axis.direction, -axis.distal, axis.point + axis.split * axis.direction);
   const double behind = farthest(end, frame, 0.8, 1.9) / radius,
                before = farthest(end, frame, -1.9, -0.8) / radius;
-  const double filled = filled_between(end, frame, radius, 0.04 * width);
+  // The notch, and the distal side of the condyles, which a sheet that stands on its head lacks.
+  const double between = filled(end, frame, radius, {0.35, 1.75}, {0, 0.04 * width});
+  const double below = filled(end, frame, radius, {-0.4, 0.35}, {0.1 * width, 0.5 * width});
   const double turned = std::acos(std::min(1.0, std::abs(axis.direction.dot(ends.across))));
   if (axis.coverage < 0.8 || axis.rms > 2 || radius < 0.17 * width || radius > 0.42 * width ||
-      behind > 1.35 || before < 1.4 || filled > 0.5 || turned > 0.45)
+      behind > 1.35 || before < 1.4 || between > 0.5 || below < 0.8 || turned > 0.45)
     return std::nullopt;
-  return axis.rms + 2 * filled + 3 * (behind - 1) + 2 * turned;
+  return axis.rms + 2 * between + 3 * (behind - 1) + 2 * turned;
 }
 
-std::optional<Condyles> best_candidate(const TriangleMesh& end, const KneeEnds& ends) {
+/// The best of candidates that are turned against the tibia by `turn` about its proximal direction.
+std::optional<Condyles> best_candidate(const TriangleMesh& end, const KneeEnds& ends, double turn) {
   const std::vector<Vector3d> normals = vertex_normals(end);
+  const Vector3d across = Eigen::AngleAxisd(turn, ends.proximal) * ends.across;
   std::optional<Condyles> best;
   double least = 1e300;
   for (const double sign : {1.0, -1.0})
     for (const double degrees : {0.0, 25.0, -25.0}) {
-      const Eigen::AngleAxisd turn(degrees * M_PI / 180, ends.across);
-      const BoneFrame frame = right_frame(sign * ends.across, turn * ends.proximal, ends.joint);
+      const Eigen::AngleAxisd tilt(degrees * M_PI / 180, across);
+      const BoneFrame frame = right_frame(sign * across, tilt * ends.proximal, ends.joint);
       try {
         const Condyles c{fit_condylar_axis(end, normals, frame), frame};
         const std::optional<double> found = unlikeness(end, c.axis, ends);
@@ -115,22 +121,45 @@ std::optional<Condyles> best_candidate(const TriangleMesh& end, const KneeEnds& 
   return best;
 }
 
-/// From the axis distal, turned forward, where the outline's support first reaches a multiple of the radius.
-double outline_angle(const FemoralShape& shape) {
-  std::vector<Eigen::Vector2d> outline;
-  for (const Vector3d& p : shape.end.vertices) {
-    const Vector3d q = shape.frame.components(p - shape.frame.origin);
-    if (q.y() < shape.cylinder.radius) outline.emplace_back(q.x(), -q.y());
+struct OutlinePoint {
+  Eigen::Vector2d at;  // anterior, distal of the axis [mm]
+  double area;         // [mm²]
+};
+
+/// How far the outline reaches along an angle from distal forward: kCrest of the surface lie farther, so that
+/// single vertices have no say [mm].
+double support(const std::vector<OutlinePoint>& outline, double angle) {
+  constexpr double kCrest = 25;  // [mm²]
+  constexpr double kStep = 0.1;  // [mm]
+  constexpr int kSteps = 60;
+  const Eigen::Vector2d e(std::sin(angle), std::cos(angle));
+  double most = 0;
+  for (const OutlinePoint& q : outline) most = std::max(most, e.dot(q.at));
+  std::array<double, kSteps + 1> area{};
+  for (const OutlinePoint& q : outline)
+    area[static_cast<std::size_t>(std::min((most - e.dot(q.at)) / kStep, kSteps + 0.0))] += q.area;
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    if (sum + area[i] >= kCrest) return most - kStep * (i + (kCrest - sum) / area[i]);
+    sum += area[i];
   }
-  const auto support = [&](double angle) {
-    const Eigen::Vector2d e(std::sin(angle), std::cos(angle));
-    double most = 0;
-    for (const Eigen::Vector2d& q : outline) most = std::max(most, e.dot(q));
-    return most - kOutlineRadii * shape.cylinder.radius;
-  };
+  return most - kStep * kSteps;
+}
+
+/// From distal forward, where the outline first reaches a multiple of the radius.
+double outline_angle(const FemoralShape& shape) {
+  const std::vector<double> areas = vertex_areas(shape.end);
+  std::vector<OutlinePoint> outline;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const Vector3d q = shape.frame.components(shape.end.vertices[i] - shape.frame.origin);
+    if (q.y() < shape.cylinder.radius && std::hypot(q.x(), q.y()) > 0.9 * shape.cylinder.radius)
+      outline.push_back({{q.x(), -q.y()}, areas[i]});
+  }
+  const double reach = kOutlineRadii * shape.cylinder.radius;
   double low = -0.7, high = 1.4;
-  if (support(low) > 0 || support(high) < 0) return kOutlineAngle;
-  for (int i = 0; i < 40; ++i) (support((low + high) / 2) < 0 ? low : high) = (low + high) / 2;
+  if (support(outline, low) > reach || support(outline, high) < reach) return kOutlineAngle;
+  for (int i = 0; i < 30; ++i)
+    (support(outline, (low + high) / 2) < reach ? low : high) = (low + high) / 2;
   return low;
 }
 
@@ -139,33 +168,36 @@ Vector3d lean_forward(const BoneFrame& frame, double angle) {
   return frame.proximal * std::cos(angle) + frame.anterior * std::sin(angle);
 }
 
-/// Proximal by the shaft where it is there, otherwise between what the outline and the tibia say.
-void set_proximal(FemoralShape& shape, const TriangleMesh& femur, const Vector3d& tibia_proximal) {
+/// Proximal by the shaft where it is there, otherwise by the outline.
+void set_proximal(FemoralShape& shape, const TriangleMesh& femur) {
   BoneFrame& frame = shape.frame;
   const double w = shape.width;
   const auto line = find_shaft_line(femur, frame.origin, frame.proximal,
                                     {kShaftFirst * w, kShaftLast * w, kShaftLeast * w});
   shape.shaft = line ? line->length : 0;
   shape.shaft_first = kShaftFirst * w;
-  shape.outline = kOutlineAngle - outline_angle(shape);
-  if (line) {
-    shape.lean = std::asin(line->direction.dot(frame.lateral));
-    frame = right_frame(frame.lateral, line->direction, frame.origin);
-    return;
-  }
+  if (line) shape.lean = std::asin(line->direction.dot(frame.lateral));
+  const Vector3d proximal =
+      line ? line->direction : lean_forward(frame, kOutlineAngle - outline_angle(shape));
+  frame = right_frame(frame.lateral, proximal, frame.origin);
+}
+
+/// Halfway from what the outline says to the tibia as scanned: most are scanned near extension.
+void lean_to_tibia(BoneFrame& frame, const Vector3d& tibia_proximal) {
   const double tibia =
       std::atan2(frame.anterior.dot(tibia_proximal), frame.proximal.dot(tibia_proximal));
-  const double correction =
-      std::clamp((tibia - shape.outline) / 2, -kMostCorrection, kMostCorrection);
-  frame = right_frame(frame.lateral, lean_forward(frame, shape.outline + correction), frame.origin);
+  const double correction = std::clamp(tibia / 2, -kMostCorrection, kMostCorrection);
+  frame = right_frame(frame.lateral, lean_forward(frame, correction), frame.origin);
 }
 
 }  // namespace
 
-Condyles find_condyles(CleanMesh& femur, const KneeEnds& ends) {
+Condyles find_condyles(CleanMesh& femur, const KneeEnds& ends, const std::vector<double>& turns) {
   face_out_of_femur(femur, right_frame(ends.across, ends.proximal, ends.joint));
   const TriangleMesh end = crop_ball(femur.mesh, ends.joint, 0.95 * ends.femur_width);
-  const std::optional<Condyles> found = best_candidate(end, ends);
+  std::optional<Condyles> found;
+  for (const double turn : turns)
+    if (!found) found = best_candidate(end, ends, turn);
   if (!found) throw InputError("no posterior condyles");
   return *found;
 }
@@ -186,9 +218,11 @@ FemoralShape find_femoral_frame(const TriangleMesh& femur,
     shape.frame =
         right_frame(shape.cylinder.direction, shape.frame.proximal, shape.cylinder.middle);
     shape.width = width_of(shape.end, shape.frame, 0.35 * shape.width);
-    set_proximal(shape, femur, tibia_proximal);
+    set_proximal(shape, femur);
     shape.end = crop_ball(femur, shape.frame.origin, kEnd * shape.width);
   }
+  shape.outline = kOutlineAngle - outline_angle(shape);
+  if (shape.shaft == 0) lean_to_tibia(shape.frame, tibia_proximal);
   return shape;
 }
 

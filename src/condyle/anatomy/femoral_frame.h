@@ -30,7 +30,10 @@ struct Condyles {
 };
 
 /// Turns open components of `femur` outward. Throws InputError where there are no posterior condyles.
-[[nodiscard]] Condyles find_condyles(CleanMesh& femur, const KneeEnds& ends);
+/// Tried in turn are frames that are turned by `turns` against the tibia's longest extent [rad].
+[[nodiscard]] Condyles find_condyles(CleanMesh& femur,
+                                     const KneeEnds& ends,
+                                     const std::vector<double>& turns = {0, 0.25, -0.25});
 
 /// `tibia_proximal`, that of the tibia as scanned, has a say where there is no shaft.
 [[nodiscard]] FemoralShape find_femoral_frame(const TriangleMesh& femur,

@@ -82,8 +82,9 @@ SurfaceExtents surface_extents(const TriangleMesh& mesh) {
 }
 
 KneeEnds find_knee_ends(const TriangleMesh& femur, const TriangleMesh& tibia) {
-  constexpr double kDepth =
-      0.15;  // of what counts as facing the femur, of the tibia's middle extent
+  // What faces the femur, above and below its plane, of the tibia's middle extent; a fibula begins lower.
+  constexpr double kAbove = 0.15, kBelow = 0.06;
+  constexpr double kReach = 0.9;  // from its middle to its corners, likewise
   const SurfaceExtents whole_femur = surface_extents(femur), whole_tibia = surface_extents(tibia);
   const double size = whole_tibia.sizes[1];
   const std::vector<double> distance = distances(tibia, femur);
@@ -92,12 +93,23 @@ KneeEnds find_knee_ends(const TriangleMesh& femur, const TriangleMesh& tibia) {
   ends.gap = *std::min_element(distance.begin(), distance.end());
   Moments zone;
   for (std::size_t i = 0; i < distance.size(); ++i)
-    if (distance[i] < ends.gap + kDepth * size) zone.add(tibia.vertices[i], areas[i]);
-  ends.joint = zone.middle();
-  const Matrix3d axes = zone.principal();
-  ends.proximal = axes.col(0);
-  ends.across = axes.col(2);
-  if (ends.proximal.dot(whole_femur.middle - whole_tibia.middle) < 0) ends.proximal *= -1;
+    if (distance[i] < ends.gap + kAbove * size) zone.add(tibia.vertices[i], areas[i]);
+  // Only one plateau may be near; the slab through it has both.
+  for (int iteration = 0; iteration < 4; ++iteration) {
+    const double below = iteration == 0 ? kAbove : kBelow;
+    ends.joint = zone.middle();
+    ends.proximal = zone.principal().col(0);
+    if (ends.proximal.dot(whole_femur.middle - whole_tibia.middle) < 0) ends.proximal *= -1;
+    zone = Moments{};
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+      const Vector3d q = tibia.vertices[i] - ends.joint;
+      const double height = ends.proximal.dot(q);
+      if (height > -below * size && height < kAbove * size && q.norm() < kReach * size)
+        zone.add(tibia.vertices[i], areas[i]);
+    }
+  }
+  ends.across = zone.principal().col(2);
+  ends.across = (ends.across - ends.proximal * ends.proximal.dot(ends.across)).normalized();
   ends.femur_width = width_there(femur, ends, 0.75 * size);
   ends.tibia_width = width_there(tibia, ends, 0.75 * size);
   return ends;

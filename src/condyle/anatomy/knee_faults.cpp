@@ -3,8 +3,9 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -18,8 +19,10 @@ using Eigen::Vector3d;
 
 constexpr double kNarrowest = 55, kWidest = 110;  // articular ends of adults [mm]
 constexpr double kLeastRatio = 0.85,
-                 kMostRatio = 1.35;  // of femoral to tibial width: 1.01 to 1.13 in twelve knees
-constexpr double kMostGap = 40;      // between bones as scanned [mm]
+                 kMostRatio = 1.35;     // of femoral to tibial width: 1.01 to 1.13 in twelve knees
+constexpr double kLeastEminence = 0.3;  // of its region: 1.5 to 2.8 mm in twelve knees [mm]
+constexpr double kMostTurn = 0.6;       // of the tibia about its shaft [rad]
+constexpr double kMostGap = 40;         // between bones as scanned [mm]
 
 /// Distances from about a thousand vertices of `mesh` to `other`, sorted.
 std::vector<double> distances_to(const TriangleMesh& mesh, const TriangleMesh& other) {
@@ -39,6 +42,12 @@ void check_cartilage(const TriangleMesh& cartilage,
   if (cartilage.triangles.empty())
     throw InputError(fmt::format("the {} cartilage has no triangles", name));
   const double size = surface_extents(own).sizes[1];
+  if (const double across = surface_extents(cartilage).sizes[0];
+      across < 0.3 * size || across > 3 * size)
+    throw InputError(
+        fmt::format("the {} cartilage is {:.3g} long, its bone {:.3g} wide, in the unit of the "
+                    "files: expected both in one unit",
+                    name, across, size));
   const std::vector<double> to_own = distances_to(cartilage, own),
                             to_other = distances_to(cartilage, other);
   const double far = to_own[to_own.size() / 2];
@@ -54,8 +63,8 @@ void check_cartilage(const TriangleMesh& cartilage,
                     name, far));
 }
 
-/// Does one end of a mesh, whichever it is, have posterior condyles?
-bool has_condyles(CleanMesh mesh) {
+/// Mean radius of posterior condyles that one end of a mesh has, whichever it is; 0 where none has [mm].
+double condyle_radius(CleanMesh mesh) {
   const SurfaceExtents extents = surface_extents(mesh.mesh);
   const double width = std::clamp(extents.sizes[1], kNarrowest, kWidest);
   for (const double end : {1.0, -1.0}) {
@@ -70,27 +79,43 @@ bool has_condyles(CleanMesh mesh) {
     for (int i = 0; i < 6; ++i) {
       ends.across = Eigen::AngleAxisd(i * M_PI / 6, distal) * extents.axes.col(1);
       try {
-        (void)find_condyles(mesh, ends);
-        return true;
+        const CondylarAxis axis = find_condyles(mesh, ends, {0}).axis;
+        return (axis.medial_radius + axis.lateral_radius) / 2;
       } catch (const InputError&) {  // not so
       }
     }
   }
-  return false;
+  return 0;
 }
 
-double widest_across(const TriangleMesh& mesh,
-                     const Vector3d& middle,
-                     double reach,
-                     const Vector3d& across) {
-  double low = 1e300, high = -1e300;
-  for (const Vector3d& p : mesh.vertices) {
-    if ((p - middle).norm() > reach) continue;
-    low = std::min(low, across.dot(p));
-    high = std::max(high, across.dot(p));
-  }
-  return std::max(0.0, high - low);
+/// Extent at right angles to `along` of what lies at most `reach` from the farthest point that way.
+double width_at_end(const TriangleMesh& mesh, const Vector3d& along, double reach) {
+  double farthest = -1e300;
+  for (const Vector3d& p : mesh.vertices) farthest = std::max(farthest, along.dot(p));
+  Vector3d middle = Vector3d::Zero();
+  double count = 0;
+  for (const Vector3d& p : mesh.vertices)
+    if (along.dot(p) > farthest - reach) middle += p, ++count;
+  middle /= count;
+  double widest = 0;
+  for (const Vector3d& p : mesh.vertices)
+    if (along.dot(p) > farthest - reach) widest = std::max(widest, along.cross(p - middle).norm());
+  return 2 * widest;
 }
+
+bool is_wider_at_other_end(const TriangleMesh& tibia, const KneeEnds& ends) {
+  const SurfaceExtents extents = surface_extents(tibia);
+  Vector3d along = extents.axes.col(0);
+  if (along.dot(ends.joint - extents.middle) < 0) along *= -1;
+  const double reach = 0.25 * extents.sizes[0];
+  return width_at_end(tibia, -along, reach) > 1.2 * width_at_end(tibia, along, reach);
+}
+
+constexpr const char* kUpsideDown = "the tibia is upside down: its plateau does not face the femur";
+constexpr const char* kTwoFemurs = "two femurs: the mesh given as tibia has posterior condyles too";
+
+/// The hollows of a tibia's plateau may pass for small condyles.
+constexpr double kLeastRadii = 0.85;  // of one bone's condyles to the other's
 
 }  // namespace
 
@@ -114,14 +139,14 @@ void check_meshes(const KneeMeshes& meshes) {
 }
 
 double tell_unit(const KneeEnds& ends) {
-  struct Unit {
-    const char* name;
-    double to_mm;
-  };
-  const double width = std::sqrt(ends.femur_width * ends.tibia_width);
-  for (const Unit& unit : {Unit{"mm", 1}, Unit{"cm", 10}, Unit{"inch", 25.4}, Unit{"m", 1000}})
-    if (width * unit.to_mm > 0.9 * kNarrowest && width * unit.to_mm < 1.1 * kWidest)
-      return unit.to_mm;
+  if (ends.femur_width == 0 || ends.gap > ends.tibia_width)
+    throw InputError(
+        fmt::format("femur and tibia are {:.3g} apart, in the unit of the files: expected both as "
+                    "scanned, in one frame",
+                    ends.gap));
+  const double width = std::max(ends.femur_width, ends.tibia_width);
+  for (const double to_mm : {1.0, 10.0, 25.4, 1000.0})
+    if (width * to_mm > 0.9 * kNarrowest && width * to_mm < 1.1 * kWidest) return to_mm;
   throw InputError(fmt::format(
       "the ends of femur and tibia that face each other are {:.3g} and {:.3g} wide: in none of mm, "
       "cm, inch and m is that a knee of {:.0f} to {:.0f} mm; say the unit by --units",
@@ -132,15 +157,14 @@ Condyles find_condyles_or_say_why(CleanMesh& femur, const CleanMesh& tibia, cons
   try {
     return find_condyles(femur, ends);
   } catch (const InputError&) {
-    const bool first = has_condyles(femur), second = has_condyles(tibia);
-    if (first && second)
-      throw InputError(
-          "two femurs: both meshes have posterior condyles, expected a femur and a tibia");
-    if (second)
+    const double first = condyle_radius(femur), second = condyle_radius(tibia);
+    if (second > 0 && first < kLeastRadii * second)
       throw InputError(
           "femur and tibia are interchanged: the mesh given as tibia has posterior condyles, that "
-          "given as femur none");
-    if (first)
+          "given as femur none of its size");
+    if (second > 0 && second > kLeastRadii * first) throw InputError(kTwoFemurs);
+    if (first > 0 && is_wider_at_other_end(tibia.mesh, ends)) throw InputError(kUpsideDown);
+    if (first > 0)
       throw InputError(
           "the femur's condyles do not face the tibia: the bones are not in one frame, or one is "
           "upside down");
@@ -153,47 +177,57 @@ Condyles find_condyles_or_say_why(CleanMesh& femur, const CleanMesh& tibia, cons
 TibialShape find_tibia_or_say_why(CleanMesh& tibia,
                                   const KneeEnds& ends,
                                   const Condyles& condyles) {
-  const SurfaceExtents extents = surface_extents(tibia.mesh);
-  const double here = widest_across(tibia.mesh, ends.joint, 0.4 * extents.sizes[0], ends.across);
-  const Vector3d other = 2 * extents.middle - ends.joint;
-  const double there = widest_across(tibia.mesh, other, 0.4 * extents.sizes[0], ends.across);
-  if (extents.sizes[0] > 1.2 * ends.femur_width && there > 1.3 * here)
-    throw InputError(fmt::format(
-        "the tibia is upside down: its end at the femur is {:.0f} mm wide, the other one {:.0f} mm",
-        here, there));
-  TibialShape found = find_tibial_frame(tibia, ends, condyles.frame.anterior);
-  const Plateau& p = found.plateau;
-  if (p.area < 0.45 * p.width * p.depth || p.depth > 0.95 * p.width) {
-    if (has_condyles(tibia))
-      throw InputError("two femurs: the mesh given as tibia has posterior condyles too");
-    throw InputError(
-        fmt::format("no tibial plateau faces the femur: what is there is {:.0f} by {:.0f} mm, "
-                    "{:.0f} % of it level, expected an oblong of at least 45 %",
-                    p.width, p.depth, 100 * p.area / (p.width * p.depth)));
+  std::string why = "no faces look at it";
+  double eminence = 0;
+  try {
+    TibialShape found = find_tibial_frame(tibia, ends, condyles.frame.anterior);
+    const Plateau& p = found.plateau;
+    eminence = p.eminence;
+    if (p.area > 0.45 * p.width * p.depth && p.depth < 0.85 * p.width &&
+        p.width > 0.6 * ends.femur_width && eminence > kLeastEminence)
+      return found;
+    why = fmt::format(
+        "what is there is {:.0f} by {:.0f} mm, {:.0f} % of it level, its middle {:.1f} mm higher",
+        p.width, p.depth, 100 * p.area / (p.width * p.depth), p.eminence);
+  } catch (const InputError&) {  // said below
   }
-  return found;
+  if (condyle_radius(tibia) >
+      kLeastRadii * (condyles.axis.medial_radius + condyles.axis.lateral_radius) / 2)
+    throw InputError(kTwoFemurs);
+  if (eminence < -kLeastEminence || is_wider_at_other_end(tibia.mesh, ends))
+    throw InputError(kUpsideDown);
+  throw InputError(fmt::format("no tibial plateau faces the femur: {}", why));
 }
 
 void check_they_fit(const FemoralShape& femur, const TibialShape& tibia, const KneeEnds& ends) {
-  for (const auto& [name, width] :
-       {std::pair("femur", femur.width), std::pair("tibia", tibia.plateau.width)})
+  const double w = femur.width, ratio = w / tibia.plateau.width;
+  if (ratio < kLeastRatio || ratio > kMostRatio)
+    throw InputError(
+        fmt::format("bones of different persons, or a part of one: the femur is {:.0f} mm wide at "
+                    "the knee and the tibia {:.0f} mm, expected a ratio of {:.2f} to {:.2f}",
+                    w, tibia.plateau.width, kLeastRatio, kMostRatio));
+  for (const auto& [name, width] : {std::pair("femur", w), std::pair("tibia", tibia.plateau.width)})
     if (width < kNarrowest || width > kWidest)
       throw InputError(
           fmt::format("the {} is {:.0f} mm wide at the knee, expected {:.0f} to {:.0f} mm: say the "
                       "unit by --units",
                       name, width, kNarrowest, kWidest));
-  const double ratio = femur.width / tibia.plateau.width;
-  if (ratio < kLeastRatio || ratio > kMostRatio)
-    throw InputError(
-        fmt::format("bones of different persons: the femur is {:.0f} mm wide and the tibia {:.0f} "
-                    "mm, expected a ratio of {:.2f} to {:.2f}",
-                    femur.width, tibia.plateau.width, kLeastRatio, kMostRatio));
   const Vector3d q = femur.frame.components(tibia.plateau.middle - femur.frame.origin);
-  if (ends.gap > kMostGap || std::abs(q.z()) > 0.25 * femur.width || q.y() > 0)
+  const double beside = std::abs(q.z()), ahead = std::abs(q.x()), below = -q.y();
+  if (ends.gap > kMostGap || beside > 0.2 * w || ahead > 0.35 * w || below < 0.15 * w ||
+      below > 0.55 * w + ends.gap)
     throw InputError(fmt::format(
-        "the ends of the bones do not face each other: the plateau's middle lies {:.0f} mm beside "
-        "and {:.0f} mm below the femur's axis, the bones are {:.0f} mm apart",
-        std::abs(q.z()), -q.y(), ends.gap));
+        "the ends of the bones do not face each other: from the axis of the femur the middle of "
+        "the plateau lies {:.0f} mm sideways, {:.0f} mm to the front or back and {:.0f} mm "
+        "distally, expected less than {:.0f}, less than {:.0f} and {:.0f} to {:.0f} mm",
+        beside, ahead, below, 0.2 * w, 0.35 * w, 0.15 * w, 0.55 * w));
+  const double turned =
+      std::acos(std::clamp(femur.frame.lateral.dot(tibia.frame.lateral), -1.0, 1.0));
+  if (turned > kMostTurn)
+    throw InputError(
+        fmt::format("the tibia is turned by {:.0f} degrees against the femur, from one lateral "
+                    "direction to the other: expected less than {:.0f}",
+                    turned * 180 / M_PI, kMostTurn * 180 / M_PI));
 }
 
 }  // namespace condyle

@@ -6,8 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/surface/bone_check.h"
 
@@ -22,9 +20,8 @@ struct Feature {
   double most;  // what it may say at most, since no spread is that of a normal distribution
 };
 
-SideEvidence evidence(const Feature& f, double value, std::string figure) {
-  return {std::move(figure),
-          std::clamp(2 * f.mean * value / (f.spread * f.spread), -f.most, f.most)};
+double log_ratio(const Feature& f, double value) {
+  return std::clamp(2 * f.mean * value / (f.spread * f.spread), -f.most, f.most);
 }
 
 /// How far either half of the femur's end reaches along (sin, -cos) of an angle from distal forward.
@@ -84,42 +81,39 @@ double reach_below(const TibialShape& tibia, const TriangleMesh& mesh) {
 
 }  // namespace
 
-std::vector<SideEvidence> weigh_sides(const FemoralShape& femur,
-                                      const TibialShape& tibia,
-                                      const TriangleMesh& mesh) {
-  constexpr double kDegree = M_PI / 180;
+std::vector<SideEvidence> weigh_femur(const FemoralShape& femur) {
+  constexpr Feature kLean{6.5 * M_PI / 180, 3.5 * M_PI / 180, 4};
+  constexpr Feature kTrochlea{0.04, 0.025, 3}, kDistal{0.022, 0.015, 3}, kRadii{0.13, 0.12, 2};
   std::vector<SideEvidence> found;
   if (femur.shaft > 0)
-    found.push_back(evidence(
-        {6.5 * kDegree, 3.5 * kDegree, 4}, femur.lean,
-        fmt::format("femoral shaft leans {:.1f} degrees laterally", femur.lean / kDegree)));
+    found.push_back({"femoral shaft leans laterally", femur.lean * 180 / M_PI, "degrees",
+                     log_ratio(kLean, femur.lean)});
+  const double trochlea = lateral_reach_ahead(femur, M_PI / 2);
+  found.push_back(
+      {"trochlea higher laterally", trochlea * femur.width, "mm", log_ratio(kTrochlea, trochlea)});
+  const double distal = -lateral_reach_ahead(femur, 0);
+  found.push_back(
+      {"medial condyle more distal", distal * femur.width, "mm", log_ratio(kDistal, distal)});
+  const double radii = std::log(femur.axis.medial_radius / femur.axis.lateral_radius);
+  found.push_back({"medial condyle larger", 100 * radii, "%", log_ratio(kRadii, radii)});
+  return found;
+}
+
+std::vector<SideEvidence> weigh_tibia(const TibialShape& tibia, const TriangleMesh& mesh) {
+  constexpr Feature kHollow{1.8, 1.0, 4}, kDepth{0.11, 0.09, 2}, kBelow{0.03, 0.025, 3};
   const std::vector<Vector3d> normals = vertex_normals(mesh);
   const std::vector<double> areas = vertex_areas(mesh);
-  const double medial = hollowness(tibia, mesh, normals, areas, -1),
-               lateral = hollowness(tibia, mesh, normals, areas, 1);
-  found.push_back(evidence(
-      {1.8, 1.0, 4}, medial - lateral,
-      fmt::format("sagittal curvature of the plateaus {:.2g} medial, {:.2g} lateral per width",
-                  medial, lateral)));
-  const double trochlea = lateral_reach_ahead(femur, M_PI / 2),
-               distal = lateral_reach_ahead(femur, 0);
-  found.push_back(evidence(
-      {0.04, 0.025, 3}, trochlea,
-      fmt::format("trochlea reaches {:.1f} mm farther laterally", trochlea * femur.width)));
-  found.push_back(
-      evidence({0.022, 0.015, 3}, -distal,
-               fmt::format("medial condyle {:.1f} mm more distal", -distal * femur.width)));
-  const double radii = femur.axis.medial_radius / femur.axis.lateral_radius;
-  found.push_back(evidence({0.13, 0.12, 2}, std::log(radii),
-                           fmt::format("radii of the condyles {:.2f}", radii)));
-  if (const double depth = plateau_depth_ratio(mesh, tibia.frame); depth > 0)
-    found.push_back(evidence({0.11, 0.09, 2}, std::log(depth),
-                             fmt::format("depths of the plateaus {:.2f}", depth)));
-  const double below = reach_below(tibia, mesh);
-  if (below != 0)
-    found.push_back(evidence(
-        {0.03, 0.025, 3}, below,
-        fmt::format("below the plateau {:.1f} mm farther laterally", below * tibia.plateau.width)));
+  std::vector<SideEvidence> found;
+  const double hollow =
+      hollowness(tibia, mesh, normals, areas, -1) - hollowness(tibia, mesh, normals, areas, 1);
+  found.push_back({"medial plateau more hollow from front to back",
+                   1000 * hollow / tibia.plateau.width, "per m", log_ratio(kHollow, hollow)});
+  if (const double ratio = plateau_depth_ratio(mesh, tibia.frame); ratio > 0)
+    found.push_back(
+        {"medial plateau deeper", 100 * std::log(ratio), "%", log_ratio(kDepth, std::log(ratio))});
+  if (const double below = reach_below(tibia, mesh); below != 0)
+    found.push_back({"farther laterally below the plateau", below * tibia.plateau.width, "mm",
+                     log_ratio(kBelow, below)});
   return found;
 }
 

@@ -12,13 +12,16 @@ namespace condyle {
 
 /// One feature's say.
 struct SideEvidence {
-  std::string figure;    ///< in words, with its value, as of a right knee
+  std::string feature;   ///< in words, as positive in most right knees
+  double value = 0;      ///< as of a right knee
+  std::string unit;      ///< of the value
   double log_ratio = 0;  ///< natural logarithm of the odds for a right knee
 };
 
-/// Both shapes as of a right knee; `tibia` faces outward.
-[[nodiscard]] std::vector<SideEvidence> weigh_sides(const FemoralShape& femur,
-                                                    const TibialShape& tibia,
-                                                    const TriangleMesh& tibia_mesh);
+/// Both shapes as of a right knee.
+[[nodiscard]] std::vector<SideEvidence> weigh_femur(const FemoralShape& femur);
+/// `mesh` faces outward.
+[[nodiscard]] std::vector<SideEvidence> weigh_tibia(const TibialShape& tibia,
+                                                    const TriangleMesh& mesh);
 
 }  // namespace condyle

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "condyle/input_error.h"
 #include "condyle/mesh/mesh_measures.h"
@@ -17,28 +18,59 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kLeastCosine = 0.6;       // of a face's normal and the plateau's
+constexpr double kLeastCosine = 0.6, kFullCosine = 0.8;  // of a face's normal and the plateau's
 constexpr double kBelow = 6, kAbove = 10;  // what belongs to the plateau, from its plane [mm]
 constexpr double kScale = 2;  // beyond it a face loses its say in the plane: eminence and rims [mm]
+constexpr double kLeastPart = 0.3;  // of the largest linked part: less is no half of a plateau
 
 struct Face {
   Vector3d p;
   double weight;  // area seen along the normal [mm²]
 };
 
-std::vector<Face> faces_along(const TriangleMesh& mesh,
-                              const std::vector<Vector3d>& normals,
-                              const std::vector<double>& areas,
-                              const Plateau& plateau,
-                              double below,
-                              double reach) {
-  std::vector<Face> faces;
-  for (std::size_t i = 0; i < normals.size(); ++i) {
+/// 0 below `none`, 1 above `full`.
+double ramp(double x, double none, double full) {
+  return std::clamp((x - none) / (full - none), 0.0, 1.0);
+}
+
+/// Areas of the vertices seen along the normal, of those that belong to the plateau, 0 of others [mm²].
+std::vector<double> areas_along(const TriangleMesh& mesh,
+                                const std::vector<Vector3d>& normals,
+                                const std::vector<double>& areas,
+                                const Plateau& plateau,
+                                double below,
+                                double reach) {
+  std::vector<double> seen(areas.size(), 0);
+  for (std::size_t i = 0; i < areas.size(); ++i) {
     const Vector3d q = mesh.vertices[i] - plateau.middle;
     const double height = plateau.normal.dot(q), cosine = plateau.normal.dot(normals[i]);
-    if (cosine < kLeastCosine || height < -below || height > kAbove || q.norm() > reach) continue;
-    faces.push_back({mesh.vertices[i], areas[i] * cosine});
+    if (q.norm() < reach && height < kAbove)
+      seen[i] = areas[i] * cosine * ramp(cosine, kLeastCosine, kFullCosine) *
+                ramp(height, -below, -below / 2);
   }
+  return seen;
+}
+
+/// Vertices of the large linked parts: no head of a fibula, no islands.
+std::vector<Face> large_parts(const TriangleMesh& mesh, const std::vector<double>& seen) {
+  std::vector<int> parent(seen.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&parent](int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    if (seen[a] == 0 || seen[b] == 0 || seen[c] == 0) continue;
+    parent[root(a)] = root(b);
+    parent[root(b)] = root(c);
+  }
+  std::vector<double> part(seen.size(), 0);
+  for (std::size_t i = 0; i < seen.size(); ++i) part[root(static_cast<int>(i))] += seen[i];
+  const double least = kLeastPart * *std::max_element(part.begin(), part.end());
+  std::vector<Face> faces;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (seen[i] > 0 && part[root(static_cast<int>(i))] >= least)
+      faces.push_back({mesh.vertices[i], seen[i]});
   return faces;
 }
 
@@ -103,6 +135,14 @@ void measure(Plateau& plateau, const std::vector<Face>& faces) {
   const Vector3d between = (a + b) / 2;
   plateau.middle += between - plateau.normal * plateau.normal.dot(between);
   plateau.width = box.sizes().x();
+  double weight = 1e-300;
+  for (const Face& f : faces) {
+    const Vector3d q = f.p - plateau.middle;
+    if (std::abs(plateau.across.dot(q)) > 0.15 * plateau.width) continue;
+    weight += f.weight;
+    plateau.eminence += f.weight * plateau.normal.dot(q);
+  }
+  plateau.eminence /= weight;
   plateau.depth = box.sizes().y();
 }
 
@@ -118,7 +158,8 @@ Plateau fit_plateau(const TriangleMesh& mesh,
   Plateau plateau{.middle = at, .normal = proximal, .across = across, .halves = across};
   std::vector<Face> faces;
   for (int iteration = 0; iteration < 12; ++iteration) {
-    faces = faces_along(mesh, normals, areas, plateau, iteration < 3 ? 2 * kBelow : kBelow, kReach);
+    faces = large_parts(mesh, areas_along(mesh, normals, areas, plateau,
+                                          iteration < 3 ? 2 * kBelow : kBelow, kReach));
     if (faces.size() < 40) throw InputError("no tibial plateau faces the femur");
     fit_plane(plateau, faces);
     fit_outline(plateau, faces);

@@ -13,6 +13,7 @@ struct Plateau {
   Eigen::Vector3d halves;  ///< unit, from the middle of one half to that of the other
   double width = 0;        ///< along `across` [mm]
   double depth = 0;        ///< at right angles to it [mm]
+  double eminence = 0;     ///< mean height over the plane where the halves meet [mm]
   double area = 0;         ///< of the faces that make it, seen along the normal [mm²]
 };
 

@@ -37,31 +37,57 @@ void scale_ends(KneeEnds& ends, double scale) {
   ends.gap *= scale;
 }
 
-/// Odds of the features as one probability, and those that say most, in words.
-void tell_side(RecognisedKnee& knee,
-               std::vector<SideEvidence> evidence,
-               const RecogniseOptions& options) {
+/// Logarithm of the odds for a right knee.
+double log_odds(const std::vector<SideEvidence>& evidence) {
   double sum = 0;
   for (const SideEvidence& e : evidence) sum += kIndependence * e.log_ratio;
-  const Side seen = sum >= 0 ? Side::kRight : Side::kLeft;
-  knee.side = options.side.value_or(seen);
-  const double sign = knee.side == Side::kRight ? 1 : -1;
-  knee.side_confidence = 1 / (1 + std::exp(-sign * sum));
+  return sum;
+}
+
+/// What speaks for a side, and how much.
+std::string in_words(const std::vector<SideEvidence>& evidence, Side side) {
+  const double sign = side == Side::kRight ? 1 : -1;
+  std::string words;
   for (const SideEvidence& e : evidence)
-    knee.side_evidence += fmt::format("{}{} ({:+.1f})", knee.side_evidence.empty() ? "" : ", ",
-                                      e.figure, sign * kIndependence * e.log_ratio);
-  const char* name = seen == Side::kRight ? "right" : "left";
+    words += fmt::format("{}{} {:.1f} {} ({:+.1f})", words.empty() ? "" : ", ", e.feature,
+                         sign * e.value, e.unit, sign * kIndependence * e.log_ratio);
+  return words;
+}
+
+const char* name_of(Side side) { return side == Side::kRight ? "right" : "left"; }
+
+/// Two bones that each are sure of another side are no knee.
+void check_agreement(double femur, double tibia) {
+  constexpr double kSure = 1.5;
+  if (std::min(std::abs(femur), std::abs(tibia)) < kSure || femur * tibia > 0) return;
+  throw InputError(
+      fmt::format("the femur is that of a {} knee and the tibia that of a {} one, or one of them "
+                  "is turned back to front; if not so, say it by --side left or --side right",
+                  femur > 0 ? "right" : "left", tibia > 0 ? "right" : "left"));
+}
+
+void tell_side(RecognisedKnee& knee,
+               const std::vector<SideEvidence>& femur,
+               const std::vector<SideEvidence>& tibia,
+               const RecogniseOptions& options) {
+  const double of_femur = log_odds(femur), of_tibia = log_odds(tibia);
+  if (!options.side) check_agreement(of_femur, of_tibia);
+  const double odds = of_femur + of_tibia;
+  const Side seen = odds >= 0 ? Side::kRight : Side::kLeft;
+  knee.side = options.side.value_or(seen);
+  knee.side_confidence = 1 / (1 + std::exp(knee.side == seen ? -std::abs(odds) : std::abs(odds)));
+  knee.side_evidence = in_words(femur, knee.side) + ", " + in_words(tibia, knee.side);
   if (!options.side && knee.side_confidence < kLeastConfidence)
     throw InputError(
         fmt::format("left or right cannot be told from the shape: {} with a probability of {:.2f}; "
                     "say it by --side left or --side right",
-                    name, knee.side_confidence));
+                    name_of(seen), knee.side_confidence));
   if (knee.side_confidence < 0.2)
-    knee.doubts.push_back(fmt::format("the shape says {} knee with a probability of {:.2f}: {}",
-                                      name, 1 - knee.side_confidence, knee.side_evidence));
+    knee.doubts.push_back(fmt::format("by its shape a {} knee, with a probability of {:.2f}",
+                                      name_of(seen), 1 - knee.side_confidence));
   else if (knee.side_confidence < 0.95)
-    knee.doubts.push_back(
-        fmt::format("the side is told with a probability of {:.2f} only", knee.side_confidence));
+    knee.doubts.push_back(fmt::format("{} knee with a probability of {:.2f} only",
+                                      name_of(knee.side), knee.side_confidence));
 }
 
 BoneFrame in_file_frame(BoneFrame frame, const Vector3d& origin, Side side) {
@@ -142,7 +168,7 @@ RecognisedKnee recognise_knee(const KneeMeshes& meshes, const RecogniseOptions& 
       find_femoral_frame(femur_clean.mesh, condyles, ends, tibia.frame.proximal);
   check_they_fit(femur, tibia, ends);
 
-  tell_side(knee, weigh_sides(femur, tibia, tibia_clean.mesh), options);
+  tell_side(knee, weigh_femur(femur), weigh_tibia(tibia, tibia_clean.mesh), options);
   const Vector3d origin = shift * knee.to_mm + femur.frame.origin;
   knee.femur = {in_file_frame(femur.frame, origin, knee.side), femoral_rule(femur), femur.width,
                 femur.shaft};

@@ -1,5 +1,6 @@
 #include "condyle/anatomy/shaft_line.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "condyle/anatomy/cross_section.h"
@@ -11,7 +12,8 @@ using Eigen::Vector3d;
 
 constexpr int kSections = 16;
 constexpr double kLeastArea = 150, kMostArea = 4500;  // of a shaft's section near a knee [mm²]
-constexpr double kShrink = 0.85;      // from section to section: less is the end of the bone
+constexpr std::size_t kAtCut = 2;
+constexpr double kShrink = 0.9;       // from section to section: less is the end of the bone
 constexpr double kMostOpening = 0.1;  // of the length of an outline
 
 bool is_shaft(const SectionLoop& loop) {
@@ -35,6 +37,10 @@ std::optional<ShaftLine> find_shaft_line(const TriangleMesh& mesh,
     area = loops.front().area;
     centers.push_back(loops.front().centroid);
   }
+  // Near a cut that is not at right angles sections are partial.
+  if (centers.size() <= kSections)
+    centers.resize(centers.size() - std::min<std::size_t>(centers.size(), kAtCut));
+  if (centers.size() < 2) return std::nullopt;
   const double length = step * (static_cast<double>(centers.size()) - 1);
   if (length < stretch.least) return std::nullopt;
   Vector3d sum = Vector3d::Zero();
