@@ -33,13 +33,15 @@ struct NewLigament {
 
 /// How the start pose came about.
 struct NewStart {
-  RigidTransform X_FT;                ///< of the tibia in the femur's frame; identity: as scanned
-  JointCoordinates scan;              ///< of the scan, in the new frames
-  double extended = 0;                ///< flexion taken away, to that of the template [rad]
-  double shifted = 0;                 ///< along the tibia, towards the femur positive [mm]
-  double tilted = 0;                  ///< adduction added so that both compartments touch [rad]
-  std::array<double, 2> gaps = {};    ///< medial and lateral, before [mm], negative: overlap
-  std::array<double, 2> offset = {};  ///< of each of two surfaces, in place of cartilage [mm]
+  RigidTransform X_FT;              ///< of the tibia in the femur's frame; identity: as scanned
+  JointCoordinates scan;            ///< of the scan, in the new frames
+  double extended = 0;              ///< flexion taken away, to that of the template [rad]
+  double shifted = 0;               ///< along the tibia, towards the femur positive [mm]
+  double tilted = 0;                ///< adduction added so that both compartments touch [rad]
+  std::array<double, 2> gaps = {};  ///< medial and lateral, before [mm], negative: overlap
+  std::array<double, 4> offset =
+      {};  ///< in place of cartilage: medial condyle and plateau, lateral
+           ///< condyle and plateau [mm]
 };
 
 struct NewKnee {

@@ -145,9 +145,8 @@ class SceneText {
     const std::vector<fs::path>& cartilage = knee_.files.cartilage;
     if (!cartilage.empty())
       add_mesh(cartilage[femoral ? 0 : static_cast<std::size_t>(tibial_file(compartment))]);
-    if (knee_.start.offset[compartment] > 0)
-      line("offset = {}                # half the gap between the bones, for cartilage",
-           number(knee_.start.offset[compartment]));
+    const double offset = knee_.start.offset[2 * compartment + (femoral ? 0 : 1)];
+    if (offset > 0) line("offset = {}                # in place of cartilage", number(offset));
   }
   [[nodiscard]] int tibial_file(std::size_t compartment) const {
     return knee_.files.cartilage.size() > 2 ? knee_.tibial_file[compartment] : 1;

@@ -12,6 +12,7 @@
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/specimen/start_warnings.h"
+#include "condyle/surface/offset_patch.h"
 
 namespace condyle {
 namespace {
@@ -28,11 +29,12 @@ constexpr double kMostShift = 1.5;        // of a scan with cartilage, beyond it
 constexpr double kMostCartilage = 4;      // that an offset stands for [mm]
 constexpr double kLeastCartilage = 0.15;  // [mm]
 
+using Offsets = std::array<double, 4>;
+
 /// Gaps of both compartments at a pose of the tibia, with the offsets taken off.
 class Gaps {
  public:
-  Gaps(Scene scene, const std::array<double, 2>& offset)
-      : scene_(std::move(scene)), surfaces_(fit_surfaces(scene_)), offset_(offset) {}
+  explicit Gaps(Scene scene) : scene_(std::move(scene)), surfaces_(fit_surfaces(scene_)) {}
 
   [[nodiscard]] Vector2d at(const RigidTransform& X_FT) {
     BodyDescription& tibia = scene_.bodies[static_cast<std::size_t>(scene_.moving_body())];
@@ -41,27 +43,38 @@ class Gaps {
     Vector2d gaps;
     for (int c = 0; c < 2; ++c) {
       const auto k = static_cast<std::size_t>(c);
-      gaps[c] = start_gap(scene_, surfaces_, scene_.contacts[k]) - 2 * offset_[k];
+      gaps[c] =
+          start_gap(scene_, surfaces_, scene_.contacts[k]) - offset_[2 * k] - offset_[2 * k + 1];
     }
     return gaps;
   }
   [[nodiscard]] const Scene& scene() const { return scene_; }
-  void set_offset(const std::array<double, 2>& offset) { offset_ = offset; }
+  /// That a surface can be moved out without coming near to folding over [mm].
+  [[nodiscard]] double most_offset(std::size_t surface) const {
+    const auto* patch = dynamic_cast<const Patch*>(surfaces_[surface].surface.get());
+    return patch == nullptr ? 0 : kOfHollow * sharpest_hollow(*patch).radius;
+  }
+  void set_offset(const Offsets& offset) { offset_ = offset; }
 
  private:
+  static constexpr double kOfHollow = 0.7;
   Scene scene_;
   std::vector<FittedSurface> surfaces_;
-  std::array<double, 2> offset_;
+  Offsets offset_{};
 };
 
-/// Half of each gap between bare bones is taken for cartilage; what cannot be cartilage is 2 mm.
-std::array<double, 2> cartilage_offsets(const Vector2d& gaps) {
-  std::array<double, 2> offset{};
-  for (int c = 0; c < 2; ++c) {
-    const double half = gaps[c] / 2;
-    offset[static_cast<std::size_t>(c)] = !(half > kLeastCartilage) ? 0
-                                          : half > kMostCartilage   ? 2
-                                                                    : std::round(20 * half) / 20;
+/// Half of each gap between bare bones is taken for each cartilage, what cannot be cartilage for 2
+/// mm; what a hollow of one surface has no room for the other one takes.
+Offsets cartilage_offsets(const Gaps& gaps, const Vector2d& gap) {
+  Offsets offset{};
+  for (std::size_t c = 0; c < 2; ++c) {
+    const double half = gap[static_cast<int>(c)] / 2;
+    if (!(half > kLeastCartilage)) continue;
+    const double wanted = half > kMostCartilage ? 2 : half;
+    const double plateau = std::min(wanted, gaps.most_offset(2 * c + 1));
+    const double condyle = std::min(2 * wanted - plateau, gaps.most_offset(2 * c));
+    offset[2 * c] = std::floor(20 * condyle) / 20;
+    offset[2 * c + 1] = std::floor(20 * plateau) / 20;
   }
   return offset;
 }
@@ -122,11 +135,12 @@ void doubt_start(NewKnee& knee, bool bare, const Vector2d& after) {
           fmt::format("a gap of {:.1f} mm stays between the {} surfaces at the start pose",
                       after[static_cast<int>(c)], side));
   }
-  if (bare && start.offset[0] + start.offset[1] > 0)
-    knee.doubts.push_back(fmt::format(
-        "no cartilage was given: the bones' surfaces are moved out by half their gap, {:.2f} mm "
-        "medially and {:.2f} mm laterally",
-        start.offset[0], start.offset[1]));
+  if (bare && *std::max_element(start.offset.begin(), start.offset.end()) > 0)
+    knee.doubts.push_back(
+        fmt::format("no cartilage was given: the bones' surfaces are moved out by {:.2f} (femur) "
+                    "and {:.2f} mm (tibia) medially, "
+                    "{:.2f} and {:.2f} mm laterally, so that they meet",
+                    start.offset[0], start.offset[1], start.offset[2], start.offset[3]));
   else if (std::abs(start.shifted) > kMostShift)
     knee.doubts.push_back(fmt::format("the bones are brought {} by {:.1f} mm",
                                       start.shifted > 0 ? "together" : "apart",
@@ -141,7 +155,7 @@ void doubt_start(NewKnee& knee, bool bare, const Vector2d& after) {
 
 void find_start(NewKnee& knee) {
   const std::filesystem::path nowhere = std::filesystem::current_path() / "new.toml";
-  Gaps gaps(parse_scene(new_scene_text(knee, nowhere), nowhere), {});
+  Gaps gaps(parse_scene(new_scene_text(knee, nowhere), nowhere));
   const JointFrames frames = joint_frames(gaps.scene());
   NewStart& start = knee.start;
   start.scan = joint_coordinates(frames, RigidTransform{});
@@ -154,7 +168,7 @@ void find_start(NewKnee& knee) {
   const Vector2d before = gaps.at(pose_from_joint_coordinates(frames, q));
   start.gaps = {before[0], before[1]};
   const bool bare = knee.files.cartilage.empty();
-  if (bare) gaps.set_offset(start.offset = cartilage_offsets(before));
+  if (bare) gaps.set_offset(start.offset = cartilage_offsets(gaps, before));
   const Vector2d step = close_gaps(gaps, frames, q);
   start.shifted = -step.x();
   start.tilted = step.y();

@@ -41,21 +41,26 @@ void on_grid(const SplineGrid& grid, double shift, const At& at) {
       at(grid.u_min + (i + shift) * step_u, grid.v_min + (j + shift) * step_v);
 }
 
-void refuse_cusp(const SplineGrid& grid, const Patch& patch, double offset) {
+/// The sharpest hollow of the known part.
+Hollow sharpest_hollow(const SplineGrid& grid, const Patch& patch) {
+  Hollow sharpest;
   double greatest = 0;
-  Vector3d where = Vector3d::Zero();
   on_grid(grid, 0.5, [&](double u, double v) {
     if (patch.edge_distance({u, v, 0}) < 0) return;
     const SurfacePoint at = patch.evaluate({u, v, 0});
     const double curvature = principal_curvatures(at)[1];
-    if (curvature > greatest) greatest = curvature, where = at.c;
+    if (curvature > greatest) greatest = curvature, sharpest = {1 / curvature, at.c};
   });
-  if (greatest * offset < 1) return;
+  return sharpest;
+}
+
+void refuse_cusp(const Hollow& hollow, double offset) {
+  if (offset < hollow.radius) return;
   throw InputError(
       fmt::format("offset of {:.4g} mm, expected less than the least radius of its hollows, {:.2f} "
                   "mm at ({:.1f}, "
                   "{:.1f}, {:.1f}) mm: beyond it the moved surface folds over",
-                  offset, 1 / greatest, where.x(), where.y(), where.z()));
+                  offset, hollow.radius, hollow.at.x(), hollow.at.y(), hollow.at.z()));
 }
 
 std::vector<DataPoint> moved_points(const SplineGrid& grid, const Patch& patch, double offset) {
@@ -101,10 +106,12 @@ void measure(const SplineGrid& grid, const Patch& patch, double offset, OffsetPa
 
 }  // namespace
 
+Hollow sharpest_hollow(const Patch& patch) { return sharpest_hollow(halved(patch.data()), patch); }
+
 OffsetPatch offset_patch(const ArticularRegion& region, const PatchFit& fit, double offset) {
   const Patch patch(fit.patch);
   const SplineGrid grid = halved(fit.patch);
-  refuse_cusp(grid, patch, offset);
+  refuse_cusp(sharpest_hollow(grid, patch), offset);
   OffsetPatch result;
   result.patch =
       patch_data(grid, solve_fit(assemble_data(grid, moved_points(grid, patch, offset)),

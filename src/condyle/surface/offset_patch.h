@@ -7,7 +7,10 @@
 /// far apart is laid through a dense grid of its points at fixed parameters. Beyond the least
 /// radius of the hollows of a surface its offset folds over (a cusp), which is refused.
 
+#include <limits>
+
 #include "condyle/surface/fit_patch.h"
+#include "condyle/surface/patch.h"
 
 namespace condyle {
 
@@ -16,6 +19,13 @@ struct OffsetPatch {
   TriangleMesh region;      ///< the mesh of the region, each vertex moved as the patch below it
   double rms = 0, max = 0;  ///< distance of the patch from the offset surface, where known [mm]
 };
+
+/// Where the known part of a patch is hollow with the least radius [mm]: an offset has to be less.
+struct Hollow {
+  double radius = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();
+};
+[[nodiscard]] Hollow sharpest_hollow(const Patch& patch);
 
 /// `offset` > 0 [mm]. Throws InputError (without the name of the surface) where it reaches the
 /// least radius of curvature of a hollow of the known part.
