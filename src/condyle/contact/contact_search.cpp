@@ -125,21 +125,36 @@ void ContactSearch::reset() {
   nearest_reach_ = nearest_merge_ = -1;
 }
 
-/// No neighbour is lower for certain. One that was passed over is not, and one that faces nothing
-/// known stands for nothing, however low it is.
+/// By how much a neighbour may be above a sample; infinite for one that was passed over or is too far
+/// away.
+double ContactSearch::height_over(int sample, int neighbour) const {
+  const Seen &own = seen(sample), &there = seen(neighbour);
+  if (there.stamp != now_) return kInfinity;
+  const double way = (sampled().sample(neighbour).c - sampled().sample(sample).c).squaredNorm();
+  if (way >= kNeighbour * kNeighbour * spacing_ * spacing_) return kInfinity;
+  const double above = there.gap + there.error - (own.gap - own.error);
+  return above == 0 && neighbour > sample ? kInfinity : above;
+}
+
+/// No neighbour is lower for certain. One that faces nothing known stands for nothing, however low it
+/// is.
 bool ContactSearch::is_lowest_of_neighbours(int sample) const {
-  const Seen& own = seen(sample);
-  const Eigen::Vector3d& c = sampled().sample(sample).c;
-  for (const int other : sampled().neighbours(sample)) {
-    if (other < 0) break;
-    const Seen& neighbour = seen(other);
-    if (neighbour.stamp != now_) continue;
-    const double above = neighbour.gap + neighbour.error - (own.gap - own.error);
-    if (above > 0 || (above == 0 && other > sample)) continue;
-    if ((sampled().sample(other).c - c).squaredNorm() <
-            kNeighbour * kNeighbour * spacing_ * spacing_ &&
-        faces_known_part(other))
-      return false;
+  for (const int neighbour : sampled().neighbours(sample)) {
+    if (neighbour < 0) break;
+    if (seen(neighbour).faces && height_over(sample, neighbour) <= 0) return false;
+  }
+  return true;
+}
+
+/// The same for a measured sample; neighbours that may be lower are measured.
+bool ContactSearch::is_lowest(int sample, const RigidTransform& X_from_to) {
+  if (!is_lowest_of_neighbours(sample)) return false;
+  for (const int neighbour : sampled().neighbours(sample)) {
+    if (neighbour < 0) break;
+    if (seen(neighbour).measured || height_over(sample, neighbour) > 2 * seen(neighbour).error)
+      continue;
+    measure(neighbour, X_from_to);
+    if (seen(neighbour).faces && height_over(sample, neighbour) <= 0) return false;
   }
   return true;
 }
@@ -186,7 +201,7 @@ void ContactSearch::add_minimum(int sample,
       refine(sample, X_BA, cover_->lines ? kInfinity : cutoff);
   if (!minimum) return;
   // A sample stands for a minimum of its own only where it is the lowest and faces what is known.
-  if (!minimum->refined && !(lowest && faces_known_part(sample))) return;
+  if (!minimum->refined && !(lowest && seen(sample).faces)) return;
   found_.push_back(sampled_on_A_ ? minimum->point_B : X_BA.inverse() * minimum->point_B);
   if (cover_->lines && add_line_ends(*on_B_, *on_A_, X_BA, *minimum, spacing_, cutoff, minima))
     return;
@@ -220,13 +235,6 @@ void ContactSearch::add_rims(const RigidTransform& X_BA,
     minimum.gap = rim->gap;
     minima.push_back(minimum);
   }
-}
-
-/// For certain, where its closest point was not found yet.
-bool ContactSearch::faces_known_part(int sample) const {
-  const Closest& there = closest(sample);
-  if (seen(sample).measured) return other().surface().edge_distance(there.place) >= 0;
-  return other().edge_distance(there.near) > 2 * other().cell_radius(there.near);
 }
 
 /// A measured sample whose closest point lies less than a cell beyond the edge may stand for a
@@ -295,7 +303,7 @@ void ContactSearch::find(const RigidTransform& X_BA,
     found_.push_back(sampled_on_A_ ? contact.on_B : contact.on_A);
   gather_lowest(X);
   for (const int sample : lowest_)
-    if (nearly_faces_known_part(sample) && is_lowest_of_neighbours(sample))
+    if (nearly_faces_known_part(sample) && is_lowest(sample, X))
       add_minimum(sample, X_BA, cutoff, /*lowest=*/true, minima);
   for (const int sample : near_) {
     if (seen(sample).lower > 0) continue;

@@ -98,6 +98,7 @@ class ContactSearch {
     double lower = 0;       ///< bound of the gap in its cell
     int stamp = -1;         ///< pose at which it was computed
     bool measured = false;  ///< to the closest point, not by a quadric nearby
+    bool faces = false;     ///< for certain what is known of the other surface
   };
   /// Samples beside a known contact, and how far it is from them.
   struct NearContact {
@@ -153,8 +154,9 @@ class ContactSearch {
   [[nodiscard]] bool is_beside(const Eigen::Vector3d& p, double r, const Closest& closest) const;
   [[nodiscard]] Facing face_closest(const Eigen::Vector3d& p, double r, Closest& closest);
   void find_closest(const Eigen::Vector3d& p, double close, Closest& closest) const;
+  [[nodiscard]] double height_over(int sample, int neighbour) const;
   [[nodiscard]] bool is_lowest_of_neighbours(int sample) const;
-  [[nodiscard]] bool faces_known_part(int sample) const;
+  [[nodiscard]] bool is_lowest(int sample, const RigidTransform& X_from_to);
   [[nodiscard]] bool nearly_faces_known_part(int sample) const;
   [[nodiscard]] bool leads_elsewhere(int sample, const RigidTransform& X_BA, double cutoff) const;
   void add_rims(const RigidTransform& X_BA, double cutoff, std::vector<GapMinimum>& minima) const;

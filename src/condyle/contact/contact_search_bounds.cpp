@@ -21,7 +21,9 @@ constexpr double kWay = 1.05;       // a distance changes by no more than the wa
 constexpr double kLeastRoom = 0.5;  // of 1 - gap × curvature, where closest points are unique
 constexpr double kCell = 1.5;    // how far beside a sample its quadric is used [radii of its cell]
 constexpr double kBeside = 0.3;  // of a radius: how far from its origin a quadric serves as well
-constexpr double kClose = 0.2;   // from a closest point, where its quadric is used [spacings]
+constexpr double kToEdge =
+    4.0 / 3;                    // of the way beside a sample: that to the closest point at most
+constexpr double kClose = 0.2;  // from a closest point, where its quadric is used [spacings]
 
 /// Signed distance of the point from the quadric.
 double gap_over(const Facing& facing) {
@@ -283,6 +285,7 @@ bool ContactSearch::visit(int index, const RigidTransform& X_from_to, double cut
 
 /// The gap at a sample, and how low it may be in its cell, by the quadric of the nearest sample of
 /// the other surface: that near `near`, which is then its own.
+CONDYLE_FMA_CLONE
 void ContactSearch::estimate(int sample,
                              int& near,
                              const RigidTransform& X_from_to,
@@ -293,12 +296,18 @@ void ContactSearch::estimate(int sample,
   Closest& there = closest(sample);
   Facing facing;
   if (!other().bends_evenly() && other().size() > 0) {
-    there.near = other().nearest(p, near >= 0 ? near : there.near);
+    there.near = other().nearest(p, other().nearer(p, near, there.near));
     if (there.near < 0) return;  // beyond the edge of the other surface
     near = there.near;
     facing = facing_cell(other(), p, there.near);
     const double cell = kCell * other().cell_radius(there.near);
-    if (facing.beside.squaredNorm() > cell * cell) facing.at = nullptr;
+    const double beside = facing.beside.squaredNorm();
+    if (beside > cell * cell) {
+      const double far =
+          cutoff + kWay * r + other().cell_radius(there.near) + kBeyondEdge * spacing_;
+      if (facing.along > 0 && beside + facing.along * facing.along > far * far) return;
+      facing.at = nullptr;
+    }
   }
   Seen& now = seen(sample);
   now.measured = !facing.at;
@@ -306,6 +315,8 @@ void ContactSearch::estimate(int sample,
   if (now.measured) facing = face_closest(p, r, there);
   now.gap = gap_over(facing);
   now.error = facing.error;
+  now.faces = now.measured ? other().surface().edge_distance(there.place) >= 0
+                           : other().edge_distance(there.near) > kToEdge * facing.beside.norm();
   now.lower = bound_of_cell(facing, own, X_from_to.R, r, sampled().cell_change(sample), cutoff);
 }
 
@@ -313,7 +324,9 @@ void ContactSearch::estimate(int sample,
 void ContactSearch::measure(int sample, const RigidTransform& X_from_to) {
   Seen& now = seen(sample);
   if (now.measured) return;
-  now.gap = gap_over(face_closest(X_from_to * sampled().sample(sample).c, 0, closest(sample)));
+  Closest& there = closest(sample);
+  now.gap = gap_over(face_closest(X_from_to * sampled().sample(sample).c, 0, there));
+  now.faces = other().surface().edge_distance(there.place) >= 0;
   now.error = 0;
   now.measured = true;
 }

@@ -10,6 +10,7 @@
 
 #include "condyle/contact/curvature_tensor.h"
 #include "condyle/contact/neighbour_grid.h"
+#include "condyle/math/simd.h"
 
 namespace condyle {
 namespace {
@@ -148,6 +149,7 @@ void SurfaceCover::find_nearest(int index, const Eigen::Vector3d& point, Candida
     if (way < 0 || way * way < nearest.square) find_nearest(child, point, nearest);
 }
 
+CONDYLE_FMA_CLONE
 int SurfaceCover::nearest(const Eigen::Vector3d& point, int start) const {
   if (cells_.empty()) return -1;
   const auto beside = [&](int i) {

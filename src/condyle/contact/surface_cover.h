@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -67,6 +68,14 @@ class SurfaceCover {
   /// from the sample `start` (-1: from any); -1 where none is near it beside its normal: beyond the
   /// samples.
   [[nodiscard]] int nearest(const Eigen::Vector3d& point, int start) const;
+
+  /// Of two samples the nearer one; the other where one is -1.
+  [[nodiscard]] int nearer(const Eigen::Vector3d& point, int one, int another) const {
+    if (one < 0 || another < 0 || one == another) return std::max(one, another);
+    return (sample(one).c - point).squaredNorm() < (sample(another).c - point).squaredNorm()
+               ? one
+               : another;
+  }
 
   /// All cells; samples at an edge stand for what lies between them and the edge as well.
   [[nodiscard]] const CellColumns& columns() const { return columns_; }
