@@ -185,12 +185,23 @@ Descent::Constraint Descent::constrain(int pair,
   return constraint;
 }
 
+/// What the next step must not pass through. It is at most as long as the reach may grow, which it
+/// does beyond the longest step only where nothing is near.
 void Descent::gather(const RigidTransform& X, std::vector<Constraint>& constraints) {
+  const double L = model_.length, grown = kGrow * reach_, longest = options_.longest_step * L;
+  const double ahead = kLookAhead * std::max(kNewtonReach * L, grown);
+  if (reach_ <= longest && longest < grown) {
+    gather_within(kLookAhead * longest, X, constraints);
+    if (!constraints.empty()) return;
+  }
+  gather_within(ahead, X, constraints);
+}
+
+void Descent::gather_within(double ahead,
+                            const RigidTransform& X,
+                            std::vector<Constraint>& constraints) {
   constraints.clear();
   const double L = model_.length;
-  // The next step is at most as much longer as the reach may grow, and must not pass through
-  // anything.
-  const double ahead = kLookAhead * std::max(kNewtonReach * L, kGrow * reach_);
   for (int p = 0; p < static_cast<int>(model_.pairs.size()); ++p) {
     const ContactMode mode = model_.pairs[p].mode;
     if (mode == ContactMode::kOpen) continue;

@@ -87,6 +87,7 @@ class Descent {
   bool start_anew();
   bool iterate(const Accept& accept, DescentReport& report);
   void gather(const RigidTransform& X, std::vector<Constraint>& constraints);
+  void gather_within(double ahead, const RigidTransform& X, std::vector<Constraint>& constraints);
   void add_memory(int pair,
                   std::size_t first,
                   const RigidTransform& X,
