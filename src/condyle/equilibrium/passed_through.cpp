@@ -17,10 +17,35 @@ struct Gaps {
   std::vector<double> all;     ///< beyond an edge from the surface as it goes on there
 };
 
+/// Which samples are farther than that from all samples of the other surface: the others are no
+/// deeper behind it.
 template <typename Samples>
-void add_gaps(const Samples& samples, const RigidTransform& X, const Surface& other, Gaps& gaps) {
+class FarFrom {
+ public:
+  FarFrom(const Samples& others, double far) : others_(others), square_(far * far) {}
+  bool operator()(const Eigen::Vector3d& p) {
+    const auto near = [&](const auto& other) { return (other.c - p).squaredNorm() < square_; };
+    if (last_ < others_.size() && near(others_[last_])) return false;
+    const auto first = std::find_if(others_.begin(), others_.end(), near);
+    last_ = static_cast<std::size_t>(first - others_.begin());
+    return first == others_.end();
+  }
+
+ private:
+  const Samples& others_;
+  double square_;
+  std::size_t last_ = 0;  ///< that was near
+};
+
+template <typename Samples, typename Wanted>
+void add_gaps(const Samples& samples,
+              const RigidTransform& X,
+              const Surface& other,
+              Wanted wanted,
+              Gaps& gaps) {
   for (const auto& sample : samples) {
     const Eigen::Vector3d p = X * sample.c;
+    if (!wanted(p)) continue;
     const Place closest = other.closest(p, other.seed(p));
     const SurfacePoint at = other.evaluate_frame(closest);
     const double gap = at.n.dot(p - at.c);
@@ -56,11 +81,22 @@ PassedThrough::PassedThrough(const ContactPair& pair, double L)
   samples_A_ = sample(*on_A_);
 }
 
+/// Do enough samples lie deep enough for `depth`?
+bool PassedThrough::may_be_deep(const RigidTransform& X_BA) const {
+  const double deep = kDeep * L_;
+  Gaps far;
+  add_gaps(samples_A_, X_BA, *on_B_, FarFrom(samples_B_, deep), far);
+  add_gaps(samples_B_, X_BA.inverse(), *on_A_, FarFrom(samples_A_, deep), far);
+  return std::count_if(far.all.begin(), far.all.end(), [&](double gap) { return gap <= -deep; }) >=
+         static_cast<std::ptrdiff_t>(kFew);
+}
+
 std::optional<double> PassedThrough::depth(const RigidTransform& X_BA) const {
+  if (!may_be_deep(X_BA)) return std::nullopt;
+  const auto any = [](const Eigen::Vector3d&) { return true; };
   Gaps gaps;
-  add_gaps(samples_A_, X_BA, *on_B_, gaps);
-  add_gaps(samples_B_, X_BA.inverse(), *on_A_, gaps);
-  if (gaps.all.size() < kFew) return std::nullopt;
+  add_gaps(samples_A_, X_BA, *on_B_, any, gaps);
+  add_gaps(samples_B_, X_BA.inverse(), *on_A_, any, gaps);
   const double gap = low(gaps.facing.size() < kFew ? gaps.all : gaps.facing);
   if (gap > -kDeep * L_) return std::nullopt;
   return -gap;

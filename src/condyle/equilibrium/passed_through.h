@@ -39,6 +39,7 @@ class PassedThrough {
   struct Sample {
     Eigen::Vector3d c, n;  ///< in its body's frame
   };
+  [[nodiscard]] bool may_be_deep(const RigidTransform& X_BA) const;
   [[nodiscard]] bool moved_far(const RigidTransform& X_BA) const;
 
   const Surface* on_B_;
