@@ -3,7 +3,7 @@
 /// What two meshes are where they are no knee, in one line each.
 
 #include "condyle/anatomy/femoral_frame.h"
-#include "condyle/anatomy/recognise_knee.h"
+#include "condyle/anatomy/knee_meshes.h"
 #include "condyle/anatomy/tibial_frame.h"
 
 namespace condyle {

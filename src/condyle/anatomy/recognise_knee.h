@@ -7,19 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "condyle/mesh/triangle_mesh.h"
+#include "condyle/anatomy/knee_meshes.h"
 #include "condyle/scene/scene.h"
 #include "condyle/surface/condylar_axis.h"
 
 namespace condyle {
-
-/// Meshes as their files have them, cleaned, all four in one frame and one unit. Bones may be whole,
-/// cut, or sheets of the articular end alone; a fibula may be one with the tibia.
-struct KneeMeshes {
-  TriangleMesh femur, tibia;
-  std::optional<TriangleMesh> femoral_cartilage,
-      tibial_cartilage;  ///< sheets or closed slabs; medial and lateral in one mesh
-};
 
 struct RecogniseOptions {
   std::optional<double> to_mm;  ///< of the files' unit; absent: told from the size

@@ -34,8 +34,10 @@ TibialShape find_tibial_frame(CleanMesh& tibia, const KneeEnds& ends, const Vect
   BoneFrame& frame = shape.frame;
   frame.origin = plateau.middle;
   frame.lateral = plateau.halves;
-  const Vector3d forward = plateau.normal.cross(frame.lateral);
-  frame.proximal = plateau.normal * std::cos(kMeanSlope) + forward * std::sin(kMeanSlope);
+  const Vector3d forward = plateau.normal.cross(frame.lateral).normalized();
+  const Vector3d upward =
+      frame.lateral.cross(forward);  // the normal, but at right angles to lateral
+  frame.proximal = upward * std::cos(kMeanSlope) + forward * std::sin(kMeanSlope);
   const double w = plateau.width;
   for (int iteration = 0; iteration < 4; ++iteration) {
     const auto line = find_shaft_line(tibia.mesh, frame.origin, -frame.proximal,
