@@ -24,47 +24,49 @@ constexpr std::size_t kLevels = kCells.size();
 class Lattices {
  public:
   explicit Lattices(const ContactPair& pair) : on_B(pair.on_B), on_A(pair.on_A) {
-    if (of_A(0, false) == nullptr && of_B(0, false) == nullptr)
+    if (of_A(0) == nullptr && of_B(0) == nullptr)
       throw std::invalid_argument("contact \"" + pair.name +
                                   "\": a layer needs bounds of one of its surfaces at least");
   }
 
   /// Null for a surface without points.
-  [[nodiscard]] const LayerLattice* of_A(std::size_t level, bool shifted) const {
-    return lattice(*on_A, of_A_[2 * level + shifted], level, shifted);
+  [[nodiscard]] const LayerLattice* of_A(std::size_t level) const {
+    return lattice(*on_A, of_A_[level], level);
   }
-  [[nodiscard]] const LayerLattice* of_B(std::size_t level, bool shifted) const {
-    return lattice(*on_B, of_B_[2 * level + shifted], level, shifted);
+  [[nodiscard]] const LayerLattice* of_B(std::size_t level) const {
+    return lattice(*on_B, of_B_[level], level);
+  }
+  /// Of lattices that have points.
+  [[nodiscard]] const LayerCorners& corners_of(bool A, std::size_t level) const {
+    Entry& entry = A ? of_A_[level] : of_B_[level];
+    std::call_once(entry.corners_once, [&] {
+      entry.corners = layer_corners(A ? *on_A : *on_B, kCells[level], entry.lattice);
+    });
+    return entry.corners;
   }
 
   const std::shared_ptr<const Surface> on_B, on_A;
 
  private:
   struct Entry {
-    std::once_flag once;
+    std::once_flag once, corners_once;
     LayerLattice lattice;
+    LayerCorners corners;
   };
-  static const LayerLattice* lattice(const Surface& surface,
-                                     Entry& entry,
-                                     std::size_t level,
-                                     bool shifted) {
-    std::call_once(entry.once,
-                   [&] { entry.lattice = layer_lattice(surface, kCells[level], shifted); });
+  static const LayerLattice* lattice(const Surface& surface, Entry& entry, std::size_t level) {
+    std::call_once(entry.once, [&] { entry.lattice = layer_lattice(surface, kCells[level]); });
     return entry.lattice.x.empty() ? nullptr : &entry.lattice;
   }
 
-  mutable std::array<Entry, 2 * kLevels> of_A_, of_B_;
+  mutable std::array<Entry, kLevels> of_A_, of_B_;
 };
 
 /// Both sides on one lattice.
 class BothSides {
  public:
-  BothSides(const Lattices& lattices, std::size_t level, bool shifted) {
-    const ClosestAccuracy accuracy = shifted ? ClosestAccuracy::kEstimate : ClosestAccuracy::kExact;
-    if (const LayerLattice* points = lattices.of_A(level, shifted))
-      sides_.emplace_back(*points, true, *lattices.on_B, accuracy);
-    if (const LayerLattice* points = lattices.of_B(level, shifted))
-      sides_.emplace_back(*points, false, *lattices.on_A, accuracy);
+  BothSides(const Lattices& lattices, std::size_t level) : lattices_(lattices), level_(level) {
+    if (const LayerLattice* points = lattices.of_A(level)) add(*points, true, *lattices.on_B);
+    if (const LayerLattice* points = lattices.of_B(level)) add(*points, false, *lattices.on_A);
   }
 
   void reset() {
@@ -84,6 +86,13 @@ class BothSides {
     for (LayerSide& side : sides_) force += side.add_to(X, law, factor * share(), wrench);
     return force;
   }
+  /// What the corners of the lattices' cells would carry.
+  CornerForce at_corners(const RigidTransform& X, const LayerLaw& law) {
+    CornerForce all;
+    for (std::size_t i = 0; i < sides_.size(); ++i)
+      sides_[i].add_to(X, law, share(), lattices_.corners_of(of_A_[i], level_), all);
+    return all;
+  }
   /// How many points are pressed.
   std::size_t pressed(const RigidTransform& X) {
     std::size_t points = 0;
@@ -99,8 +108,15 @@ class BothSides {
 
  private:
   [[nodiscard]] double share() const { return 1 / count(); }
+  void add(const LayerLattice& points, bool of_A, const Surface& into) {
+    sides_.emplace_back(points, of_A, into);
+    of_A_.push_back(of_A);
+  }
 
+  const Lattices& lattices_;
+  std::size_t level_;
   std::vector<LayerSide> sides_;
+  std::vector<bool> of_A_;
 };
 
 class LayerContact final : public ContactPotential {
@@ -128,7 +144,7 @@ class LayerContact final : public ContactPotential {
     constexpr double kEnough = 8;  // points, to tell those of other lattices
     level_ = 0;
     for (;;) {
-      const double points = static_cast<double>(sides(false).pressed(X_BA)) / sides(false).count();
+      const double points = static_cast<double>(sides().pressed(X_BA)) / sides().count();
       const double finer = std::sqrt(fewest_points(options_.tolerance) / points);
       if (level_ + 1 == kLevels || points == 0 || !(finer > 1)) break;
       level_ = points < kEnough ? level_ + 1 : level_of(finer * kCells[level_]);
@@ -154,19 +170,19 @@ class LayerContact final : public ContactPotential {
   }
 
   double add_to(const RigidTransform& X_BA, Wrench& wrench) override {
-    return sides(false).add_to(X_BA, law_, factor_, wrench);
+    return sides().add_to(X_BA, law_, factor_, wrench);
   }
 
   double energy(const RigidTransform& X_BA) override {
-    return sides(false).sums(X_BA, law_, factor_).energy;
+    return sides().sums(X_BA, law_, factor_).energy;
   }
 
   std::optional<Objection> describe(const RigidTransform& X_BA, ContactResult& result) override;
 
  private:
-  BothSides& sides(bool shifted) {
-    std::optional<BothSides>& sides = sides_[2 * level_ + shifted];
-    if (!sides) sides.emplace(*lattices_, level_, shifted);
+  BothSides& sides() {
+    std::optional<BothSides>& sides = sides_[level_];
+    if (!sides) sides.emplace(*lattices_, level_);
     return *sides;
   }
   /// Of the force, relative. An error that goes along one direction of the lattice changes its sign
@@ -175,11 +191,12 @@ class LayerContact final : public ContactPotential {
   /// 0.15 N^(-5/4), 0.38 of all.
   [[nodiscard]] double lattice_error(const RigidTransform& X_BA) {
     constexpr double kUnseen = 0.15;
-    const LayerSums here = sides(false).sums(X_BA, law_), shifted = sides(true).sums(X_BA, law_);
+    const LayerSums here = sides().sums(X_BA, law_);
+    const CornerForce shifted = sides().at_corners(X_BA, law_);
     const double force = std::max(here.force, shifted.force);
     if (!(force > 0)) return 0;
     const double seen = 0.5 * (here.on_A - shifted.on_A).norm() / force;
-    const double points = std::max(1.0, here.points / sides(false).count());
+    const double points = std::max(1.0, here.points / sides().count());
     return std::hypot(seen, kUnseen * std::pow(points, -1.25));
   }
   /// Part of the force that an edge takes away.
@@ -209,14 +226,14 @@ class LayerContact final : public ContactPotential {
   LayerLaw law_;
   LayerOptions options_;
   Vector3d origin_;  ///< of the model's frame of B, in the file's [mm]
-  std::array<std::optional<BothSides>, 2 * kLevels> sides_;
+  std::array<std::optional<BothSides>, kLevels> sides_;
   std::size_t level_ = 0;
   double error_ = 0;
   double factor_ = 1;  ///< of the stiffness
 };
 
 std::optional<Objection> LayerContact::describe(const RigidTransform& X_BA, ContactResult& result) {
-  const LayerSums sums = sides(false).sums(X_BA, law_);
+  const LayerSums sums = sides().sums(X_BA, law_);
   result.closed = sums.force > 0;
   if (!result.closed) return std::nullopt;
   ContactPointResult point;
@@ -241,7 +258,7 @@ std::optional<Objection> LayerContact::describe(const RigidTransform& X_BA, Cont
                   .points = sums.points,
                   .force = sums.on_A,
                   .moment = sums.torque - X_BA.p.cross(sums.on_A)};
-  sides(false).add_pressures(X_BA, law_, result.pressures);
+  sides().add_pressures(X_BA, law_, result.pressures);
   return objection(sums);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "condyle/surface/exact_charts.h"
 
@@ -89,16 +90,22 @@ void close_block(std::size_t first, LayerLattice& lattice) {
 
 /// Cells of a rectangle in blocks of neighbours; `add` is told u, v and the size of each.
 template <typename Add>
-void add_blocks(
-    const Midpoints& u, const Midpoints& v, int per_span, LayerLattice& lattice, const Add& add) {
+void add_blocks(const Midpoints& u,
+                const Midpoints& v,
+                int chart,
+                int per_span,
+                LayerLattice& lattice,
+                const Add& add) {
   constexpr int kSpans = 1;  // of a block, in either direction
   const auto side = static_cast<std::size_t>(kSpans * per_span);
   for (std::size_t i0 = 0; i0 < u.t.size(); i0 += side)
     for (std::size_t j0 = 0; j0 < v.t.size(); j0 += side) {
       const std::size_t first = lattice.x.size();
       for (std::size_t i = i0; i < std::min(i0 + side, u.t.size()); ++i)
-        for (std::size_t j = j0; j < std::min(j0 + side, v.t.size()); ++j)
+        for (std::size_t j = j0; j < std::min(j0 + side, v.t.size()); ++j) {
           add(Eigen::Vector2d(u.t[i], v.t[j]), u.width[i] * v.width[j]);
+          lattice.cell.resize(lattice.x.size(), {chart, static_cast<int>(i), static_cast<int>(j)});
+        }
       close_block(first, lattice);
     }
 }
@@ -120,7 +127,7 @@ LayerLattice layer_lattice(const Patch& patch, int per_span, bool shifted, doubl
   const Midpoints u(breaks(data.knots_u, patch.u_min(), patch.u_max()), per_span, shifted),
       v(breaks(data.knots_v, patch.v_min(), patch.v_max()), per_span, shifted);
   LayerLattice lattice;
-  add_blocks(u, v, per_span, lattice, [&](const Eigen::Vector2d& place, double cell) {
+  add_blocks(u, v, 0, per_span, lattice, [&](const Eigen::Vector2d& place, double cell) {
     add_point(patch, place, cell, fade, lattice);
   });
   return lattice;
@@ -132,14 +139,35 @@ LayerLattice layer_lattice(const Surface& surface, int per_span, bool shifted) {
   LayerLattice lattice;
   const auto* exact = dynamic_cast<const ExactSurface*>(&surface);
   if (exact == nullptr) return lattice;
+  int index = 0;
   for (const SurfaceChart& chart : exact->charts()) {
     const Midpoints u(even_breaks(chart.u_min, chart.u_max), per_span, shifted),
         v(even_breaks(chart.v_min, chart.v_max), per_span, shifted);
-    add_blocks(u, v, per_span, lattice, [&](const Eigen::Vector2d& place, double cell) {
+    add_blocks(u, v, index++, per_span, lattice, [&](const Eigen::Vector2d& place, double cell) {
       add_point(*exact, chart.at(place.x(), place.y()), cell, lattice);
     });
   }
   return lattice;
+}
+
+LayerCorners layer_corners(const Surface& surface, int per_span, const LayerLattice& lattice) {
+  constexpr std::array<int, 4> kNone = {-1, -1, -1, -1};
+  LayerCorners corners;
+  corners.lattice = layer_lattice(surface, per_span, true);
+  std::map<std::array<int, 3>, int> corner_of;
+  for (const std::array<int, 3>& cell : corners.lattice.cell)
+    corner_of.emplace(cell, static_cast<int>(corner_of.size()));
+  corners.of_cell.assign(lattice.x.size(), kNone);
+  corners.around.assign(corners.lattice.x.size(), kNone);
+  for (std::size_t i = 0; i < lattice.x.size(); ++i)
+    for (int k = 0; k < 4; ++k) {
+      const auto [chart, row, column] = lattice.cell[i];
+      const auto corner = corner_of.find({chart, row + k / 2, column + k % 2});
+      if (corner == corner_of.end()) continue;
+      corners.of_cell[i][k] = corner->second;
+      corners.around[static_cast<std::size_t>(corner->second)][k] = static_cast<int>(i);
+    }
+  return corners;
 }
 
 }  // namespace condyle

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <vector>
 
 #include "condyle/surface/patch.h"
@@ -23,11 +24,20 @@ struct LayerBlock {
 
 /// Of one surface, in its body's frame.
 struct LayerLattice {
-  std::vector<Eigen::Vector3d> x, n;   ///< point [mm] and outward unit normal
-  std::vector<double> area;            ///< [mm²]
-  std::vector<double> faded;           ///< what the border took of it [mm²]
-  std::vector<Eigen::Vector2d> place;  ///< u, v of a patch
+  std::vector<Eigen::Vector3d> x, n;     ///< point [mm] and outward unit normal
+  std::vector<double> area;              ///< [mm²]
+  std::vector<double> faded;             ///< what the border took of it [mm²]
+  std::vector<Eigen::Vector2d> place;    ///< u, v of a patch
+  std::vector<std::array<int, 3>> cell;  ///< which: chart, row and column
   std::vector<LayerBlock> blocks;
+};
+
+/// The corners of a lattice's cells: the same lattice shifted by half a cell in both directions.
+/// Each point is named with those around it, -1 where there is none.
+struct LayerCorners {
+  LayerLattice lattice;
+  std::vector<std::array<int, 4>> of_cell;  ///< corners of each point of the lattice
+  std::vector<std::array<int, 4>> around;   ///< points of the lattice around each corner
 };
 
 /// Width of the border at the edge of the known part over which areas fade to nothing [mm]: a hard
@@ -35,7 +45,7 @@ struct LayerLattice {
 inline constexpr double kFade = 1;
 
 /// Of `per_span` x `per_span` cells in each knot span, those on the known part; `shifted`: by half
-/// a cell in both directions, for an estimate of the error. `fade`: width of the border [mm].
+/// a cell in both directions. `fade`: width of the border [mm].
 [[nodiscard]] LayerLattice layer_lattice(const Patch& patch,
                                          int per_span,
                                          bool shifted = false,
@@ -46,5 +56,10 @@ inline constexpr double kFade = 1;
 [[nodiscard]] LayerLattice layer_lattice(const Surface& surface,
                                          int per_span,
                                          bool shifted = false);
+
+/// The corners of a lattice of the surface.
+[[nodiscard]] LayerCorners layer_corners(const Surface& surface,
+                                         int per_span,
+                                         const LayerLattice& lattice);
 
 }  // namespace condyle

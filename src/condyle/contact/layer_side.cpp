@@ -28,25 +28,20 @@ constexpr double kStill = 1e-5;
 constexpr double kFollowed = 3e-6;
 
 /// Longest last step to any [mm].
-double longest_step(ClosestAccuracy accuracy) {
-  return accuracy == ClosestAccuracy::kExact ? 1e-7 : 5e-3;
-}
+constexpr double kFound = 1e-7;
 
 }  // namespace
 
-LayerSide::LayerSide(const LayerLattice& points,
-                     bool of_A,
-                     const Surface& into,
-                     ClosestAccuracy accuracy)
+LayerSide::LayerSide(const LayerLattice& points, bool of_A, const Surface& into)
     : points_(points),
       of_A_(of_A),
       into_(into),
       find_(into),
-      step_(longest_step(accuracy)),
       blocks_(points.blocks.size()),
       closest_(points.x.size()),
       block_bounds_(points.blocks.size()),
-      bounds_(points.x.size()) {
+      bounds_(points.x.size()),
+      is_pressed_(points.x.size(), 0) {
   pressed_.reserve(points.x.size());
 }
 
@@ -71,7 +66,7 @@ bool LayerSide::is_near(std::size_t block, const RigidTransform& X) {
       (closest.phi + v.norm() <= radius || closest.phi + closest.n.dot(v) < kSurely * radius))
     return true;
   if (closest.known)
-    find_.find(center, closest, step_, closest);
+    find_.find(center, closest, kFound, closest);
   else
     find_.find_anew(center, closest);
   block_bounds_[block] = PhiBound(closest);
@@ -83,9 +78,9 @@ void LayerSide::press(std::size_t point, const LayerClosestPoint& block, const R
   if (bounds_[point].is_clear(p, 0)) return;
   LayerClosestPoint& closest = closest_[point];
   if (!closest.known)
-    find_.find(p, block, step_, closest);
+    find_.find(p, block, kFound, closest);
   else if (!((p - closest.at).squaredNorm() < kStill * kStill))
-    find_.find(p, closest, std::max(step_, kFollowed), closest);
+    find_.find(p, closest, kFollowed, closest);
   bounds_[point] = PhiBound(closest);
   const Vector3d v = p - closest.at, Hv = closest.H * v;
   const double phi = closest.phi + closest.n.dot(v) + 0.5 * v.dot(Hv);
@@ -256,6 +251,58 @@ void LayerSide::add_pressures(const RigidTransform& X_BA,
     points.push_back({of_A_, points_.place[i], points_.x[i], law.at(-pressed.phi).pressure,
                       -pressed.phi, points_.area[i]});
   }
+}
+
+void LayerSide::add_corner(std::size_t corner,
+                           const RigidTransform& X,
+                           const LayerLaw& law,
+                           double share,
+                           const LayerCorners& corners,
+                           CornerForce& sums) const {
+  const Vector3d p = X * corners.lattice.x[corner];
+  double phi = 0, count = 0;
+  Vector3d n = Vector3d::Zero(), turn = Vector3d::Zero();
+  for (const int k : corners.around[corner]) {
+    if (k < 0 || is_pressed_[static_cast<std::size_t>(k)] == 0) continue;
+    const LayerClosestPoint& closest = closest_[static_cast<std::size_t>(k)];
+    const Vector3d v = p - closest.at, Hv = closest.H * v;
+    phi += closest.phi + closest.n.dot(v) + 0.5 * v.dot(Hv);
+    n += closest.n;
+    turn += Hv;
+    ++count;
+  }
+  if (!(phi < 0)) return;
+  // Between four points a cubic has the mean of their normals and half of the turns.
+  n = (n + (count == 4 ? 0.5 : 1) * turn) / count;
+  if (!(n.dot(X.R * corners.lattice.n[corner]) < kOpposed)) return;
+  const double force = share * corners.lattice.area[corner] * law.at(-phi / count).pressure;
+  sums.force += force;
+  sums.on_A += force * n;
+}
+
+void LayerSide::add_to(const RigidTransform& X_BA,
+                       const LayerLaw& law,
+                       double share,
+                       const LayerCorners& corners,
+                       CornerForce& sums) {
+  press_at(X_BA);
+  is_done_.resize(corners.lattice.x.size(), 0);
+  const RigidTransform X = of_A_ ? X_BA : X_BA.inverse();
+  CornerForce own;
+  for (const Pressed& pressed : pressed_) is_pressed_[pressed.point] = 1;
+  for (const Pressed& pressed : pressed_)
+    for (const int corner : corners.of_cell[pressed.point]) {
+      if (corner < 0 || is_done_[static_cast<std::size_t>(corner)] != 0) continue;
+      is_done_[static_cast<std::size_t>(corner)] = 1;
+      add_corner(static_cast<std::size_t>(corner), X, law, share, corners, own);
+    }
+  for (const Pressed& pressed : pressed_) {
+    is_pressed_[pressed.point] = 0;
+    for (const int corner : corners.of_cell[pressed.point])
+      if (corner >= 0) is_done_[static_cast<std::size_t>(corner)] = 0;
+  }
+  sums.force += own.force;
+  sums.on_A += of_A_ ? own.on_A : Vector3d(-(X_BA.R * own.on_A));
 }
 
 }  // namespace condyle

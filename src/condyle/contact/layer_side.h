@@ -48,10 +48,10 @@ struct LayerSums {
   [[nodiscard]] Eigen::Vector3d center_of_pressure() const { return moment / force; }
 };
 
-/// How exactly the closest points of points are wanted.
-enum class ClosestAccuracy {
-  kExact,    ///< to round-off, for whatever is solved
-  kEstimate  ///< to 1e-7 of the force, for an estimate of an error
+/// What the corners of the cells would carry in place of their points.
+struct CornerForce {
+  double force = 0;                                ///< Σ w p [N]
+  Eigen::Vector3d on_A = Eigen::Vector3d::Zero();  ///< ground frame [N]
 };
 
 /// Points of one body, pressed into a surface of the other. Keeps closest points from pose to pose,
@@ -59,10 +59,7 @@ enum class ClosestAccuracy {
 class LayerSide {
  public:
   /// Points of A pressed into B's surface, or the other way round. All is referred to.
-  LayerSide(const LayerLattice& points,
-            bool of_A,
-            const Surface& into,
-            ClosestAccuracy accuracy = ClosestAccuracy::kExact);
+  LayerSide(const LayerLattice& points, bool of_A, const Surface& into);
 
   /// As newly made. Allocates nothing.
   void reset();
@@ -73,6 +70,15 @@ class LayerSide {
   /// Adds `share` of the wrench on A; returns the sum of the forces' magnitudes [N]. Allocates
   /// nothing.
   double add_to(const RigidTransform& X_BA, const LayerLaw& law, double share, Wrench& wrench);
+
+  /// Adds `share` of what the corners of the points' cells would carry. Their closest points are
+  /// told from those of the pressed points around them by φ, n and H: between four of these the
+  /// errors are of fourth order. Allocates nothing once it was asked.
+  void add_to(const RigidTransform& X_BA,
+              const LayerLaw& law,
+              double share,
+              const LayerCorners& corners,
+              CornerForce& sums);
 
   /// How many points are pressed.
   [[nodiscard]] std::size_t pressed(const RigidTransform& X_BA);
@@ -93,15 +99,21 @@ class LayerSide {
   [[nodiscard]] bool is_near(std::size_t block, const RigidTransform& X);
   void press(std::size_t point, const LayerClosestPoint& block, const RigidTransform& X);
   void press_at(const RigidTransform& X_BA);
+  void add_corner(std::size_t corner,
+                  const RigidTransform& X,
+                  const LayerLaw& law,
+                  double share,
+                  const LayerCorners& corners,
+                  CornerForce& sums) const;
 
   const LayerLattice& points_;
   bool of_A_;
   const Surface& into_;
   LayerClosestPoints find_;
-  double step_;  ///< of the search for a closest point, the last one at most [mm]
   std::vector<LayerClosestPoint> blocks_, closest_;  ///< of the blocks' centres, and of the points
   std::vector<PhiBound> block_bounds_, bounds_;
-  std::vector<Pressed> pressed_;  ///< at X_, with room for all
+  std::vector<Pressed> pressed_;            ///< at X_, with room for all
+  std::vector<char> is_pressed_, is_done_;  ///< points and corners; all 0 between questions
   RigidTransform X_;
   bool is_at_ = false;  ///< X_
 };
