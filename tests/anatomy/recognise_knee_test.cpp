@@ -1,57 +1,36 @@
-/// Frames from the shape of two meshes: the phantom's are known by construction, those of a moved, mirrored or
-/// rescaled knee from the knee.
+/// Frames from the shape of two meshes: the phantom's are known by construction, those of a moved, mirrored, cut or
+/// roughened knee from the knee.
 
 #include "condyle/anatomy/recognise_knee.h"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <cmath>
-
-#include "condyle/input_error.h"
-#include "condyle/mesh_files/load_mesh.h"
+#include "anatomy/knee_variants.h"
+#include "condyle/anatomy/cross_section.h"
+#include "support/closed_shapes.h"
 
 namespace condyle {
 namespace {
 
 using Eigen::Vector3d;
+using testing::axes_apart;
+using testing::drawn_out;
+using testing::expect_frame;
+using testing::joined;
+using testing::kDegree;
+using testing::mapped;
+using testing::part;
+using testing::phantom;
+using testing::roughened;
 
-constexpr double kDegree = M_PI / 180;
-
-KneeMeshes phantom() {
-  const std::string folder = CONDYLE_SOURCE_DIR "/meshes/";
-  return {load_mesh(folder + "femur.stl", 1), load_mesh(folder + "tibia.stl", 1), {}, {}};
-}
-
-template <class Map>
-KneeMeshes mapped(KneeMeshes meshes, const Map& map) {
-  for (TriangleMesh* mesh : {&meshes.femur, &meshes.tibia})
-    for (Vector3d& p : mesh->vertices) p = map(p);
-  return meshes;
-}
-
-double angle(const Vector3d& a, const Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-void expect_frame(const BoneFrame& found,
-                  const BoneFrame& truth,
-                  double angle_tolerance,
-                  double tolerance) {
-  EXPECT_LT(angle(found.lateral, truth.lateral), angle_tolerance);
-  EXPECT_LT(angle(found.anterior, truth.anterior), angle_tolerance);
-  EXPECT_LT(angle(found.proximal, truth.proximal), angle_tolerance);
-  EXPECT_LT((found.origin - truth.origin).norm(), tolerance);
-}
-
-BoneFrame phantom_frame() {
-  BoneFrame frame;
-  frame.anterior = Vector3d::UnitX();
-  frame.proximal = Vector3d::UnitY();
-  frame.lateral = Vector3d::UnitZ();
-  return frame;
+void expect_as(const RecognisedKnee& found,
+               const RecognisedKnee& truth,
+               double degrees,
+               double mm) {
+  EXPECT_EQ(found.side, truth.side);
+  EXPECT_GT(found.side_confidence, 0.95);
+  expect_frame(found.femur.frame, truth.femur.frame, degrees, mm);
+  expect_frame(found.tibia.frame, truth.tibia.frame, degrees, mm);
 }
 
 }  // namespace
@@ -61,52 +40,122 @@ TEST(RecogniseKnee, FindsTheFramesThatThePhantomWasBuiltIn) {
   EXPECT_EQ(knee.to_mm, 1);
   EXPECT_EQ(knee.side, Side::kRight);
   EXPECT_GT(knee.side_confidence, 0.95);
-  expect_frame(knee.femur.frame, phantom_frame(), 3 * kDegree, 4);
-  expect_frame(knee.tibia.frame, phantom_frame(), 3 * kDegree, 4);
+  EXPECT_TRUE(knee.doubts.empty());
+  expect_frame(knee.femur.frame, testing::phantom_frame(), 3, 4);
+  expect_frame(knee.tibia.frame, testing::phantom_frame(), 3, 4);
 }
 
 // Turned anyhow, metres away, in another unit: frames move along.
 TEST(RecogniseKnee, MovesAndScalesWithTheMeshes) {
-  const KneeMeshes meshes = phantom();
-  const RecognisedKnee knee = recognise_knee(meshes);
-  const Eigen::Matrix3d R =
-      Eigen::AngleAxisd(2.1, Vector3d(0.3, -0.8, 0.5).normalized()).toRotationMatrix();
-  const Vector3d d(-3100, 1700, 4200);
+  const RecognisedKnee knee = recognise_knee(phantom());
+  const Eigen::Isometry3d X = Eigen::Translation3d(-3100, 1700, 4200) *
+                              Eigen::AngleAxisd(2.1, Vector3d(0.3, -0.8, 0.5).normalized());
   for (const double unit : {1.0, 10.0, 25.4, 1000.0}) {
     const RecognisedKnee moved = recognise_knee(
-        mapped(meshes, [&](const Vector3d& p) { return Vector3d((R * p + d) / unit); }));
+        mapped(phantom(), [&](const Vector3d& p) { return Vector3d(X * p / unit); }));
     EXPECT_EQ(moved.to_mm, unit);
     EXPECT_EQ(moved.side, knee.side);
-    for (const auto& [found, from] :
-         {std::pair(&moved.femur, &knee.femur), std::pair(&moved.tibia, &knee.tibia)}) {
-      BoneFrame carried = from->frame;
-      carried.origin = R * carried.origin + d;
-      carried.lateral = R * carried.lateral;
-      carried.anterior = R * carried.anterior;
-      carried.proximal = R * carried.proximal;
-      expect_frame(found->frame, carried, 1e-6, 1e-5);
-    }
+    expect_frame(moved.femur.frame, testing::moved(knee.femur.frame, X), 1e-5, 1e-5);
+    expect_frame(moved.tibia.frame, testing::moved(knee.tibia.frame, X), 1e-5, 1e-5);
   }
 }
 
 TEST(RecogniseKnee, AMirrorImageIsALeftKnee) {
-  const KneeMeshes meshes = phantom();
-  const RecognisedKnee knee = recognise_knee(meshes);
-  const RecognisedKnee mirrored = recognise_knee(
-      mapped(meshes, [](const Vector3d& p) { return Vector3d(p.x(), p.y(), -p.z()); }));
-  EXPECT_EQ(mirrored.side, Side::kLeft);
-  EXPECT_NEAR(mirrored.side_confidence, knee.side_confidence, 1e-6);
-  const Vector3d mirror(1, 1, -1);
-  BoneFrame truth = knee.femur.frame;
-  truth.origin.array() *= mirror.array();
-  truth.lateral.array() *= mirror.array();
-  truth.anterior.array() *= mirror.array();
-  truth.proximal.array() *= mirror.array();
-  expect_frame(mirrored.femur.frame, truth, 1e-6, 1e-5);
+  const RecognisedKnee knee = recognise_knee(phantom());
+  const Eigen::DiagonalMatrix<double, 3> mirror(1, 1, -1);
+  const RecognisedKnee left =
+      recognise_knee(mapped(phantom(), [&](const Vector3d& p) { return Vector3d(mirror * p); }));
+  EXPECT_EQ(left.side, Side::kLeft);
+  EXPECT_NEAR(left.side_confidence, knee.side_confidence, 1e-6);
+  for (const auto& [found, from] :
+       {std::pair(&left.femur, &knee.femur), std::pair(&left.tibia, &knee.tibia)}) {
+    const BoneFrame& f = from->frame;
+    expect_frame(found->frame,
+                 {.origin = mirror * f.origin,
+                  .lateral = mirror * f.lateral,
+                  .anterior = mirror * f.anterior,
+                  .proximal = mirror * f.proximal},
+                 1e-5, 1e-5);
+  }
 }
 
-TEST(RecogniseKnee, NamesAnEmptyMesh) {
-  EXPECT_THROW((void)recognise_knee(KneeMeshes{}), InputError);
+// Each bone's axes are its own: the tibia takes its along wherever the scan has it.
+TEST(RecogniseKnee, FramesBelongToTheBones) {
+  const KneeMeshes meshes = phantom();
+  const RecognisedKnee knee = recognise_knee(meshes);
+  for (const double flexion : {10.0, 20.0, 30.0}) {
+    const Eigen::Isometry3d X = Eigen::Translation3d(-2, -4, 1) *
+                                Eigen::AngleAxisd(-flexion * kDegree, Vector3d::UnitZ()) *
+                                Eigen::AngleAxisd(0.1, Vector3d::UnitY());
+    KneeMeshes flexed = meshes;
+    flexed.tibia = mapped(meshes.tibia, [&](const Vector3d& p) { return Vector3d(X * p); });
+    const RecognisedKnee found = recognise_knee(flexed);
+    expect_frame(found.femur.frame, knee.femur.frame, 0.1, 0.1);
+    EXPECT_LT(axes_apart(found.tibia.frame, testing::moved(knee.tibia.frame, X)) / kDegree, 0.1);
+    EXPECT_FALSE(found.doubts.empty()) << "scanned flexed";
+  }
+}
+
+TEST(RecogniseKnee, CutShaftsHaveTheFramesOfLongOnes) {
+  const KneeMeshes meshes = phantom();
+  const RecognisedKnee knee = recognise_knee(meshes);
+  for (const double femur : {0.8, 0.75, 0.7})
+    for (const double tibia : {1.2, 0.9}) {
+      KneeMeshes cut = meshes;
+      cut.femur =
+          part(meshes.femur, [&](const Vector3d& p) { return p.y() < femur * knee.femur.width; });
+      cut.tibia =
+          part(meshes.tibia, [&](const Vector3d& p) { return p.y() > -tibia * knee.femur.width; });
+      expect_as(recognise_knee(cut), knee, 1, 1);
+    }
+}
+
+// Shafts drawn out to 400 mm, a ball for the femoral head on its neck, another for the malleolus, a fibula beside the
+// tibia in one mesh with it.
+TEST(RecogniseKnee, WholeBonesHaveTheFramesOfCutOnes) {
+  const KneeMeshes meshes = phantom();
+  const RecognisedKnee knee = recognise_knee(meshes);
+  const auto ball = [](double radius, const Vector3d& at) {
+    return mapped(testing::ellipsoid_solid(Vector3d::Constant(radius), 3),
+                  [&](const Vector3d& p) { return Vector3d(p + at); });
+  };
+  const TriangleMesh fibula = mapped(testing::cylinder_solid(6.5, 340, 3), [](const Vector3d& p) {
+    return Vector3d(p.x() - 20, p.z() - 220, -p.y() + 30);
+  });
+  KneeMeshes whole = meshes;
+  whole.femur = joined(drawn_out(meshes.femur, 400), ball(24, {0, 405, -40}));
+  whole.tibia = joined(joined(drawn_out(meshes.tibia, -400), ball(26, {0, -395, 0})), fibula);
+  expect_as(recognise_knee(whole), knee, 1, 1);
+}
+
+TEST(RecogniseKnee, RoughSurfacesHaveTheFramesOfSmoothOnes) {
+  const KneeMeshes meshes = phantom();
+  const RecognisedKnee knee = recognise_knee(meshes);
+  for (const unsigned seed : {1u, 2u})
+    expect_as(
+        recognise_knee(
+            {roughened(meshes.femur, 0.2, seed), roughened(meshes.tibia, 0.2, seed + 10), {}, {}}),
+        knee, 1, 1);
+}
+
+TEST(RecogniseKnee, TakesAGivenUnitAndSideAsTheyAre) {
+  const RecognisedKnee knee = recognise_knee(phantom(), {.to_mm = 1.0, .side = Side::kLeft});
+  EXPECT_EQ(knee.side, Side::kLeft);
+  EXPECT_LT(knee.side_confidence, 0.05);
+  EXPECT_FALSE(knee.doubts.empty());
+}
+
+TEST(CrossSection, OfACylinderIsADisc) {
+  const TriangleMesh cylinder = testing::cylinder_solid(10, 100, 0.5);
+  Vector3d middle = Vector3d::Zero();
+  for (const Vector3d& p : cylinder.vertices)
+    middle += p / static_cast<double>(cylinder.vertices.size());
+  const Vector3d along = Vector3d(0.3, 0, 1).normalized();
+  const std::vector<SectionLoop> loops = cross_section(cylinder, middle, along);
+  ASSERT_EQ(loops.size(), 1u);
+  EXPECT_NEAR(loops[0].area, M_PI * 100 / along.z(), 0.5);
+  EXPECT_LT((loops[0].centroid - middle).norm(), 1e-6);
+  EXPECT_LT(loops[0].opening, 1e-9);
 }
 
 }  // namespace condyle
