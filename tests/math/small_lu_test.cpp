@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include <algorithm>
+
 namespace condyle {
 namespace {
 
@@ -19,9 +21,16 @@ TEST(SmallLu, SolvesWhatEigenSolves) {
       for (int j = 0; j < n; ++j) lu(i, j) = A(i, j);
     }
     ASSERT_TRUE(lu.factor(n));
+    double transposed[SmallLu::kMaxSize];
+    std::copy(x, x + n, transposed);
     lu.solve(x);
+    lu.solve_transposed(transposed);
     const Eigen::VectorXd expected = A.fullPivLu().solve(b);
+    const Eigen::VectorXd of_transposed = A.transpose().fullPivLu().solve(b);
     EXPECT_LT((Eigen::Map<Eigen::VectorXd>(x, n) - expected).norm(), 1e-9 * (1 + expected.norm()))
+        << n;
+    EXPECT_LT((Eigen::Map<Eigen::VectorXd>(transposed, n) - of_transposed).norm(),
+              1e-9 * (1 + of_transposed.norm()))
         << n;
   }
 }

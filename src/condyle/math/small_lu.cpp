@@ -56,4 +56,18 @@ void SmallLu::solve(double* b) const {
   std::copy(x, x + n_, b);
 }
 
+// With P A = L U: Uᵀ y = b, Lᵀ z = y, x = Pᵀ z.
+void SmallLu::solve_transposed(double* b) const {
+  std::array<double, kMaxSize> x{};
+  std::copy(b, b + n_, x.begin());
+  for (int i = 0; i < n_; ++i) {
+    x[i] *= inverse_pivot_[i];
+    for (int k = i + 1; k < n_; ++k) x[k] -= a_[i][k] * x[i];
+  }
+  for (int k = n_ - 1; k >= 0; --k)
+    for (int i = k + 1; i < n_; ++i) x[k] -= multipliers_[k][i] * x[i];
+  for (int k = n_ - 1; k >= 0; --k) std::swap(x[k], x[row_[k]]);
+  std::copy(x.begin(), x.begin() + n_, b);
+}
+
 }  // namespace condyle

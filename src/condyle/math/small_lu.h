@@ -22,6 +22,9 @@ class SmallLu {
   /// Solves A x = b for b and x of length n; `b` becomes x.
   void solve(double* b) const;
 
+  /// Solves Aᵀ x = b likewise.
+  void solve_transposed(double* b) const;
+
  private:
   static constexpr int kStride = 16;  ///< rows are worked on four numbers at a time
   // After factor(): U in the upper triangle of a_ (below it nothing that means anything), the
