@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/elements/law_rates.h"
 #include "condyle/input_error.h"
 #include "support/allocation_count.h"
 
@@ -42,6 +43,41 @@ TEST(ForceLaw, ToeLinearHasTheValuesOfItsFormula) {
   EXPECT_NEAR(tension(law, 33.0).slope, 2000. / 30, 1e-11);
   // ∫: toe 30 2000 0.06²/6 = 36, then 30 (60 + 140)/2 0.04 = 120 N mm
   EXPECT_NEAR(tension(law, 33.0).energy, 36 + 120, 1e-10);
+}
+
+// By differences of fourth order; in the toe, beyond it, slack, and beside the two lengths where the
+// formula changes, where the rates are continuous.
+TEST(ForceLaw, RatesByItsOwnNumbers) {
+  const double h = 1e-4;
+  const auto rate = [h](const auto& law, auto member, double scale, double L) {
+    const auto force = [&](double by) {
+      auto changed = law;
+      changed.*member += by * scale;
+      return tension(ForceLaw(changed), L).force;
+    };
+    return (8 * (force(h) - force(-h)) - (force(2 * h) - force(-2 * h))) / (12 * h * scale);
+  };
+  const ToeLinearLaw toe{.stiffness = 2000, .transition_strain = 0.06, .slack_length = 30};
+  for (const double L : {29.0, 30.4, 31.7, 31.9, 33.0}) {
+    const LawRates rates = *law_rates(toe, L);
+    EXPECT_NEAR(rates.slack_length, rate(toe, &ToeLinearLaw::slack_length, 1, L), 1e-6) << L;
+    EXPECT_NEAR(rates.stiffness, rate(toe, &ToeLinearLaw::stiffness, 100, L), 1e-10) << L;
+    EXPECT_NEAR(rates.transition_strain, rate(toe, &ToeLinearLaw::transition_strain, 0.1, L), 1e-5)
+        << L;
+  }
+  const QuadraticLaw quadratic{.stiffness = 15, .slack_length = 40};
+  for (const double L : {39.0, 40.5, 44.0}) {
+    const LawRates rates = *law_rates(quadratic, L);
+    EXPECT_NEAR(rates.slack_length, rate(quadratic, &QuadraticLaw::slack_length, 1, L), 1e-8) << L;
+    EXPECT_NEAR(rates.stiffness, rate(quadratic, &QuadraticLaw::stiffness, 10, L), 1e-9) << L;
+    EXPECT_EQ(rates.transition_strain, 0);
+  }
+  for (const double edge : {30.0, 31.8}) {
+    const LawRates below = *law_rates(toe, edge - 1e-9), above = *law_rates(toe, edge + 1e-9);
+    EXPECT_NEAR(below.slack_length, above.slack_length, 1e-5);
+    EXPECT_NEAR(below.transition_strain, above.transition_strain, 1e-4);
+  }
+  EXPECT_FALSE(law_rates(PolynomialLaw{{1, 2}}, 30));
 }
 
 TEST(ForceLaw, QuadraticPullsOnlyBeyondItsSlackLength) {

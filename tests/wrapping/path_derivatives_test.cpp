@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "condyle/elements/end_rates.h"
 #include "support/numerical_jacobian.h"
 #include "support/random.h"
 #include "support/string_over.h"
@@ -61,6 +62,34 @@ void expect_exact(const Strand& strand, const RigidTransform& X) {
   EXPECT_LT(difference(unit.F2, test::jacobian_of_rotation(force, X, turn)), 1e-8);
   EXPECT_LT(difference(unit.M1, test::jacobian_of_translation(moment, X, h)), 1e-8);
   EXPECT_LT(difference(unit.M2, test::jacobian_of_rotation(moment, X, turn)), 1e-8);
+}
+
+/// The rates by the motion v of an end in the ground frame.
+void expect_exact_ends(const Strand& strand, const RigidTransform& X) {
+  const auto told = dynamic_cast<const PathEndRates*>(strand.path.get());
+  ASSERT_NE(told, nullptr);
+  LineRates rates;
+  ASSERT_TRUE(told->end_rates(strand.ends(X), X, strand.kept.data(), rates));
+  for (const bool at_C : {true, false}) {
+    const auto pull = [&](const Vector3d& v) {
+      Strand moved = strand;
+      if (at_C)
+        moved.x_C += v;
+      else
+        moved.s_D += X.R.transpose() * v;
+      Wrench unit;
+      const double L = moved.pull(X, unit);
+      Eigen::Matrix<double, 7, 1> all;
+      all << unit.f, unit.m, L;
+      return all;
+    };
+    const Eigen::Matrix<double, 7, 3> J = test::jacobian_at_zero<7, 3>(pull, 1e-3);
+    const LineEndRates& found = at_C ? rates.of_C : rates.of_D;
+    const Matrix3d f = J.topRows<3>(), m = J.middleRows<3>(3);
+    EXPECT_LT((found.f - f).norm(), 1e-8 * (1 + f.norm())) << at_C;
+    EXPECT_LT((found.m - m).norm(), 1e-8 * (1 + m.norm())) << at_C;
+    EXPECT_LT((found.length - J.row(6).transpose()).norm(), 1e-9) << at_C;
+  }
 }
 
 WrapShape random_shape(Random& random, int kind) {
@@ -123,6 +152,7 @@ void expect_exact_for(const std::vector<bool>& on_A, unsigned seed) {
     ASSERT_EQ(finding.outcome, WrappedPath::Outcome::kFound) << finding.wrap;
     if (touched(strand, X) == static_cast<int>(on_A.size())) ++all;
     expect_exact(strand, X);
+    expect_exact_ends(strand, X);
   }
   EXPECT_GT(all, 6);
 }
@@ -166,6 +196,10 @@ TEST(WrappedPathDerivatives, AnchoredEnds) {
         << static_cast<int>(strand.path->finding(strand.ends(X), X, strand.kept.data()).outcome);
     if (touched(strand, X) == 1) ++wrapped;
     expect_exact(strand, X);
+    // How an anchor follows the end that it stands for is not told.
+    LineRates rates;
+    EXPECT_FALSE(dynamic_cast<const PathEndRates&>(*strand.path)
+                     .end_rates(strand.ends(X), X, strand.kept.data(), rates));
   }
   EXPECT_GT(wrapped, 6);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "condyle/elements/law_rates.h"
 #include "condyle/elements/line_element.h"
 #include "condyle/input_error.h"
 #include "condyle/scene/start_pose.h"
@@ -34,11 +35,6 @@ double most_depth(const WrapShape& shape) {
     double operator()(const WrapTorus& s) const { return s.tube; }
   };
   return std::visit(Least{}, shape) / 2;
-}
-
-void set_slack_length(double slack, ForceLaw& law) {
-  if (auto* toe_linear = std::get_if<ToeLinearLaw>(&law)) toe_linear->slack_length = slack;
-  if (auto* quadratic = std::get_if<QuadraticLaw>(&law)) quadratic->slack_length = slack;
 }
 
 /// Names of the wraps of its own body in which an end lies.
@@ -147,7 +143,7 @@ void settle_fitted_paths(Scene& scene) {
       throw InputError(fmt::format("{}: ligament \"{}\": {}: expected {}", scene.file.string(),
                                    ligament.name, start.key, start.expected));
     if (ligament.reference_strain)
-      set_slack_length(start.length / (1 + *ligament.reference_strain), ligament.law);
+      set_slack_length(ligament.law, start.length / (1 + *ligament.reference_strain));
   }
 }
 

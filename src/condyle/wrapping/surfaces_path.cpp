@@ -12,13 +12,14 @@
 #include "condyle/wrapping/path_state.h"
 #include "condyle/wrapping/pull_path.h"
 #include "condyle/wrapping/solve_chain.h"
+#include "condyle/wrapping/unit_pull.h"
 
 namespace condyle {
 namespace {
 
 using Eigen::Vector3d;
 
-class SurfacesPath final : public WrappedPath {
+class SurfacesPath final : public WrappedPath, public PathEndRates {
  public:
   SurfacesPath(std::vector<PathWrap> wraps, const PathEnds& ends, InsideRule inside)
       : wraps_(std::move(wraps)), ends_(ends), inside_(inside) {
@@ -51,6 +52,10 @@ class SurfacesPath final : public WrappedPath {
                   const RigidTransform& X_BA,
                   const double* kept,
                   std::vector<Vector3d>& points) const override;
+  bool end_rates(const LineEnds& ends,
+                 const RigidTransform& X_BA,
+                 const double* kept,
+                 LineRates& rates) const override;
 
   [[nodiscard]] const std::vector<PathWrap>& wraps() const override { return wraps_; }
   void add_touches(const LineEnds& ends,
@@ -152,6 +157,27 @@ class SurfacesPath final : public WrappedPath {
   std::vector<PathSurface> surfaces_;
   PathLead lead_;
 };
+
+bool SurfacesPath::end_rates(const LineEnds& ends,
+                             const RigidTransform& X_BA,
+                             const double* kept,
+                             LineRates& rates) const {
+  Numbers copy;
+  double* numbers = known(ends, X_BA, kept, copy);
+  PathEnds other;
+  const PathEnds& at = ends_at(ends, X_BA, other);
+  const PathState state(numbers, wraps_.size());
+  if (state.finding().outcome != Outcome::kFound || at.end[0].wrap >= 0 || at.end[1].wrap >= 0)
+    return false;
+  PathChain chain = kept_chain({surfaces_, at, X_BA}, state);
+  if (chain.n == 0) {
+    rates = straight_end_rates(ends);
+    return true;
+  }
+  if (!solve(chain)) return false;
+  rates = chain_end_rates(chain, X_BA.p);
+  return true;
+}
 
 bool SurfacesPath::revise(const LineEnds& ends, const RigidTransform& X_BA, double* kept) const {
   if (is_elsewhere(ends, X_BA, kept) && !(at(ends, X_BA, kept, nullptr) > 0)) return true;

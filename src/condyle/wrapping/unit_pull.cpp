@@ -10,9 +10,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A motion (da, dπ) of A about a, as its points and what is fixed to them feel it.
+/// A motion (da, dπ) of A about a, as its points and what is fixed to them feel it, and of the ends of
+/// the path on their bodies.
 struct Motion {
-  Vector3d a, da, dpi;
+  Vector3d a, da = Vector3d::Zero(), dpi = Vector3d::Zero();
+  Vector3d dX = Vector3d::Zero(), dY = Vector3d::Zero();
 
   [[nodiscard]] Vector3d of_point(bool on_A, const Vector3d& x) const {
     return on_A ? Vector3d(da + dpi.cross(x - a)) : Vector3d::Zero();
@@ -32,11 +34,19 @@ struct MovingPoint {
 MovingPoint carried(const Motion& motion, bool on_A, const Vector3d& x) {
   return {x, motion.of_point(on_A, x), on_A};
 }
+MovingPoint start_of(const PathChain& chain, const Motion& motion) {
+  return {chain.X, motion.dX, false};
+}
+MovingPoint end_of(const PathChain& chain, const Motion& motion) {
+  return {chain.Y, motion.of_point(true, chain.Y) + motion.dY, true};
+}
 MovingPoint point_before(const PathChain& chain, int i, const Motion& motion) {
-  return carried(motion, i > 0 && chain.links[i - 1].on_A, before(chain, i));
+  return i == 0 ? start_of(chain, motion)
+                : carried(motion, chain.links[i - 1].on_A, before(chain, i));
 }
 MovingPoint point_after(const PathChain& chain, int i, const Motion& motion) {
-  return carried(motion, i + 1 == chain.n || chain.links[i + 1].on_A, after(chain, i));
+  return i + 1 == chain.n ? end_of(chain, motion)
+                          : carried(motion, chain.links[i + 1].on_A, after(chain, i));
 }
 
 /// How the path errors change while the geodesics are carried along by their bodies.
@@ -77,13 +87,35 @@ PieceRate rate_of_piece(const MovingPoint& u, const MovingPoint& v, const Motion
   return rate;
 }
 
-void add(const PieceRate& rate, int motion, Wrench& unit) {
-  if (motion == 0) {
-    unit.f += rate.F;
-    unit.m += rate.M;
+void add(const PieceRate& piece, PieceRate& sum) {
+  sum.F += piece.F;
+  sum.M += piece.M;
+  sum.dF += piece.dF;
+  sum.dM += piece.dM;
+}
+
+/// The pull of the chain and its change, the geodesics following the motion.
+PieceRate rate_of_pull(const PathChain& chain,
+                       const Eigen::PartialPivLU<ChainMatrix>& lu,
+                       const Motion& motion) {
+  const ChainVector carried_rate = carried_errors(chain, motion);
+  const ChainVector step = -lu.solve(carried_rate);
+  PieceRate sum;
+  MovingPoint last = start_of(chain, motion);
+  for (int i = 0; i < chain.n; ++i) {
+    const ChainLink& link = chain.links[i];
+    MovingPoint P = carried(motion, link.on_A, link.g.from.x);
+    MovingPoint Q = carried(motion, link.on_A, link.g.to.x);
+    for (int unknown = 0; unknown < 4; ++unknown) {
+      P.dx += step[4 * i + unknown] * start_rate(link.g, unknown).x;
+      Q.dx += step[4 * i + unknown] * end_rate(link.g, unknown).x;
+    }
+    if (!link.starts_here) add(rate_of_piece(last, P, motion), sum);
+    last = Q;
   }
-  (motion < 3 ? unit.F1 : unit.F2).col(motion % 3) += rate.dF;
-  (motion < 3 ? unit.M1 : unit.M2).col(motion % 3) += rate.dM;
+  if (!chain.links[chain.n - 1].ends_here)
+    add(rate_of_piece(last, end_of(chain, motion), motion), sum);
+  return sum;
 }
 
 }  // namespace
@@ -92,26 +124,31 @@ Wrench unit_pull(const PathChain& chain, const Vector3d& a) {
   const Eigen::PartialPivLU<ChainMatrix> lu(path_error_rates(chain));
   Wrench unit;
   for (int k = 0; k < 6; ++k) {
-    Motion motion{a, Vector3d::Zero(), Vector3d::Zero()};
+    Motion motion{a};
     (k < 3 ? motion.da : motion.dpi)[k % 3] = 1;
-    const ChainVector carried_rate = carried_errors(chain, motion);
-    const ChainVector step = -lu.solve(carried_rate);
-    MovingPoint last = carried(motion, false, chain.X);
-    for (int i = 0; i < chain.n; ++i) {
-      const ChainLink& link = chain.links[i];
-      MovingPoint P = carried(motion, link.on_A, link.g.from.x);
-      MovingPoint Q = carried(motion, link.on_A, link.g.to.x);
-      for (int unknown = 0; unknown < 4; ++unknown) {
-        P.dx += step[4 * i + unknown] * start_rate(link.g, unknown).x;
-        Q.dx += step[4 * i + unknown] * end_rate(link.g, unknown).x;
-      }
-      if (!link.starts_here) add(rate_of_piece(last, P, motion), k, unit);
-      last = Q;
-    }
-    if (!chain.links[chain.n - 1].ends_here)
-      add(rate_of_piece(last, carried(motion, true, chain.Y), motion), k, unit);
+    const PieceRate rate = rate_of_pull(chain, lu, motion);
+    unit.f = rate.F;
+    unit.m = rate.M;
+    (k < 3 ? unit.F1 : unit.F2).col(k % 3) = rate.dF;
+    (k < 3 ? unit.M1 : unit.M2).col(k % 3) = rate.dM;
   }
   return unit;
+}
+
+LineRates chain_end_rates(const PathChain& chain, const Vector3d& a) {
+  const Eigen::PartialPivLU<ChainMatrix> lu(path_error_rates(chain));
+  LineRates rates;
+  rates.of_C.length = (chain.X - chain.links[0].g.from.x).normalized();
+  rates.of_D.length = (chain.Y - chain.links[chain.n - 1].g.to.x).normalized();
+  for (int k = 0; k < 6; ++k) {
+    Motion motion{a};
+    (k < 3 ? motion.dX : motion.dY)[k % 3] = 1;
+    const PieceRate rate = rate_of_pull(chain, lu, motion);
+    LineEndRates& end = k < 3 ? rates.of_C : rates.of_D;
+    end.f.col(k % 3) = rate.dF;
+    end.m.col(k % 3) = rate.dM;
+  }
+  return rates;
 }
 
 }  // namespace condyle

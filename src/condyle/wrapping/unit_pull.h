@@ -1,5 +1,6 @@
 #pragma once
 
+#include "condyle/elements/end_rates.h"
 #include "condyle/elements/wrench.h"
 #include "condyle/wrapping/path_chain.h"
 
@@ -9,5 +10,9 @@ namespace condyle {
 /// derivatives: the geodesics follow each motion of A so that the path errors stay 0, and only the
 /// pieces that cross from one body to the other pull.
 [[nodiscard]] Wrench unit_pull(const PathChain& chain, const Eigen::Vector3d& a);
+
+/// How its length and that wrench change as an end moves on its body; of a chain with links on which
+/// no end is anchored.
+[[nodiscard]] LineRates chain_end_rates(const PathChain& chain, const Eigen::Vector3d& a);
 
 }  // namespace condyle
