@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "condyle/contact/contact_pair.h"
+#include "condyle/contact/contact_rates.h"
 #include "condyle/contact/layer_side.h"
 
 namespace condyle {
@@ -80,6 +81,11 @@ class BothSides {
     for (LayerSide& side : sides_) side.add_to(X, law, factor * share(), all);
     return all;
   }
+  LayerRateSums rate_sums(const RigidTransform& X, const LayerLaw& law) {
+    LayerRateSums all;
+    for (LayerSide& side : sides_) side.add_to(X, law, share(), all);
+    return all;
+  }
   /// Their wrench on A, added; the sum of the forces' magnitudes [N].
   double add_to(const RigidTransform& X, const LayerLaw& law, double factor, Wrench& wrench) {
     double force = 0;
@@ -119,7 +125,7 @@ class BothSides {
   std::vector<bool> of_A_;
 };
 
-class LayerContact final : public ContactPotential {
+class LayerContact final : public ContactPotential, public KnowsContactRates {
  public:
   LayerContact(std::shared_ptr<const Lattices> lattices,
                const ContactPair& pair,
@@ -178,6 +184,8 @@ class LayerContact final : public ContactPotential {
   }
 
   std::optional<Objection> describe(const RigidTransform& X_BA, ContactResult& result) override;
+
+  bool rates(const RigidTransform& X_BA, ContactRates& rates) override;
 
  private:
   BothSides& sides() {
@@ -260,6 +268,21 @@ std::optional<Objection> LayerContact::describe(const RigidTransform& X_BA, Cont
                   .moment = sums.torque - X_BA.p.cross(sums.on_A)};
   sides().add_pressures(X_BA, law_, result.pressures);
   return objection(sums);
+}
+
+// The resultant Σ w p x / Σ w p.
+bool LayerContact::rates(const RigidTransform& X_BA, ContactRates& rates) {
+  const LayerSums sums = sides().sums(X_BA, law_);
+  if (!(sums.force > 0)) return false;
+  const LayerRateSums change = sides().rate_sums(X_BA, law_);
+  const Vector3d center = sums.center_of_pressure();
+  rates.resultant = (change.moment - center * change.force) / sums.force;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const LayerRateSums::Stiffer& stiffer = change.stiffer[side];
+    rates.stiffer[side] = {stiffer.f, stiffer.m,
+                           (stiffer.moment - stiffer.force * center) / sums.force};
+  }
+  return true;
 }
 
 std::optional<Objection> LayerContact::objection(const LayerSums& sums) const {

@@ -62,6 +62,20 @@ LayerLaw::Answer LayerLaw::at(double d) const {
           edge.energy + beyond * (edge.pressure + 0.5 * edge.stiffness * beyond), edge.stiffness};
 }
 
+// Σ d_i(p/K_i) = d with d_i = h p/K or h (1 - exp(-p/K)): each side gives way by its share of Σ ∂d_i/∂p.
+std::array<double, 2> LayerLaw::pressure_by_moduli(double d) const {
+  const double p = at(d).pressure;
+  std::array<double, 2> shares{};
+  double softness = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Side& side = sides_[i];
+    shares[i] = side.h / side.K * (law_ == PressureLaw::kLinear ? 1 : std::exp(-p / side.K));
+    softness += shares[i];
+  }
+  for (double& share : shares) share *= p / softness;
+  return shares;
+}
+
 /// Newton for p in Σ h (1 - exp(-p/K)) = d: the sum is concave, so from the linear pressure the
 /// iterates grow towards the root and never pass it.
 LayerLaw::Answer LayerLaw::logarithmic(double d) const {

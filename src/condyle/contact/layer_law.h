@@ -36,6 +36,9 @@ class LayerLaw {
   /// that it is finite at every pose.
   [[nodiscard]] Answer at(double d) const;
 
+  /// ∂p/∂ln E of the layers on B and on A at a depth d, 0 < d <= deepest() [N/mm²]: together p.
+  [[nodiscard]] std::array<double, 2> pressure_by_moduli(double d) const;
+
   /// Of both layers together at d = 0 [N/mm³].
   [[nodiscard]] double stiffness() const { return k_; }
   /// Of both layers [mm].

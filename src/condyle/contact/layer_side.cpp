@@ -242,6 +242,39 @@ void LayerSide::add_to(const RigidTransform& X_BA,
   }
 }
 
+// With the arm s of the point and n out of B: dp = -W'' n.(da + dπ x s), whichever body carries the
+// point; one of A moves by da + dπ x s, one of B stays.
+void LayerSide::add_to(const RigidTransform& X_BA,
+                       const LayerLaw& law,
+                       double share,
+                       LayerRateSums& sums) {
+  press_at(X_BA);
+  for (const Pressed& pressed : pressed_) {
+    const double depth = -pressed.phi, w = share * points_.area[pressed.point];
+    const LayerLaw::Answer answer = law.at(depth);
+    const Vector3d n = of_A_ ? pressed.n : Vector3d(-(X_BA.R * pressed.n));
+    const Vector3d x = of_A_ ? pressed.p : points_.x[pressed.point], s = x - X_BA.p;
+    Eigen::Matrix<double, 1, 6> rate;
+    rate << n.transpose(), s.cross(n).transpose();
+    rate *= -w * answer.stiffness;
+    sums.force += rate;
+    sums.moment += x * rate;
+    if (of_A_) {
+      const double force = w * answer.pressure;
+      sums.moment.leftCols<3>().diagonal().array() += force;
+      sums.moment.rightCols<3>() -= force * skew(s);
+    }
+    const std::array<double, 2> by_moduli = law.pressure_by_moduli(depth);
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double stiffer = w * by_moduli[side];
+      sums.stiffer[side].force += stiffer;
+      sums.stiffer[side].moment += stiffer * x;
+      sums.stiffer[side].f += stiffer * n;
+      sums.stiffer[side].m += stiffer * s.cross(n);
+    }
+  }
+}
+
 void LayerSide::add_pressures(const RigidTransform& X_BA,
                               const LayerLaw& law,
                               std::vector<PressurePoint>& points) {

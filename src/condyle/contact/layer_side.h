@@ -15,6 +15,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -48,6 +49,19 @@ struct LayerSums {
   [[nodiscard]] Eigen::Vector3d center_of_pressure() const { return moment / force; }
 };
 
+/// How what the pressed points amount to changes; see contact_rates.h.
+struct LayerRateSums {
+  Eigen::Matrix<double, 1, 6> force = Eigen::Matrix<double, 1, 6>::Zero();  ///< of Σ w p by (a, π)
+  Eigen::Matrix<double, 3, 6> moment = Eigen::Matrix<double, 3, 6>::Zero();  ///< of Σ w p x
+  /// By ln E of the layer of a surface.
+  struct Stiffer {
+    double force = 0;                                  ///< of Σ w p [N]
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< of Σ w p x [N mm]
+    Eigen::Vector3d f = Eigen::Vector3d::Zero(), m = Eigen::Vector3d::Zero();  ///< of the wrench
+  };
+  std::array<Stiffer, 2> stiffer;  ///< on B, on A
+};
+
 /// What the corners of the cells would carry in place of their points.
 struct CornerForce {
   double force = 0;                                ///< Σ w p [N]
@@ -79,6 +93,9 @@ class LayerSide {
               double share,
               const LayerCorners& corners,
               CornerForce& sums);
+
+  /// Adds `share` of how that changes. Allocates nothing.
+  void add_to(const RigidTransform& X_BA, const LayerLaw& law, double share, LayerRateSums& sums);
 
   /// How many points are pressed.
   [[nodiscard]] std::size_t pressed(const RigidTransform& X_BA);
