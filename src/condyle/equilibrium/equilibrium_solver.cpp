@@ -315,6 +315,10 @@ void EquilibriumSolver::keep(const EquilibriumState& state) {
   predictor_.add(target_, state_);
 }
 
+Linearization EquilibriumSolver::linearized_solution() const {
+  return linearization(newton_.system(), next_, target_);
+}
+
 PoseResult EquilibriumSolver::solve(const Drive& drive, Patience patience) {
   PoseResult result;
   solve(drive, result, patience);

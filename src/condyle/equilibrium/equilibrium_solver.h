@@ -101,6 +101,9 @@ class EquilibriumSolver {
 
   /// The state of the last pose solved, converged or beyond the edge of a patch.
   [[nodiscard]] const EquilibriumState& solution() const { return next_; }
+  /// At that state, for what derivatives know of it (sensitivity.h); valid until the next pose is
+  /// asked for. Throws std::invalid_argument where the last pose was not solved.
+  [[nodiscard]] Linearization linearized_solution() const;
 
   /// On the last pose, whether it was found or not.
   [[nodiscard]] const Work& spent() const { return spent_; }
