@@ -10,6 +10,7 @@
 
 #include "condyle/equilibrium/build_model.h"
 #include "condyle/equilibrium/model_origins.h"
+#include "condyle/math/rotation.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "support/allocation_count.h"
@@ -189,6 +190,38 @@ TEST(Sensitivity, ForwardAndAdjointAgree) {
   compare(wismans_type(30));
   compare(hanging_body(1.7));
   compare(layered(loaded(test::quadric_knee()), PressureLaw::kLogarithmic));
+}
+
+// The state itself: pose in the model's frames, contact forces and multipliers.
+TEST(Sensitivity, StateRatesAreThoseOfNewtonsUnknowns) {
+  const Studied knee = wismans_type(30);
+  Solved solved(knee);
+  const ModelParameter strain{ParameterKind::kReferenceStrain, 7};
+  const StateRate rate = solved.sensitivity.state_rate(strain);
+  const EquilibriumState at = solved.solver.solution();
+  const double h = 1e-4;
+  std::array<EquilibriumState, 2> moved;
+  for (const std::size_t side : {0, 1}) {
+    Parameters parameters = parameters_of(knee.model);
+    Drive drive = knee.drive;
+    change(strain, side == 0 ? -h : h, knee.model, parameters, drive);
+    solved.solver.set_parameters(parameters);
+    solved.solver.set_state(at, knee.drive);
+    ASSERT_TRUE(solved.solver.solve(drive).converged());
+    moved[side] = solved.solver.solution();
+  }
+  const auto close = [](double found, double a, double b) {
+    EXPECT_NEAR(found, (b - a) / (2 * h), 1e-5 * std::abs(found));
+  };
+  const Vector3d da = (moved[1].X.p - moved[0].X.p) / (2 * h);
+  const Vector3d dpi = log_rotation(moved[1].X.R * moved[0].X.R.transpose()) / (2 * h);
+  EXPECT_GT(da.norm(), 1);  // mm
+  EXPECT_LT((rate.da - da).norm(), 1e-5 * da.norm());
+  EXPECT_LT((rate.dpi - dpi).norm(), 1e-5 * dpi.norm());
+  ASSERT_EQ(at.contacts.size(), 2U);
+  for (const std::size_t k : {0, 1})
+    close(rate.p[k], moved[0].contacts[k].p, moved[1].contacts[k].p);
+  close(rate.sigma[0], moved[0].sigma[0], moved[1].sigma[0]);
 }
 
 // What is told is in the files' frames: the same wherever the model has the origins of its own, here

@@ -25,8 +25,8 @@ struct LineRates {
 class PathEndRates {
  public:
   virtual ~PathEndRates() = default;
-  /// `kept`: the numbers of the path at this pose. False where it does not know: an end that is
-  /// anchored, a path that was not found. Allocates nothing.
+  /// `kept`: the numbers of the path at this pose. False where it does not know: a path that was not
+  /// found. Allocates nothing.
   virtual bool end_rates(const LineEnds& ends,
                          const RigidTransform& X_BA,
                          const double* kept,

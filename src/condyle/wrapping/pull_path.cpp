@@ -51,6 +51,12 @@ void reverse(const WrapShape& shape, ArcPlace& place, std::optional<ArcEnd>& end
   end = {forwards.P, -forwards.t, end->dr, end->da, end->r, end->a};
 }
 
+/// Where the insertion was moved on its body the geodesic ends elsewhere than it did.
+void anchor_at(const Vector3d& anchor, ArcPlace& place, std::optional<ArcEnd>& end) {
+  if (!((place.P - anchor).squaredNorm() < kTouch * kTouch)) end.reset();
+  place.P = anchor;
+}
+
 bool has_closed_form(const WrapShape& shape) {
   return std::holds_alternative<WrapSphere>(shape) || std::holds_alternative<WrapCylinder>(shape);
 }
@@ -67,7 +73,7 @@ double pull_from_anchor(
   ArcPlace place = state.place(wrap);
   std::optional<ArcEnd> end = state.end(wrap);
   reverse(surface.shape, place, end);
-  place.P = X;
+  anchor_at(X, place, end);
   const OneSurfacePath path = path_over(surface.shape, X, Y, true, place, end);
   if (!path.found || !path.shortest) return 0;
   if (has_closed_form(surface.shape)) end.reset();
@@ -93,11 +99,11 @@ double pull_over_one(
   const Vector3d q = X_BA.R * D, x_D = X_BA.p + q;
   const bool anchored = pose.ends.end[0].wrap == wrap;
   ArcPlace place = state.place(wrap);
-  if (anchored) place.P = pose.ends.end[0].anchor;
   const Vector3d X =
       surface.X_SW * (surface.on_A ? Vector3d(X_BA.R.transpose() * (C - X_BA.p)) : C);
   const Vector3d Y = surface.X_SW * (surface.on_A ? D : x_D);
   std::optional<ArcEnd> end = state.end(wrap);
+  if (anchored) anchor_at(pose.ends.end[0].anchor, place, end);
   const OneSurfacePath path = path_over(surface.shape, X, Y, anchored, place, end);
   if (!path.found || !path.shortest) return 0;
   state.touch(wrap, place);

@@ -1,6 +1,7 @@
 #include "condyle/wrapping/wrapped_path.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <limits>
 #include <stdexcept>
@@ -158,6 +159,19 @@ class SurfacesPath final : public WrappedPath, public PathEndRates {
   PathLead lead_;
 };
 
+/// ∂(anchor)/∂(end), frame of the body: the closest point of a surface with curvature K to a point at
+/// the signed distance φ moves by (I - φ K)⁻¹ in the tangent plane.
+Eigen::Matrix3d anchor_rate(const PathSurface& surface, const PathEnd& end) {
+  const Vector3d n = normal_at(surface.shape, end.anchor);
+  const SurfaceFrame f = frame_at(surface.shape, end.anchor, n.unitOrthogonal());
+  const double phi = -(end.given - end.at).norm();
+  Eigen::Matrix2d bent;
+  bent << 1 - phi * f.kappa, -phi * f.tau, -phi * f.tau, 1 - phi * f.kappa_b;
+  Eigen::Matrix<double, 3, 2> T;
+  T << surface.X_WS.R * f.t, surface.X_WS.R * f.b;
+  return T * bent.inverse() * T.transpose();
+}
+
 bool SurfacesPath::end_rates(const LineEnds& ends,
                              const RigidTransform& X_BA,
                              const double* kept,
@@ -167,15 +181,21 @@ bool SurfacesPath::end_rates(const LineEnds& ends,
   PathEnds other;
   const PathEnds& at = ends_at(ends, X_BA, other);
   const PathState state(numbers, wraps_.size());
-  if (state.finding().outcome != Outcome::kFound || at.end[0].wrap >= 0 || at.end[1].wrap >= 0)
-    return false;
+  if (state.finding().outcome != Outcome::kFound) return false;
   PathChain chain = kept_chain({surfaces_, at, X_BA}, state);
-  if (chain.n == 0) {
-    rates = straight_end_rates(ends);
-    return true;
+  if (chain.n > 0 && !solve(chain)) return false;
+  rates = chain.n > 0 ? chain_end_rates(chain, X_BA.p)
+                      : straight_end_rates({chain.X, chain.Y, chain.Y - X_BA.p});
+  for (const int which : {0, 1}) {
+    const PathEnd& end = at.end[which];
+    if (end.wrap < 0) continue;
+    const Eigen::Matrix3d R = which == 0 ? Eigen::Matrix3d::Identity() : X_BA.R;
+    const Eigen::Matrix3d by_end = R * anchor_rate(surfaces_[end.wrap], end) * R.transpose();
+    LineEndRates& of = which == 0 ? rates.of_C : rates.of_D;
+    of.length = by_end.transpose() * of.length;
+    of.f = of.f * by_end;
+    of.m = of.m * by_end;
   }
-  if (!solve(chain)) return false;
-  rates = chain_end_rates(chain, X_BA.p);
   return true;
 }
 

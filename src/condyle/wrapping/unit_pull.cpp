@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A motion (da, dπ) of A about a, as its points and what is fixed to them feel it, and of the ends of
-/// the path on their bodies.
+/// A motion (da, dπ) of A about a, as its points and what is fixed to them feel it, and of where
+/// the path begins and ends on its bodies.
 struct Motion {
   Vector3d a, da = Vector3d::Zero(), dpi = Vector3d::Zero();
   Vector3d dX = Vector3d::Zero(), dY = Vector3d::Zero();
@@ -59,11 +59,15 @@ ChainVector carried_errors(const PathChain& chain, const Motion& motion) {
       const FrameRate start = motion.of_frame(link.on_A, link.g.from);
       rate.segment<2>(4 * i) =
           error_rate(link.g.from.x - from.x, link.g.from, start.x - from.dx, start);
+    } else {
+      rate.segment<2>(4 * i) << -motion.dX.dot(link.g.from.b), -motion.dX.dot(link.g.from.t);
     }
     if (!link.ends_here) {
       const MovingPoint to = point_after(chain, i, motion);
       const FrameRate end = motion.of_frame(link.on_A, link.g.to);
       rate.segment<2>(4 * i + 2) = error_rate(to.x - link.g.to.x, link.g.to, to.dx - end.x, end);
+    } else {
+      rate.segment<2>(4 * i + 2) << -motion.dY.dot(link.g.to.t), -motion.dY.dot(link.g.to.b);
     }
   }
   return rate;
@@ -137,9 +141,11 @@ Wrench unit_pull(const PathChain& chain, const Vector3d& a) {
 
 LineRates chain_end_rates(const PathChain& chain, const Vector3d& a) {
   const Eigen::PartialPivLU<ChainMatrix> lu(path_error_rates(chain));
+  const ChainLink &first = chain.links[0], &last = chain.links[chain.n - 1];
   LineRates rates;
-  rates.of_C.length = (chain.X - chain.links[0].g.from.x).normalized();
-  rates.of_D.length = (chain.Y - chain.links[chain.n - 1].g.to.x).normalized();
+  rates.of_C.length =
+      first.starts_here ? Vector3d(-first.g.from.t) : (chain.X - first.g.from.x).normalized();
+  rates.of_D.length = last.ends_here ? last.g.to.t : Vector3d((chain.Y - last.g.to.x).normalized());
   for (int k = 0; k < 6; ++k) {
     Motion motion{a};
     (k < 3 ? motion.dX : motion.dY)[k % 3] = 1;

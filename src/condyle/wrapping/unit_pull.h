@@ -11,8 +11,8 @@ namespace condyle {
 /// pieces that cross from one body to the other pull.
 [[nodiscard]] Wrench unit_pull(const PathChain& chain, const Eigen::Vector3d& a);
 
-/// How its length and that wrench change as an end moves on its body; of a chain with links on which
-/// no end is anchored.
+/// How its length and that wrench change as the point where it begins or ends moves on its body, which
+/// of an anchored end is the anchor, moving along its surface. Of a chain with links.
 [[nodiscard]] LineRates chain_end_rates(const PathChain& chain, const Eigen::Vector3d& a);
 
 }  // namespace condyle
