@@ -199,7 +199,7 @@ TEST(Sensitivity, StateRatesAreThoseOfNewtonsUnknowns) {
   const ModelParameter strain{ParameterKind::kReferenceStrain, 7};
   const StateRate rate = solved.sensitivity.state_rate(strain);
   const EquilibriumState at = solved.solver.solution();
-  const double h = 1e-4;
+  constexpr double h = 1e-4;
   std::array<EquilibriumState, 2> moved;
   for (const std::size_t side : {0, 1}) {
     Parameters parameters = parameters_of(knee.model);

@@ -142,7 +142,10 @@ class Perturbed {
         parameter.kind == ParameterKind::kLayerModulus) {
       Model model = changed_surfaces(knee_, parameter, by);
       model.start = state_.X;
-      EquilibriumSolver solver(std::move(model), for_differences());
+      const auto changed = std::make_shared<const Model>(std::move(model));
+      const bool moved = parameter.kind == ParameterKind::kSurfaceShift;
+      EquilibriumSolver solver(changed, moved ? cover_pairs(*changed) : solver_.covers(),
+                               for_differences());
       return solver.solve(knee_.drive);
     }
     Parameters parameters = parameters_of(knee_.model);
