@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -141,7 +142,7 @@ TEST(Sensitivity, OfAMovingFemur) {
 TEST(Sensitivity, OfPatches) { expect_exact(nominal(loaded(benchmarks::patch_knee())), 4); }
 
 TEST(Sensitivity, OfWrappedLines) {
-  for (const double push : {0.3, 1.7}) expect_exact(hanging_body(push), 1);
+  for (const double push : {-1.3, 0.2}) expect_exact(hanging_body(push), 1);
 }
 
 TEST(Sensitivity, OfLayers) {
@@ -177,7 +178,7 @@ TEST(Sensitivity, ForwardAndAdjointAgree) {
     solved.sensitivity.derivatives(outputs, parameters, adjoint, Sensitivity::Way::kAdjoint);
     EXPECT_LT((forward - adjoint).norm(), 1e-10 * forward.norm());
     for (Eigen::Index j = 0; j < forward.cols(); ++j)
-      EXPECT_LT((forward.col(j) - adjoint.col(j)).norm(), 1e-10 * forward.col(j).norm())
+      EXPECT_LE((forward.col(j) - adjoint.col(j)).norm(), 1e-10 * forward.col(j).norm())
           << name_of(parameters[static_cast<std::size_t>(j)], knee.model);
     for (const std::size_t j : {std::size_t(0), parameters.size() / 2, parameters.size() - 1})
       for (std::size_t i = 0; i < outputs.size(); ++i)
@@ -188,7 +189,7 @@ TEST(Sensitivity, ForwardAndAdjointAgree) {
   compare(quadric());
   compare(quadric(true, true));
   compare(wismans_type(30));
-  compare(hanging_body(1.7));
+  compare(hanging_body(-1.3));
   compare(layered(loaded(test::quadric_knee()), PressureLaw::kLogarithmic));
 }
 
@@ -196,10 +197,14 @@ TEST(Sensitivity, ForwardAndAdjointAgree) {
 TEST(Sensitivity, StateRatesAreThoseOfNewtonsUnknowns) {
   const Studied knee = wismans_type(30);
   Solved solved(knee);
-  const ModelParameter strain{ParameterKind::kReferenceStrain, 7};
+  const auto tautest = std::max_element(
+      solved.pose.ligaments.begin(), solved.pose.ligaments.end(),
+      [](const LigamentResult& a, const LigamentResult& b) { return a.force < b.force; });
+  const ModelParameter strain{ParameterKind::kReferenceStrain,
+                              static_cast<std::size_t>(tautest - solved.pose.ligaments.begin())};
   const StateRate rate = solved.sensitivity.state_rate(strain);
   const EquilibriumState at = solved.solver.solution();
-  constexpr double h = 1e-4;
+  constexpr double h = 1e-5;
   std::array<EquilibriumState, 2> moved;
   for (const std::size_t side : {0, 1}) {
     Parameters parameters = parameters_of(knee.model);
@@ -215,7 +220,7 @@ TEST(Sensitivity, StateRatesAreThoseOfNewtonsUnknowns) {
   };
   const Vector3d da = (moved[1].X.p - moved[0].X.p) / (2 * h);
   const Vector3d dpi = log_rotation(moved[1].X.R * moved[0].X.R.transpose()) / (2 * h);
-  EXPECT_GT(da.norm(), 1);  // mm
+  EXPECT_GT(da.norm(), 0.1);  // mm
   EXPECT_LT((rate.da - da).norm(), 1e-5 * da.norm());
   EXPECT_LT((rate.dpi - dpi).norm(), 1e-5 * dpi.norm());
   ASSERT_EQ(at.contacts.size(), 2U);
@@ -385,7 +390,7 @@ TEST(Sensitivity, SaysNothingWhereTheMatrixIsSingular) {
 }
 
 TEST(Sensitivity, AllocatesNothingAfterItsFirstUse) {
-  for (const Studied& knee : {quadric(), hanging_body(0.3),
+  for (const Studied& knee : {quadric(), hanging_body(0.2),
                               layered(loaded(test::quadric_knee()), PressureLaw::kLogarithmic)}) {
     Solved solved(knee);
     const std::vector<PoseOutput> outputs = solved.outputs();
