@@ -138,19 +138,26 @@ void check_meshes(const KneeMeshes& meshes) {
     check_cartilage(*meshes.tibial_cartilage, meshes.tibia, meshes.femur, "tibial");
 }
 
-double tell_unit(const KneeEnds& ends) {
+double tell_unit(const KneeEnds& ends, const std::optional<double>& given) {
   if (ends.femur_width == 0 || ends.gap > ends.tibia_width)
     throw InputError(
         fmt::format("femur and tibia are {:.3g} apart, in the unit of the files: expected both as "
                     "scanned, in one frame",
                     ends.gap));
   const double width = std::max(ends.femur_width, ends.tibia_width);
-  for (const double to_mm : {1.0, 10.0, 25.4, 1000.0})
-    if (width * to_mm > 0.9 * kNarrowest && width * to_mm < 1.1 * kWidest) return to_mm;
+  const auto is_a_knee = [&](double to_mm) {
+    return width * to_mm > 0.9 * kNarrowest && width * to_mm < 1.1 * kWidest;
+  };
+  if (given && is_a_knee(*given)) return *given;
+  for (const double to_mm : {1.0, 10.0, 1000.0})
+    if (!given && is_a_knee(to_mm)) return to_mm;
   throw InputError(fmt::format(
-      "the ends of femur and tibia that face each other are {:.3g} and {:.3g} wide: in none of mm, "
-      "cm, inch and m is that a knee of {:.0f} to {:.0f} mm; say the unit by --units",
-      ends.femur_width, ends.tibia_width, kNarrowest, kWidest));
+      "the ends of femur and tibia that face each other are {:.3g} and {:.3g} wide: {} is that a "
+      "knee "
+      "of {:.0f} to {:.0f} mm{}",
+      ends.femur_width, ends.tibia_width,
+      given ? "not in the unit that is given" : "in none of mm, cm and m", kNarrowest, kWidest,
+      is_a_knee(25.4) ? "; the meshes seem to be in inches, expected mm, cm or m" : ""));
 }
 
 Condyles find_condyles_or_say_why(CleanMesh& femur, const CleanMesh& tibia, const KneeEnds& ends) {

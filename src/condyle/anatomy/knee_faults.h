@@ -2,6 +2,8 @@
 
 /// What two meshes are where they are no knee, in one line each.
 
+#include <optional>
+
 #include "condyle/anatomy/femoral_frame.h"
 #include "condyle/anatomy/knee_meshes.h"
 #include "condyle/anatomy/tibial_frame.h"
@@ -11,8 +13,8 @@ namespace condyle {
 /// Empty meshes, two of one bone, sizes that no one unit explains, cartilage that lies elsewhere.
 void check_meshes(const KneeMeshes& meshes);
 
-/// Factor to mm in which both ends are as wide as knees are.
-[[nodiscard]] double tell_unit(const KneeEnds& ends);
+/// Factor to mm in which both ends are as wide as knees are: the one that is given, or of mm, cm and m.
+[[nodiscard]] double tell_unit(const KneeEnds& ends, const std::optional<double>& given);
 
 /// As find_condyles and find_tibial_frame; where they fail the message says what the meshes look like instead. In mm.
 [[nodiscard]] Condyles find_condyles_or_say_why(CleanMesh& femur,

@@ -123,23 +123,16 @@ std::string tibial_rule(const TibialShape& t) {
 }
 
 void doubt_pose(RecognisedKnee& knee, const KneeEnds& ends) {
-  const BoneFrame& f = knee.femur.frame;
-  const Vector3d k = f.components(knee.tibia.frame.proximal);
-  const double flexion = std::atan2(k.x(), k.y()) / kDegree;
-  if (std::abs(flexion) > 8)
-    knee.doubts.push_back(fmt::format("scanned {:.0f} degrees {}, as the frames see it",
-                                      std::abs(flexion),
-                                      flexion > 0 ? "flexed" : "beyond extension"));
   if (ends.gap > 10) knee.doubts.push_back(fmt::format("the bones are {:.0f} mm apart", ends.gap));
 }
 
 void doubt_shafts(RecognisedKnee& knee) {
   if (knee.femur.shaft == 0)
-    knee.doubts.push_back(
+    knee.doubts.emplace_back(
         "too little of the femur's shaft for its direction: flexion of its frame is good to about "
         "6 degrees");
   if (knee.tibia.shaft == 0)
-    knee.doubts.push_back(
+    knee.doubts.emplace_back(
         "too little of the tibia's shaft for its direction: flexion of its frame is good to about "
         "3 degrees");
 }
@@ -155,7 +148,7 @@ RecognisedKnee recognise_knee(const KneeMeshes& meshes, const RecogniseOptions& 
   KneeEnds ends = find_knee_ends(femur_mesh, tibia_mesh);
 
   RecognisedKnee knee;
-  knee.to_mm = options.to_mm ? *options.to_mm : tell_unit(ends);
+  knee.to_mm = tell_unit(ends, options.to_mm);
   move(femur_mesh, Vector3d::Zero(), knee.to_mm);
   move(tibia_mesh, Vector3d::Zero(), knee.to_mm);
   scale_ends(ends, knee.to_mm);
