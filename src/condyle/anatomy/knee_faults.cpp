@@ -149,15 +149,15 @@ double tell_unit(const KneeEnds& ends, const std::optional<double>& given) {
     return width * to_mm > 0.9 * kNarrowest && width * to_mm < 1.1 * kWidest;
   };
   if (given && is_a_knee(*given)) return *given;
-  for (const double to_mm : {1.0, 10.0, 1000.0})
+  for (const double to_mm : {1.0, 10.0, 25.4, 1000.0})
     if (!given && is_a_knee(to_mm)) return to_mm;
-  throw InputError(fmt::format(
-      "the ends of femur and tibia that face each other are {:.3g} and {:.3g} wide: {} is that a "
-      "knee "
-      "of {:.0f} to {:.0f} mm{}",
-      ends.femur_width, ends.tibia_width,
-      given ? "not in the unit that is given" : "in none of mm, cm and m", kNarrowest, kWidest,
-      is_a_knee(25.4) ? "; the meshes seem to be in inches, expected mm, cm or m" : ""));
+  throw InputError(
+      fmt::format("the ends of femur and tibia that face each other are {:.3g} and {:.3g} wide: in "
+                  "{} is that a "
+                  "knee of {:.0f} to {:.0f} mm; say the unit by --units",
+                  ends.femur_width, ends.tibia_width,
+                  given ? "another unit than the one that is given" : "none of mm, cm, inch and m",
+                  kNarrowest, kWidest));
 }
 
 Condyles find_condyles_or_say_why(CleanMesh& femur, const CleanMesh& tibia, const KneeEnds& ends) {

@@ -13,7 +13,7 @@ namespace condyle {
 /// Empty meshes, two of one bone, sizes that no one unit explains, cartilage that lies elsewhere.
 void check_meshes(const KneeMeshes& meshes);
 
-/// Factor to mm in which both ends are as wide as knees are: the one that is given, or of mm, cm and m.
+/// Factor to mm in which both ends are as wide as knees are: the one that is given, or of mm, cm, inch and m.
 [[nodiscard]] double tell_unit(const KneeEnds& ends, const std::optional<double>& given);
 
 /// As find_condyles and find_tibial_frame; where they fail the message says what the meshes look like instead. In mm.

@@ -194,6 +194,11 @@ NewKnee knee_from_meshes(const NewKneeFiles& files, const RecogniseOptions& opti
   knee.files = files;
   Loaded loaded = load(files);
   knee.shape = recognise(files, loaded.meshes, options);
+  if (unit_name(knee.shape.to_mm).empty())
+    throw InputError(
+        fmt::format("{}: its numbers look like inches, which scenes do not have: expected a mesh "
+                    "in mm, cm or m",
+                    files.femur.string()));
   knee.doubts = knee.shape.doubts;
   scale(loaded.meshes.femur, knee.shape.to_mm);
   scale(loaded.meshes.tibia, knee.shape.to_mm);

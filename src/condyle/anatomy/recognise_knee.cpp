@@ -123,6 +123,12 @@ std::string tibial_rule(const TibialShape& t) {
 }
 
 void doubt_pose(RecognisedKnee& knee, const KneeEnds& ends) {
+  const Vector3d k = knee.femur.frame.components(knee.tibia.frame.proximal);
+  const double flexion = std::atan2(k.x(), k.y()) / kDegree;
+  if (std::abs(flexion) > 8)
+    knee.doubts.push_back(fmt::format("scanned {:.0f} degrees {}, as the frames see it",
+                                      std::abs(flexion),
+                                      flexion > 0 ? "flexed" : "beyond extension"));
   if (ends.gap > 10) knee.doubts.push_back(fmt::format("the bones are {:.0f} mm apart", ends.gap));
 }
 
