@@ -56,7 +56,9 @@ TEST(PoseTrace, PosesOfASweepInStepsAreExtrapolated) {
     EXPECT_EQ(way(pose), k == 1 ? "Newton from the pose before it"
                                 : "Newton from the poses before it, extrapolated");
     if (k == 1) without = pose.trace.residuals.size();
-    if (k > 2) EXPECT_LE(pose.trace.residuals.size(), without) << k;
+    if (k > 2) {
+      EXPECT_LE(pose.trace.residuals.size(), without) << k;
+    }
   }
 }
 

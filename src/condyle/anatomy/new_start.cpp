@@ -117,10 +117,9 @@ void doubt_start(NewKnee& knee, bool bare, const Vector2d& after) {
   const NewStart& start = knee.start;
   if (start.extended != 0)
     knee.doubts.push_back(fmt::format(
-        "the scan is {:.0f} degrees {} than the template at its start pose, for which its strains "
-        "are "
-        "given; the start pose is brought there about the femur's axis",
-        std::abs(start.extended) / kDegree, start.extended > 0 ? "more flexed" : "straighter"));
+        "the start pose is {:.0f} degrees {} than the scan, turned about the femur's axis: there "
+        "the template has its strains",
+        std::abs(start.extended) / kDegree, start.extended > 0 ? "straighter" : "more flexed"));
   for (std::size_t c = 0; c < 2; ++c) {
     const char* side = c == 0 ? "medial" : "lateral";
     if (!std::isfinite(start.gaps[c]))

@@ -70,7 +70,8 @@ Image draw_scene_page(const Run& run, const std::vector<std::string>& remarks) {
   std::vector<std::string> lines;
   if (!remarks.empty()) lines.emplace_back("To look at:");
   for (const std::string& remark : remarks)
-    for (const std::string& line : wrapped(ruler, "- " + remark, 2 * kPanelWide - 2 * kMargin, style))
+    for (const std::string& line :
+         wrapped(ruler, "- " + remark, 2 * kPanelWide - 2 * kMargin, style))
       lines.push_back(line);
 
   const int pictures = kPanelHigh * static_cast<int>(kViews.size()) / 2;
