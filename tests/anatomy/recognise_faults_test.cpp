@@ -96,6 +96,18 @@ TEST(RecogniseFaults, PartsAndOtherThings) {
   expect_refused({femur, shifted(disc, {0, -22 - top, 0}), {}, {}}, "");
 }
 
+// Beyond some 60 degrees the back of the condyles faces the plateau as their end would, and passed for it: the side was
+// wrong then, and sure.
+TEST(RecogniseFaults, KneesFlexedTooFar) {
+  const auto [femur, tibia, none, neither] = phantom();
+  for (const double flexion : {75.0, 90.0}) {
+    const Eigen::AngleAxisd turn(-flexion * M_PI / 180, Vector3d::UnitZ());
+    expect_refused(
+        {femur, mapped(tibia, [&](const Vector3d& p) { return Vector3d(turn * p); }), {}, {}},
+        "the femur's shaft goes");
+  }
+}
+
 TEST(RecogniseFaults, CartilageThatLiesElsewhere) {
   const auto [femur, tibia, none, neither] = phantom();
   const TriangleMesh of_femur = part(femur, [](const Vector3d& p) { return p.y() < 0; });

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "condyle/input_error.h"
+#include "condyle/mesh/mesh_measures.h"
 #include "condyle/surface/mesh_distance.h"
 
 namespace condyle {
@@ -154,10 +155,10 @@ double tell_unit(const KneeEnds& ends, const std::optional<double>& given) {
   throw InputError(
       fmt::format("the ends of femur and tibia that face each other are {:.3g} and {:.3g} wide: in "
                   "{} is that a "
-                  "knee of {:.0f} to {:.0f} mm; say the unit by --units",
+                  "knee of {:.0f} to {:.0f} mm{}",
                   ends.femur_width, ends.tibia_width,
                   given ? "another unit than the one that is given" : "none of mm, cm, inch and m",
-                  kNarrowest, kWidest));
+                  kNarrowest, kWidest, given ? "" : "; say the unit by --units"));
 }
 
 Condyles find_condyles_or_say_why(CleanMesh& femur, const CleanMesh& tibia, const KneeEnds& ends) {
@@ -204,6 +205,47 @@ TibialShape find_tibia_or_say_why(CleanMesh& tibia,
   if (eminence < -kLeastEminence || is_wider_at_other_end(tibia.mesh, ends))
     throw InputError(kUpsideDown);
   throw InputError(fmt::format("no tibial plateau faces the femur: {}", why));
+}
+
+namespace {
+
+/// Angle between a bone's shaft, as far as the mesh has one, and the direction that the frame says it goes
+/// [rad]; 0 where there is none.
+double shaft_astray(const TriangleMesh& bone,
+                    const Vector3d& joint,
+                    const Vector3d& expected,
+                    double width) {
+  constexpr double kFar = 0.75;  // widths from the joint, where only the shaft is
+  const std::vector<double> areas = vertex_areas(bone);
+  Vector3d sum = Vector3d::Zero();
+  double area = 0;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const Vector3d d = bone.vertices[i] - joint;
+    if (d.norm() < kFar * width) continue;
+    sum += areas[i] * d.normalized();
+    area += areas[i];
+  }
+  if (area < 0.05 * width * width || sum.norm() < 0.5 * area) return 0;
+  return std::atan2(sum.cross(expected).norm(), sum.dot(expected));
+}
+
+}  // namespace
+
+void check_shafts(const CleanMesh& femur_mesh,
+                  const FemoralShape& femur,
+                  const CleanMesh& tibia_mesh,
+                  const TibialShape& tibia) {
+  constexpr double kMost = 40 * M_PI / 180;
+  const double w = femur.width;
+  const double up = shaft_astray(femur_mesh.mesh, femur.frame.origin, femur.frame.proximal, w),
+               down = shaft_astray(tibia_mesh.mesh, tibia.frame.origin, -tibia.frame.proximal, w);
+  for (const auto& [name, angle] : {std::pair("femur", up), std::pair("tibia", down)})
+    if (angle > kMost)
+      throw InputError(fmt::format(
+          "the {}'s shaft goes {:.0f} degrees aside of where its articular end says: the knee is "
+          "flexed too far to be recognised (expected at most some 60 degrees), or a bone is "
+          "the wrong way round",
+          name, angle * 180 / M_PI));
 }
 
 void check_they_fit(const FemoralShape& femur, const TibialShape& tibia, const KneeEnds& ends) {

@@ -24,6 +24,12 @@ void check_meshes(const KneeMeshes& meshes);
                                                 const KneeEnds& ends,
                                                 const Condyles& condyles);
 
+/// Shafts go where the frames say.
+void check_shafts(const CleanMesh& femur_mesh,
+                  const FemoralShape& femur,
+                  const CleanMesh& tibia_mesh,
+                  const TibialShape& tibia);
+
 /// Widths of one person, ends that face each other.
 void check_they_fit(const FemoralShape& femur, const TibialShape& tibia, const KneeEnds& ends);
 

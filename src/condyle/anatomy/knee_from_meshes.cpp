@@ -109,11 +109,13 @@ CarriedPoints carry(
   return carried;
 }
 
-/// Whether all that a ligament wraps on is fitted to bone: then it can be fitted to other bones.
+/// Whether all that a ligament wraps on is fitted to bone, on sides that follow from it: then it can be fitted
+/// to other bones.
 bool on_bone(const Scene& scene, const LigamentDescription& ligament) {
-  return std::all_of(ligament.path.wraps.begin(), ligament.path.wraps.end(), [&](int wrap) {
-    return scene.wraps[static_cast<std::size_t>(wrap)].fit.has_value();
-  });
+  return ligament.path.sides.empty() &&
+         std::all_of(ligament.path.wraps.begin(), ligament.path.wraps.end(), [&](int wrap) {
+           return scene.wraps[static_cast<std::size_t>(wrap)].fit.has_value();
+         });
 }
 
 /// Laws that know their slack length can be carried to bones of another size.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "condyle/input_error.h"
+
 namespace condyle {
 namespace {
 
@@ -182,6 +184,8 @@ void LatticeField::fit(const std::vector<SurfacePair>& pairs, const FieldStiffne
       }
   }
   const Eigen::LLT<Eigen::Ref<MatrixXd>> factor(A);
+  if (factor.info() != Eigen::Success)
+    throw InputError("the template's bone cannot be laid over this one");
   const Eigen::VectorXd x = factor.solve(b);
   c_ = Eigen::Map<const MatrixXd>(x.data(), 3, n);
 }

@@ -171,6 +171,7 @@ class SceneText {
                quoted(knee_.model.scene.wraps[static_cast<std::size_t>(wrap)].name);
     if (names.empty()) return;
     line("wraps = [{}]", names);
+    if (!from.path.anchors_inside) line("inside = \"straight\"");
     if (from.path.thickness > 0) line("thickness = {}", number(from.path.thickness));
   }
 
@@ -186,7 +187,7 @@ class SceneText {
   /// Of the template, on the new bones.
   [[nodiscard]] std::vector<int> wraps_of(const LigamentDescription& from) const {
     std::vector<int> wraps;
-    if (!knee_.wraps) return wraps;
+    if (!knee_.wraps || !from.path.sides.empty()) return wraps;
     for (const int wrap : from.path.wraps) {
       if (!knee_.model.scene.wraps[static_cast<std::size_t>(wrap)].fit) return {};
       wraps.push_back(wrap);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "condyle/anatomy/new_scene_text.h"
+#include "condyle/input_error.h"
 #include "condyle/math/rotation.h"
 #include "condyle/scene/start_pose.h"
 #include "condyle/scene_file/read_scene.h"
@@ -23,9 +24,10 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = M_PI / 180;
 constexpr double kAsScanned = 5 * kDegree;  // flexion that is left as it is
+constexpr double kMostOverlap = 10;         // of bones that were scanned in one piece [mm]
 constexpr double kTouch = 0.02;             // [mm]
 constexpr double kMostTilt = 4 * kDegree;
-constexpr double kMostShift = 1.5;        // of a scan with cartilage, beyond it a doubt [mm]
+constexpr double kMostShift = 1.5;        // along the tibia, beyond it a doubt [mm]
 constexpr double kMostCartilage = 4;      // that an offset stands for [mm]
 constexpr double kLeastCartilage = 0.15;  // [mm]
 
@@ -69,7 +71,7 @@ Offsets cartilage_offsets(const Gaps& gaps, const Vector2d& gap) {
   Offsets offset{};
   for (std::size_t c = 0; c < 2; ++c) {
     const double half = gap[static_cast<int>(c)] / 2;
-    if (!(half > kLeastCartilage)) continue;
+    if (!std::isfinite(half) || !(half > kLeastCartilage)) continue;
     const double wanted = half > kMostCartilage ? 2 : half;
     const double plateau = std::min(wanted, gaps.most_offset(2 * c + 1));
     const double condyle = std::min(2 * wanted - plateau, gaps.most_offset(2 * c));
@@ -105,12 +107,15 @@ Vector2d close_gaps(Gaps& gaps, const JointFrames& frames, const JointCoordinate
     if (std::abs(step.y()) > kMostTilt) break;
   }
   step.setZero();
+  Vector2d touching = step;  // the last at which the surfaces faced each other
   for (int iteration = 0; iteration < 8; ++iteration) {
     const double least = gaps.at(moved(frames, q, step)).minCoeff();
-    if (!std::isfinite(least) || std::abs(least) < kTouch) break;
+    if (!std::isfinite(least)) return touching;
+    touching = step;
+    if (std::abs(least) < kTouch) break;
     step.x() -= least;
   }
-  return step;
+  return touching;
 }
 
 void doubt_start(NewKnee& knee, bool bare, const Vector2d& after) {
@@ -126,10 +131,17 @@ void doubt_start(NewKnee& knee, bool bare, const Vector2d& after) {
       knee.doubts.push_back(
           fmt::format("the {} surfaces do not face each other at the start pose", side));
     else if (start.gaps[c] < -1)
-      knee.doubts.push_back(fmt::format("the {} surfaces overlap by {:.1f} mm {}", side,
-                                        -start.gaps[c],
-                                        start.extended != 0 ? "once extended" : "in the scan"));
-    else if (after.allFinite() && after[static_cast<int>(c)] > 1)
+      knee.doubts.push_back(
+          fmt::format("the {} surfaces overlap by {:.1f} mm {}", side, -start.gaps[c],
+                      start.extended != 0 ? "once at the template's flexion" : "in the scan"));
+    else if (!std::isfinite(after[static_cast<int>(c)]))
+      knee.doubts.push_back(
+          fmt::format("the {} surfaces do not face each other once brought together", side));
+    else if (after[static_cast<int>(c)] < -0.1)
+      knee.doubts.push_back(
+          fmt::format("the {} surfaces still overlap by {:.1f} mm at the start pose", side,
+                      -after[static_cast<int>(c)]));
+    else if (after[static_cast<int>(c)] > 1)
       knee.doubts.push_back(
           fmt::format("a gap of {:.1f} mm stays between the {} surfaces at the start pose",
                       after[static_cast<int>(c)], side));
@@ -140,7 +152,7 @@ void doubt_start(NewKnee& knee, bool bare, const Vector2d& after) {
                     "and {:.2f} mm (tibia) medially, "
                     "{:.2f} and {:.2f} mm laterally, so that they meet",
                     start.offset[0], start.offset[1], start.offset[2], start.offset[3]));
-  else if (std::abs(start.shifted) > kMostShift)
+  if (std::abs(start.shifted) > kMostShift)
     knee.doubts.push_back(fmt::format("the bones are brought {} by {:.1f} mm",
                                       start.shifted > 0 ? "together" : "apart",
                                       std::abs(start.shifted)));
@@ -166,6 +178,10 @@ void find_start(NewKnee& knee) {
   }
   const Vector2d before = gaps.at(pose_from_joint_coordinates(frames, q));
   start.gaps = {before[0], before[1]};
+  if (before.minCoeff() < -kMostOverlap)
+    throw InputError(fmt::format(
+        "{} and {}: the bones lie {:.0f} mm inside each other, expected them as scanned",
+        knee.files.femur.string(), knee.files.tibia.string(), -before.minCoeff()));
   const bool bare = knee.files.cartilage.empty();
   if (bare) gaps.set_offset(start.offset = cartilage_offsets(gaps, before));
   const Vector2d step = close_gaps(gaps, frames, q);

@@ -64,6 +64,7 @@ std::vector<Face> large_parts(const TriangleMesh& mesh, const std::vector<double
     parent[root(a)] = root(b);
     parent[root(b)] = root(c);
   }
+  if (seen.empty()) return {};
   std::vector<double> part(seen.size(), 0);
   for (std::size_t i = 0; i < seen.size(); ++i) part[root(static_cast<int>(i))] += seen[i];
   const double least = kLeastPart * *std::max_element(part.begin(), part.end());

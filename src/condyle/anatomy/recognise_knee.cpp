@@ -129,6 +129,16 @@ void doubt_pose(RecognisedKnee& knee, const KneeEnds& ends) {
     knee.doubts.push_back(fmt::format("scanned {:.0f} degrees {}, as the frames see it",
                                       std::abs(flexion),
                                       flexion > 0 ? "flexed" : "beyond extension"));
+  const double adduction = std::asin(std::clamp(k.z(), -1.0, 1.0)) / kDegree;
+  if (std::abs(adduction) > 7)
+    knee.doubts.push_back(fmt::format("the tibia is {} by {:.0f} degrees in the scan",
+                                      adduction > 0 ? "adducted" : "abducted",
+                                      std::abs(adduction)));
+  const Vector3d j = knee.femur.frame.components(knee.tibia.frame.anterior);
+  const double turn = std::atan2(-j.z(), j.x()) / kDegree;
+  if (std::abs(turn) > 12)
+    knee.doubts.push_back(fmt::format("the tibia is turned {} by {:.0f} degrees in the scan",
+                                      turn > 0 ? "inwards" : "outwards", std::abs(turn)));
   if (ends.gap > 10) knee.doubts.push_back(fmt::format("the bones are {:.0f} mm apart", ends.gap));
 }
 
@@ -165,6 +175,7 @@ RecognisedKnee recognise_knee(const KneeMeshes& meshes, const RecogniseOptions& 
   const TibialShape tibia = find_tibia_or_say_why(tibia_clean, ends, condyles);
   const FemoralShape femur =
       find_femoral_frame(femur_clean.mesh, condyles, ends, tibia.frame.proximal);
+  check_shafts(femur_clean, femur, tibia_clean, tibia);
   check_they_fit(femur, tibia, ends);
 
   tell_side(knee, weigh_femur(femur), weigh_tibia(tibia, tibia_clean.mesh), options);

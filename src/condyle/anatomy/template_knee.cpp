@@ -32,6 +32,8 @@ void check_template(const Scene& scene, const std::filesystem::path& file) {
   };
   if (!scene.joint) refuse("a scene with [joint]");
   if (scene.ligaments.empty()) refuse("at least one ligament");
+  if (!scene.loads.empty() && scene.joint->tibia.body != scene.moving_body())
+    refuse("a tibia that moves, since loads are carried over with it");
   for (const AnatomicalFrame& frame : {scene.joint->femur, scene.joint->tibia})
     if (!scene.bodies[static_cast<std::size_t>(frame.body)].mesh) refuse("a mesh for both bones");
 }

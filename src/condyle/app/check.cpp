@@ -2,7 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <set>
 
@@ -10,6 +12,7 @@
 #include "condyle/app/make_run.h"
 #include "condyle/app/start_run.h"
 #include "condyle/network/simulate.h"
+#include "condyle/report/summary_json.h"
 #include "condyle/results/output_file.h"
 #include "condyle/scene_file/describe.h"
 #include "condyle/scene_file/read_scene.h"
@@ -87,8 +90,8 @@ int run_check(const CheckOptions& options) {
 #ifdef CONDYLE_PICTURES
   if (!options.report.empty()) {
     const Run run = start_run(scene);
-    std::vector<std::string> remarks = run.start;
-    remarks.insert(remarks.end(), warnings.begin(), warnings.end());
+    std::vector<std::string> remarks;
+    std::copy_if(run.start.begin(), run.start.end(), std::back_inserter(remarks), is_warning);
     write_scene_page(options.report, run, remarks);
     fmt::print("wrote {}\n", options.report);
   }

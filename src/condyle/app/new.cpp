@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include "condyle/app/default_template.h"
 #include "condyle/app/start_run.h"
 #include "condyle/input_error.h"
+#include "condyle/mesh_files/mesh_bytes.h"
 #include "condyle/results/output_file.h"
 #include "condyle/scene_file/read_scene.h"
 
@@ -46,11 +48,18 @@ NewKneeFiles files_of(const NewCommand& command) {
   return files;
 }
 
-void check_outputs(const NewCommand& command) {
+void check_outputs(const NewCommand& command, const fs::path& model) {
+  for (const std::string& name : {command.femur, command.tibia})
+    if (std::any_of(name.begin(), name.end(),
+                    [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+      throw InputError(quotable(name) +
+                       ": a name with control characters, which a scene cannot hold");
   check_output_file(command.output);
   if (!command.report.empty()) check_output_file(command.report);
+  if (fs::path(command.report).lexically_normal() == fs::path(command.output).lexically_normal())
+    throw InputError(command.report + ": scene and report, expected two files");
   std::vector<std::string> read = command.cartilage;
-  read.insert(read.end(), {command.femur, command.tibia, command.scene});
+  read.insert(read.end(), {command.femur, command.tibia, model.string()});
   for (const std::string& output : {command.output, command.report})
     for (const std::string& input : read) {
       std::error_code unknown;
@@ -102,12 +111,10 @@ void print_start(const NewKnee& knee) {
 }
 
 int run_new(const NewCommand& command) {
-  if (command.cartilage.size() == 1)
-    throw InputError(
-        "--cartilage: one file, expected the femoral and the tibial one (or two tibial ones)");
-  check_outputs(command);
+  const NewKneeFiles files = files_of(command);
+  check_outputs(command, files.template_scene);
   const NewKnee knee = knee_from_meshes(
-      files_of(command), {.to_mm = units_option(command.units), .side = side_option(command.side)});
+      files, {.to_mm = units_option(command.units), .side = side_option(command.side)});
   const std::string text = new_scene_text(knee, command.output);
   const Scene scene = parse_scene(text, command.output);  // what is written can be read
 #ifdef CONDYLE_PICTURES

@@ -9,9 +9,9 @@
 
 namespace condyle {
 
-/// The scene's meshes and patches with one pose, the start pose: joint coordinates, lengths, strains
-/// and forces of the ligaments as straight lines. Nothing is solved.
-[[nodiscard]] Run start_run(const Scene& scene);
+/// The scene's meshes and patches with one pose, the start pose: joint coordinates, and lengths, strains and
+/// forces of the ligaments along their paths. Wraps that are fitted to bone are fitted. Nothing is solved.
+[[nodiscard]] Run start_run(Scene scene);
 
 /// Draws it into a PNG file (pictures/scene_page.h).
 void write_scene_page(const std::string& file,

@@ -191,6 +191,8 @@ void find_row(const PoseOutput& output, LocalRates& rates, OutputRow& row) {
         const Vector3d along = own.f.normalized();
         return add_motion(1, own.F1.transpose() * along, own.F2.transpose() * along, L, row);
       }
+      if (at.model.pairs[i].law && rates.wrench_of_pair(i).f.norm() > 0)
+        refuse_contact(at, i, "its law does not tell how it depends on the pose");
       for (std::size_t k = 0; k < at.contacts().size(); ++k)
         if (static_cast<std::size_t>(at.state.contacts[k].pair) == i) row[6 + k] = 1;
       return;

@@ -22,6 +22,7 @@ using Eigen::Vector3d;
 constexpr double kWidest = 125;    // of a knee; epicondylar widths of men are 83 +- 4 [mm]
 constexpr double kGoodAxis = 1.5;  // rms of posterior condyles from their cylinders [mm]
 // Of the width of the bone: femoral condyles have radii of 0.22 to 0.27, the rims of a plateau 0.13.
+constexpr double kMostRadius = 0.32;  // of condyles, of the width: femurs have 0.22 to 0.28
 constexpr double kLeastRadius = 0.17;
 
 std::optional<CondylarAxis> find_axis(CleanMesh mesh, const BoneFrame& frame) {
@@ -69,8 +70,9 @@ void check_one_knee(const TriangleMesh& mesh, const BoneFrame& frame) {
 void check_is_no_femur(const CleanMesh& mesh, const BoneFrame& frame) {
   const std::optional<CondylarAxis> axis = find_axis(mesh, frame);
   if (!axis || axis->rms > kGoodAxis || axis->coverage < 0.8) return;
-  const double radius = std::min(axis->medial_radius, axis->lateral_radius);
-  if (radius < kLeastRadius * width_of(mesh.mesh, frame)) return;
+  const double radius = std::min(axis->medial_radius, axis->lateral_radius),
+               width = width_of(mesh.mesh, frame);
+  if (radius < kLeastRadius * width || radius > kMostRadius * width) return;
   throw InputError(fmt::format(
       "looks like a femur, expected a tibia: it has posterior condyles of radius {:.1f} "
       "and {:.1f} mm about one axis, {:.2f} mm rms",

@@ -169,7 +169,13 @@ double pull_path(const PathPose& pose, PathState state, Wrench* unit, LastPiece&
   }
   int touched = 0;
   const int one = only_one(pose, state, touched);
-  if (touched == 0) return straight(pose, unit, last);
+  if (touched == 0) {
+    // What was said of the surfaces that it lay on before does not hold for a straight line.
+    if (state.finding().outcome == Outcome::kNotShortest ||
+        state.finding().outcome == Outcome::kFound)
+      state.set(Outcome::kFound, -1, 1);
+    return straight(pose, unit, last);
+  }
   if (one >= 0) {
     const bool from_anchor = pose.ends.end[1].wrap == one;
     const double L = from_anchor ? pull_from_anchor(pose, one, state, unit, last)
