@@ -76,29 +76,29 @@ std::optional<Vector3d> onto(const SampledSurface& samples,
                              const Vector3d& p,
                              const Vector3d& normal) {
   constexpr double kDrop = 4, kBeside = 0.75;  // [mm]
-  const auto footing = samples.under(p, normal, kDrop);
-  if (!footing) return std::nullopt;
-  const Vector3d below = p - footing->height * samples.samples().normals[footing->sample];
+  const auto opposite = samples.under(p, normal, kDrop);
+  if (!opposite) return std::nullopt;
+  const Vector3d below = p - opposite->height * samples.samples().normals[opposite->sample];
   const Vector3d down = mesh.closest(below);
   return (down - below).norm() < kBeside ? std::optional(down) : std::nullopt;
 }
 
-/// `point` and what comes back in anatomical components; `foot` below it on its own bone.
+/// `point` and what comes back in anatomical components; `base`, the closest point of its own bone.
 CarriedPoint carry(const BoneRegistration& bones,
                    const MeshDistance& other,
                    const Vector3d& point,
-                   const Vector3d& foot,
+                   const Vector3d& base,
                    const Neighbourhood& near) {
   constexpr double kInserted = 3;  // a point farther from the bone is on another one [mm]
   CarriedPoint carried;
-  const double height = (point - foot).norm();
-  carried.at = bones.at(foot);
+  const double height = (point - base).norm();
+  carried.at = bones.at(base);
   const auto down = onto(bones.to, other, carried.at, bones.surface.normals[near.nearest]);
   if (down) {
     carried.dropped = (*down - carried.at).norm();
     carried.at = *down;
   }
-  if (height > kInserted) carried.at += bones.at(point) - bones.at(foot);
+  if (height > kInserted) carried.at += bones.at(point) - bones.at(base);
   carried.moved = (carried.at - bones.alignment.at(point)).norm();
   carried.uncertainty = estimated_deviation(near, carried.moved, height, down.has_value());
   return carried;
@@ -119,9 +119,9 @@ CarriedPoints carry_points(const FramedBone& from,
   carried.size = bones.alignment.size;
   carried.rms = bones.found.rms;
   for (const Vector3d& p : at) {
-    const Vector3d foot = on_one.closest(p);
-    const Neighbourhood near = around(bones.alignment.at(foot), bones);
-    CarriedPoint point = carry(bones, on_other, p, foot, near);
+    const Vector3d base = on_one.closest(p);
+    const Neighbourhood near = around(bones.alignment.at(base), bones);
+    CarriedPoint point = carry(bones, on_other, p, base, near);
     point.at = from_components(to.frame, point.at);
     carried.covered += near.covered / static_cast<double>(at.size());
     carried.points.push_back(point);

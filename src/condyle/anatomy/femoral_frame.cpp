@@ -221,7 +221,6 @@ FemoralShape find_femoral_frame(const TriangleMesh& femur,
     set_proximal(shape, femur);
     shape.end = crop_ball(femur, shape.frame.origin, kEnd * shape.width);
   }
-  shape.outline = kOutlineAngle - outline_angle(shape);
   if (shape.shaft == 0) lean_to_tibia(shape.frame, tibia_proximal);
   return shape;
 }

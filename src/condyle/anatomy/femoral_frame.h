@@ -20,7 +20,6 @@ struct FemoralShape {
   double shaft = 0;        ///< length of shaft that the frame went by [mm]
   double shaft_first = 0;  ///< where that begins, from the origin [mm]
   double lean = 0;         ///< of the shaft towards `lateral`, going up [rad]; 0 without shaft
-  double outline = 0;  ///< how far the outline would have proximal lean forward of `frame` [rad]
 };
 
 /// Where the condyles of a femur are, roughly.

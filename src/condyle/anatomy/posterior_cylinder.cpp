@@ -103,8 +103,7 @@ PosteriorCylinder fit_posterior_cylinder(const TriangleMesh& mesh,
   return {.middle = c.point + c.along * (low + high) / 2,
           .direction = c.along,
           .radius = c.radius,
-          .rms = std::sqrt(squares / (weight[0] + weight[1])),
-          .spacing = high - low};
+          .rms = std::sqrt(squares / (weight[0] + weight[1]))};
 }
 
 }  // namespace condyle

@@ -14,7 +14,6 @@ struct PosteriorCylinder {
   Eigen::Vector3d direction;  ///< unit, along the `lateral` of the frame that the fit began with
   double radius = 0;          ///< [mm]
   double rms = 0;             ///< of the posterior condyles from it [mm]
-  double spacing = 0;         ///< between the middles of the condyles, along the axis [mm]
 };
 
 /// Refines `start`, whose two radii become one. Samples are what lies near the cylinder between 20 and

@@ -24,9 +24,9 @@ SampledSurface::SampledSurface(SampledSurface&&) noexcept = default;
 
 const SurfaceSamples& SampledSurface::samples() const { return index_->samples; }
 
-std::optional<Footing> SampledSurface::under(const Vector3d& p,
-                                             const Vector3d& normal,
-                                             double reach) const {
+std::optional<Opposite> SampledSurface::under(const Vector3d& p,
+                                              const Vector3d& normal,
+                                              double reach) const {
   constexpr std::size_t kNearest = 8;
   constexpr double kLeastCosine = 0.5;
   std::array<std::size_t, kNearest> near{};
@@ -41,7 +41,7 @@ std::optional<Footing> SampledSurface::under(const Vector3d& p,
     const Vector3d d = p - samples.points[near[k]];
     const double height = n.dot(d), beside = (d - height * n).norm();
     if (beside > std::max(1.5 * samples.spacing, 0.7 * std::abs(height))) return std::nullopt;
-    return Footing{near[k], height};
+    return Opposite{near[k], height};
   }
   return std::nullopt;
 }
@@ -68,10 +68,10 @@ SurfacePairs pair_surfaces(const MovedSurface& coarse,
   const std::size_t n = coarse.points.size();
   std::vector<int> pair_of(n, -1);
   for (std::size_t i = 0; i < n; ++i)
-    if (const auto foot = other.under(coarse.points[i], coarse.normals[i], reach)) {
+    if (const auto opposite = other.under(coarse.points[i], coarse.normals[i], reach)) {
       pair_of[i] = static_cast<int>(out.pairs.size());
-      out.pairs.push_back({coarse.before.points[i], other.samples().points[foot->sample],
-                           other.samples().normals[foot->sample], foot->height,
+      out.pairs.push_back({coarse.before.points[i], other.samples().points[opposite->sample],
+                           other.samples().normals[opposite->sample], opposite->height,
                            coarse.before.areas[i]});
     }
   SurfaceSamples now = fine.before;
@@ -80,9 +80,9 @@ SurfacePairs pair_surfaces(const MovedSurface& coarse,
   const SampledSurface from_other(std::move(now));
   for (std::size_t j = 0; j < other_coarse.points.size(); ++j) {
     const Vector3d &y = other_coarse.points[j], &normal = other_coarse.normals[j];
-    if (const auto foot = from_other.under(y, normal, reach))
-      out.pairs.push_back({fine.before.points[foot->sample], y, normal,
-                           normal.dot(fine.points[foot->sample] - y), other_coarse.areas[j]});
+    if (const auto opposite = from_other.under(y, normal, reach))
+      out.pairs.push_back({fine.before.points[opposite->sample], y, normal,
+                           normal.dot(fine.points[opposite->sample] - y), other_coarse.areas[j]});
   }
   constexpr double kDeviations = 4, kLeast = 1;  // [-], [mm]
   const double limit = std::max(kDeviations * robust_deviation(out.pairs), kLeast);

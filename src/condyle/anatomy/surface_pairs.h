@@ -12,7 +12,7 @@
 namespace condyle {
 
 /// Where a surface, known by samples, lies under a point.
-struct Footing {
+struct Opposite {
   std::size_t sample = 0;
   double height = 0;  ///< of the point over the sample's tangent plane [mm]
 };
@@ -26,9 +26,9 @@ class SampledSurface {
   [[nodiscard]] const SurfaceSamples& samples() const;
   /// Nearest sample within `reach` [mm] whose normal is within 60 degrees of `normal`; none where
   /// the surface ends beside the point (its edge, the rim of a cut).
-  [[nodiscard]] std::optional<Footing> under(const Eigen::Vector3d& p,
-                                             const Eigen::Vector3d& normal,
-                                             double reach) const;
+  [[nodiscard]] std::optional<Opposite> under(const Eigen::Vector3d& p,
+                                              const Eigen::Vector3d& normal,
+                                              double reach) const;
 
  private:
   struct Index;

@@ -75,8 +75,8 @@ Image draw_scene_page(const Run& run, const std::vector<std::string>& remarks) {
       lines.push_back(line);
 
   const int pictures = kPanelHigh * static_cast<int>(kViews.size()) / 2;
-  const int foot = 2 * kMargin + kLine * (1 + static_cast<int>(lines.size()));
-  Image page = blank_image(2 * kPanelWide, pictures + foot, {255, 255, 255});
+  const int below = 2 * kMargin + kLine * (1 + static_cast<int>(lines.size()));
+  Image page = blank_image(2 * kPanelWide, pictures + below, {255, 255, 255});
   PictureOptions options;
   options.width = kPanelWide;
   options.height = kPanelHigh;
