@@ -26,9 +26,12 @@
 #include "support/allocation_count.h"
 #include "support/counted_model.h"
 #include "support/patch_knee.h"
+#include "support/words_of.h"
 
 namespace condyle {
 namespace {
+
+using test::words_of;
 
 constexpr double kDegree = M_PI / 180;
 
@@ -93,15 +96,6 @@ class SharedKnee : public testing::Test {
     return poses;
   }
 };
-
-std::string words_of(const std::function<void()>& wrong) {
-  try {
-    wrong();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
 
 TEST_F(SharedKnee, ADriveOfTheWrongSizeIsAnErrorInWords) {
   EquilibriumSolver solver(model, covers);

@@ -20,10 +20,13 @@
 #include "support/patch_knee.h"
 #include "support/quadric_knee.h"
 #include "support/sensitivity_check.h"
+#include "support/words_of.h"
 #include "support/wrapped_scenes.h"
 
 namespace condyle {
 namespace {
+
+using test::words_of;
 
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
@@ -318,15 +321,6 @@ TEST(Sensitivity, IsContinuousWhereALigamentGoesSlack) {
   const double taut = derivative_with(free * (1 - 1e-7)),
                slack = derivative_with(free * (1 + 1e-7));
   EXPECT_NEAR(taut, slack, 1e-4 * std::abs(slack));
-}
-
-std::string words_of(const std::function<void()>& wrong) {
-  try {
-    wrong();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
 }
 
 TEST(Sensitivity, WhatIsNotKnownIsRefusedByName) {

@@ -24,10 +24,6 @@ TriangleMesh in_components(const FramedBone& bone) {
   return mesh;
 }
 
-Vector3d from_components(const BoneFrame& frame, const Vector3d& c) {
-  return frame.origin + frame.anterior * c.x() + frame.proximal * c.y() + frame.lateral * c.z();
-}
-
 /// How the registration is where a point is.
 struct Neighbourhood {
   double rms = 0;      ///< gap of what is near [mm]
@@ -122,7 +118,7 @@ CarriedPoints carry_points(const FramedBone& from,
     const Vector3d base = on_one.closest(p);
     const Neighbourhood near = around(bones.alignment.at(base), bones);
     CarriedPoint point = carry(bones, on_other, p, base, near);
-    point.at = from_components(to.frame, point.at);
+    point.at = to.frame.origin + to.frame.vector(point.at);
     carried.covered += near.covered / static_cast<double>(at.size());
     carried.points.push_back(point);
   }

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <unordered_map>
+
+#include "condyle/math/disjoint_sets.h"
 
 namespace condyle {
 namespace {
@@ -17,12 +18,7 @@ using Eigen::Vector3d;
 struct Cuts {
   std::unordered_map<std::uint64_t, int> index;
   std::vector<Vector3d> points;
-  std::vector<int> parent;  // of the loops, as a union-find forest
-
-  int root(int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  }
+  DisjointSets loops;
 };
 
 int cut_edge(
@@ -33,7 +29,7 @@ int cut_edge(
   if (is_new) {
     const double share = height[a] / (height[a] - height[b]);
     cuts.points.emplace_back(mesh.vertices[a] + share * (mesh.vertices[b] - mesh.vertices[a]));
-    cuts.parent.push_back(found->second);
+    cuts.loops.add();
   }
   return found->second;
 }
@@ -56,7 +52,7 @@ std::vector<Segment> cut_triangles(Cuts& cuts,
     }
     if (from < 0) continue;
     segments.push_back({to, from});
-    cuts.parent[cuts.root(from)] = cuts.root(to);
+    cuts.loops.join(from, to);
   }
   return segments;
 }
@@ -73,7 +69,7 @@ std::vector<SectionLoop> cross_section(const TriangleMesh& mesh,
   std::vector<SectionLoop> loops(cuts.points.size(), {.centroid = Vector3d::Zero()});
   std::vector<Vector3d> run(cuts.points.size(), Vector3d::Zero());  // from end to end
   for (const Segment& s : segments) {
-    const int loop = cuts.root(s.from);
+    const int loop = cuts.loops.root(s.from);
     const Vector3d& start = cuts.points[loop];
     const Vector3d a = cuts.points[s.from] - start, b = cuts.points[s.to] - start;
     const double area = along.dot(a.cross(b)) / 2;

@@ -47,14 +47,8 @@ std::vector<double> distances(const TriangleMesh& mesh, const TriangleMesh& othe
   const PointCloud cloud{other.vertices};
   const PointTree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(20));
   std::vector<double> found(mesh.vertices.size());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    std::size_t nearest = 0;
-    double squared = 0;
-    nanoflann::KNNResultSet<double> result(1);
-    result.init(&nearest, &squared);
-    tree.findNeighbors(result, mesh.vertices[i].data(), nanoflann::SearchParams());
-    found[i] = std::sqrt(squared);
-  }
+  for (std::size_t i = 0; i < found.size(); ++i)
+    found[i] = std::sqrt(nearest_point(tree, mesh.vertices[i]).square);
   return found;
 }
 

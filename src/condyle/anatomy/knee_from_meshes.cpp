@@ -14,6 +14,7 @@
 #include "condyle/scene/ligament_path.h"
 #include "condyle/scene/start_pose.h"
 #include "condyle/scene_file/read_scene.h"
+#include "condyle/scene_file/scene_words.h"
 #include "condyle/specimen/fit_wraps.h"
 
 namespace condyle {
@@ -131,10 +132,11 @@ void choose_ligaments(NewKnee& knee) {
           ligament.name));
       continue;
     }
-    wrapped += on_bone(scene, ligament) ? 0 : 1;
-    knee.wraps = knee.wraps || (!ligament.path.wraps.empty() && on_bone(scene, ligament));
     NewLigament chosen;
     chosen.of_template = static_cast<int>(l);
+    chosen.on_bone = on_bone(scene, ligament);
+    wrapped += chosen.on_bone ? 0 : 1;
+    knee.wraps = knee.wraps || (chosen.on_bone && !ligament.path.wraps.empty());
     chosen.strain = ligament.reference_strain
                         ? *ligament.reference_strain
                         : ligament_length(scene, ligament, X_BA) / slack_length(ligament.law) - 1;
@@ -145,7 +147,8 @@ void choose_ligaments(NewKnee& knee) {
                      ": as a template, expected a ligament that is toe-linear or quadratic");
   if (wrapped > 0)
     knee.doubts.push_back(fmt::format(
-        "{} of the template's ligaments wrap on bone; they are straight here, with the "
+        "{} of the template's ligaments wrap on surfaces of its own; they are straight here, with "
+        "the "
         "strain that they have wrapped (condyle check names those that run through bone)",
         wrapped));
 }

@@ -28,7 +28,9 @@ struct NewLigament {
   int of_template = -1;               ///< index into the template's ligaments
   std::array<CarriedPoint, 2> ends;   ///< in the order of the template's
   std::array<bool, 2> on_femur = {};  ///< which bone each is on
-  double strain = 0;                  ///< at the start pose, the template's and this one's [-]
+  bool on_bone = false;  ///< all that it wraps on, if anything, is fitted to the template's
+                         ///< bones: it can be fitted to others
+  double strain = 0;     ///< at the start pose, the template's and this one's [-]
 };
 
 /// How the start pose came about.

@@ -2,15 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <set>
-#include <string_view>
-#include <system_error>
 #include <variant>
 
 #include "condyle/math/rotation.h"
+#include "condyle/scene_file/scene_words.h"
 
 namespace condyle {
 namespace {
@@ -39,15 +37,6 @@ std::string direction(const Vector3d& v) {
   return fmt::format("[{:.12f}, {:.12f}, {:.12f}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
 
-/// As TOML's basic string; control characters become spaces.
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-  }
-  return result + '"';
-}
 /// As a comment: one line.
 std::string comment(const std::string& text) {
   std::string result = "# ";
@@ -80,18 +69,11 @@ class SceneText {
 
   [[nodiscard]] bool right() const { return knee_.shape.side == Side::kRight; }
 
-  [[nodiscard]] std::string relative(const fs::path& file) const {
-    std::error_code error;
-    const fs::path absolute = fs::absolute(scene_, error);
-    const fs::path path = fs::relative(file, absolute.parent_path(), error);
-    return (error || path.empty() ? fs::absolute(file) : path).generic_string();
-  }
-
   void add_head() {
     const Scene& from = knee_.model.scene;
-    line("title = {}",
-         quoted(fmt::format("{} and {}, {} knee", knee_.files.femur.filename().string(),
-                            knee_.files.tibia.filename().string(), right() ? "right" : "left")));
+    line("title = {}", scene_string(fmt::format(
+                           "{} and {}, {} knee", knee_.files.femur.filename().string(),
+                           knee_.files.tibia.filename().string(), right() ? "right" : "left")));
     say("Made by condyle new from the meshes below. Ligaments, loads: template \"" + from.title +
         "\".");
     say(fmt::format("Side: {}, {:.1f} % sure ({}).", right() ? "right" : "left",
@@ -102,8 +84,8 @@ class SceneText {
   }
 
   void add_mesh(const fs::path& file) {
-    line("mesh = {}", quoted(relative(file)));
-    if (knee_.shape.to_mm != 1) line("mesh_units = {}", quoted(unit_name(knee_.shape.to_mm)));
+    line("mesh = {}", scene_string(mesh_path_in(scene_, file)));
+    if (knee_.shape.to_mm != 1) line("mesh_units = {}", scene_string(unit_name(knee_.shape.to_mm)));
   }
 
   void add_bodies() {
@@ -164,11 +146,11 @@ class SceneText {
                        point(ligament.ends[k].at));
   }
 
-  void add_path(const LigamentDescription& from) {
+  void add_path(const NewLigament& ligament, const LigamentDescription& from) {
     std::string names;
-    for (const int wrap : wraps_of(from))
+    for (const int wrap : wraps_of(ligament))
       names += (names.empty() ? "" : ", ") +
-               quoted(knee_.model.scene.wraps[static_cast<std::size_t>(wrap)].name);
+               scene_string(knee_.model.scene.wraps[static_cast<std::size_t>(wrap)].name);
     if (names.empty()) return;
     line("wraps = [{}]", names);
     if (!from.path.anchors_inside) line("inside = \"straight\"");
@@ -185,14 +167,9 @@ class SceneText {
   }
 
   /// Of the template, on the new bones.
-  [[nodiscard]] std::vector<int> wraps_of(const LigamentDescription& from) const {
-    std::vector<int> wraps;
-    if (!knee_.wraps || !from.path.sides.empty()) return wraps;
-    for (const int wrap : from.path.wraps) {
-      if (!knee_.model.scene.wraps[static_cast<std::size_t>(wrap)].fit) return {};
-      wraps.push_back(wrap);
-    }
-    return wraps;
+  [[nodiscard]] std::vector<int> wraps_of(const NewLigament& ligament) const {
+    if (!knee_.wraps || !ligament.on_bone) return {};
+    return knee_.model.scene.ligaments[static_cast<std::size_t>(ligament.of_template)].path.wraps;
   }
 
   /// Those that a ligament uses.
@@ -200,13 +177,11 @@ class SceneText {
     const Scene& scene = knee_.model.scene;
     std::set<int> used;
     for (const NewLigament& ligament : knee_.ligaments)
-      for (const int wrap :
-           wraps_of(scene.ligaments[static_cast<std::size_t>(ligament.of_template)]))
-        used.insert(wrap);
+      for (const int wrap : wraps_of(ligament)) used.insert(wrap);
     for (const int wrap : used) {
       const WrapDescription& from = scene.wraps[static_cast<std::size_t>(wrap)];
       line("\n[[wrap]]\nname = {}\nbody = \"{}\"\nkind = \"ellipsoid\"\nfit = \"bone\"",
-           quoted(from.name), from.body == scene.joint->femur.body ? "femur" : "tibia");
+           scene_string(from.name), from.body == scene.joint->femur.body ? "femur" : "tibia");
     }
   }
 
@@ -219,12 +194,12 @@ class SceneText {
     for (const NewLigament& ligament : knee_.ligaments) {
       const LigamentDescription& from =
           knee_.model.scene.ligaments[static_cast<std::size_t>(ligament.of_template)];
-      line("\n[[ligament]]\nname = {}", quoted(from.name));
+      line("\n[[ligament]]\nname = {}", scene_string(from.name));
       line("ends = [ {},  # moved {:.1f} mm, ±{:.1f}", end(ligament, 0), ligament.ends[0].moved,
            ligament.ends[0].uncertainty);
       line("         {} ]  # moved {:.1f} mm, ±{:.1f}", end(ligament, 1), ligament.ends[1].moved,
            ligament.ends[1].uncertainty);
-      add_path(from);
+      add_path(ligament, from);
       add_law(from, ligament.strain);
     }
   }
@@ -233,8 +208,7 @@ class SceneText {
   [[nodiscard]] static Vector3d carried(const BoneFrame& from,
                                         const BoneFrame& to,
                                         const Vector3d& v) {
-    const Vector3d c = from.components(v);
-    return to.anterior * c.x() + to.proximal * c.y() + to.lateral * c.z();
+    return to.vector(from.components(v));
   }
 
   void add_load(const LoadDescription& load) {
@@ -249,13 +223,13 @@ class SceneText {
                           ? carried(from, to, load.vector)
                           : carried(old.femur.frame, knee_.shape.femur.frame, load.vector);
     if (load.moment && old.side != knee_.shape.side) vector = -vector;  // a pseudovector
-    line("\n[[load]]\nname = {}\nbody = \"{}\"\nkind = \"{}\"\nvector = {}", quoted(load.name),
-         femur ? "femur" : "tibia", load.moment ? "moment" : "force", point(vector));
+    line("\n[[load]]\nname = {}\nbody = \"{}\"\nkind = \"{}\"\nvector = {}",
+         scene_string(load.name), femur ? "femur" : "tibia", load.moment ? "moment" : "force",
+         point(vector));
     if (load.follows_body) line("follows = \"body\"");
     if (load.moment) return;
     const Vector3d c = from.components(load.at - from.origin).cwiseProduct(size);
-    line("at = {}",
-         point(to.origin + to.anterior * c.x() + to.proximal * c.y() + to.lateral * c.z()));
+    line("at = {}", point(to.origin + to.vector(c)));
   }
 
   void add_motion() {
@@ -273,14 +247,6 @@ class SceneText {
 
 std::string new_scene_text(const NewKnee& knee, const fs::path& scene) {
   return SceneText(knee, scene).text();
-}
-
-std::string unit_name(double to_mm) {
-  constexpr std::array<std::pair<double, std::string_view>, 3> units = {
-      {{1, "mm"}, {10, "cm"}, {1000, "m"}}};
-  for (const auto& [factor, name] : units)
-    if (factor == to_mm) return std::string(name);
-  return "";
 }
 
 }  // namespace condyle

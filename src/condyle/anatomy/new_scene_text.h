@@ -12,7 +12,4 @@ namespace condyle {
 /// `scene` is where the text will stand: meshes are named relative to its folder.
 [[nodiscard]] std::string new_scene_text(const NewKnee& knee, const std::filesystem::path& scene);
 
-/// The name that scenes have for a unit: "mm", "cm", "m", "in"; empty for none of them.
-[[nodiscard]] std::string unit_name(double to_mm);
-
 }  // namespace condyle

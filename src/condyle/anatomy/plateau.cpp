@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "condyle/input_error.h"
+#include "condyle/math/disjoint_sets.h"
 #include "condyle/mesh/mesh_measures.h"
 
 namespace condyle {
@@ -53,24 +53,19 @@ std::vector<double> areas_along(const TriangleMesh& mesh,
 
 /// Vertices of the large linked parts: no head of a fibula, no islands.
 std::vector<Face> large_parts(const TriangleMesh& mesh, const std::vector<double>& seen) {
-  std::vector<int> parent(seen.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets linked(seen.size());
   for (const auto& [a, b, c] : mesh.triangles) {
     if (seen[a] == 0 || seen[b] == 0 || seen[c] == 0) continue;
-    parent[root(a)] = root(b);
-    parent[root(b)] = root(c);
+    linked.join(a, b);
+    linked.join(b, c);
   }
   if (seen.empty()) return {};
   std::vector<double> part(seen.size(), 0);
-  for (std::size_t i = 0; i < seen.size(); ++i) part[root(static_cast<int>(i))] += seen[i];
+  for (std::size_t i = 0; i < seen.size(); ++i) part[linked.root(static_cast<int>(i))] += seen[i];
   const double least = kLeastPart * *std::max_element(part.begin(), part.end());
   std::vector<Face> faces;
   for (std::size_t i = 0; i < seen.size(); ++i)
-    if (seen[i] > 0 && part[root(static_cast<int>(i))] >= least)
+    if (seen[i] > 0 && part[linked.root(static_cast<int>(i))] >= least)
       faces.push_back({mesh.vertices[i], seen[i]});
   return faces;
 }

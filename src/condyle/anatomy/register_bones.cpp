@@ -57,11 +57,7 @@ void turn_parts(SurfaceSamples& samples, const SurfaceSamples& from) {
   const PointTree tree(3, cloud);
   std::map<int, std::array<double, 2>> votes;  // area against and in all
   for (std::size_t i = 0; i < samples.points.size(); ++i) {
-    std::size_t nearest = 0;
-    double square = 0;
-    nanoflann::KNNResultSet<double> result(1);
-    result.init(&nearest, &square);
-    tree.findNeighbors(result, samples.points[i].data(), nanoflann::SearchParams());
+    const std::size_t nearest = nearest_point(tree, samples.points[i]).index;
     auto& vote = votes[samples.parts[i]];
     vote[0] += samples.areas[i] * samples.normals[i].dot(from.normals[nearest]);
     vote[1] += samples.areas[i];

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <unordered_map>
 
+#include "condyle/math/disjoint_sets.h"
 #include "condyle/mesh/mesh_measures.h"
 
 namespace condyle {
@@ -17,19 +17,12 @@ using Eigen::Vector3d;
 
 /// Of each vertex, the lowest vertex that it is linked to through triangles.
 std::vector<int> connected_parts(const TriangleMesh& mesh) {
-  std::vector<int> root(mesh.vertices.size());
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](int v) {
-    while (root[v] != v) v = root[v] = root[root[v]];
-    return v;
-  };
+  DisjointSets linked(mesh.vertices.size());
   for (const auto& t : mesh.triangles)
-    for (const int v : {t[1], t[2]}) {
-      const int a = find(t[0]), b = find(v);
-      root[std::max(a, b)] = std::min(a, b);
-    }
-  for (std::size_t v = 0; v < root.size(); ++v) root[v] = find(static_cast<int>(v));
-  return root;
+    for (const int v : {t[1], t[2]}) linked.join(t[0], v);
+  std::vector<int> lowest(mesh.vertices.size());
+  for (std::size_t v = 0; v < lowest.size(); ++v) lowest[v] = linked.root(static_cast<int>(v));
+  return lowest;
 }
 
 /// The cube, and which of the six faces of a die the normal is nearest to.

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 
 #include "condyle/app/commands.h"
+#include "condyle/app/make_run.h"
 #include "condyle/exchange/osim_scene.h"
 #include "condyle/exchange/ply_file.h"
 #include "condyle/input_error.h"
@@ -15,8 +15,6 @@
 
 namespace condyle {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct ImportCommand {
   std::string model, output, side;
@@ -34,10 +32,7 @@ std::optional<Side> parse_side(const std::string& text) {
 int run_import(ImportCommand& command) {
   command.knee.side = parse_side(command.side);
   check_output_file(command.output);
-  std::error_code unknown;
-  if (fs::equivalent(command.output, command.model, unknown)) {
-    throw InputError(command.output + ": is read by this command, expected another file to write");
-  }
+  refuse_to_overwrite(command.output, {command.model});
   const OsimModel model = read_osim(command.model);
   const OsimKnee knee = find_knee(model, command.model, command.knee);
   const OsimScene scene = osim_scene(model, knee, command.model, command.output, command.scene);

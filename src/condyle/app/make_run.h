@@ -31,7 +31,11 @@ struct Study {
                                 const std::string& output,
                                 const std::function<void(const Scene&)>& check);
 
-/// Throws InputError where the file to write is the scene or one of its meshes.
+/// Throws InputError where the file to write is one of those that a command reads.
+void refuse_to_overwrite(const std::filesystem::path& output,
+                         const std::vector<std::filesystem::path>& inputs);
+
+/// The same of the scene and its meshes.
 void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene& scene);
 
 }  // namespace condyle

@@ -8,18 +8,19 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "condyle/anatomy/knee_from_meshes.h"
 #include "condyle/anatomy/new_scene_text.h"
 #include "condyle/app/commands.h"
 #include "condyle/app/default_template.h"
+#include "condyle/app/make_run.h"
 #include "condyle/app/start_run.h"
 #include "condyle/input_error.h"
 #include "condyle/mesh_files/mesh_bytes.h"
 #include "condyle/results/output_file.h"
 #include "condyle/scene_file/read_scene.h"
+#include "condyle/scene_file/scene_words.h"
 
 namespace condyle {
 namespace {
@@ -48,7 +49,7 @@ NewKneeFiles files_of(const NewCommand& command) {
   return files;
 }
 
-void check_outputs(const NewCommand& command, const fs::path& model) {
+void check_outputs(const NewCommand& command, const NewKneeFiles& files) {
   for (const std::string& name : {command.femur, command.tibia})
     if (std::any_of(name.begin(), name.end(),
                     [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
@@ -58,14 +59,10 @@ void check_outputs(const NewCommand& command, const fs::path& model) {
   if (!command.report.empty()) check_output_file(command.report);
   if (fs::path(command.report).lexically_normal() == fs::path(command.output).lexically_normal())
     throw InputError(command.report + ": scene and report, expected two files");
-  std::vector<std::string> read = command.cartilage;
-  read.insert(read.end(), {command.femur, command.tibia, model.string()});
-  for (const std::string& output : {command.output, command.report})
-    for (const std::string& input : read) {
-      std::error_code unknown;
-      if (!input.empty() && !output.empty() && fs::equivalent(output, input, unknown))
-        throw InputError(output + ": is read by this command, expected another file to write");
-    }
+  std::vector<fs::path> read = files.cartilage;
+  read.insert(read.end(), {files.femur, files.tibia, files.template_scene});
+  refuse_to_overwrite(command.output, read);
+  if (!command.report.empty()) refuse_to_overwrite(command.report, read);
 }
 
 void print_shape(const NewKnee& knee) {
@@ -112,7 +109,7 @@ void print_start(const NewKnee& knee) {
 
 int run_new(const NewCommand& command) {
   const NewKneeFiles files = files_of(command);
-  check_outputs(command, files.template_scene);
+  check_outputs(command, files);
   const NewKnee knee = knee_from_meshes(
       files, {.to_mm = units_option(command.units), .side = side_option(command.side)});
   const std::string text = new_scene_text(knee, command.output);

@@ -13,6 +13,7 @@
 #include "condyle/input_error.h"
 #include "condyle/math/rotation.h"
 #include "condyle/mesh_files/load_mesh.h"
+#include "condyle/scene_file/scene_words.h"
 
 namespace condyle {
 namespace {
@@ -24,14 +25,6 @@ using Eigen::Vector3d;
 std::string number(double value) { return fmt::format("{:.12g}", value + 0.0); }
 std::string numbers(const Vector3d& v) {
   return fmt::format("[{}, {}, {}]", number(v.x()), number(v.y()), number(v.z()));
-}
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return result + '"';
 }
 
 class SceneText {
@@ -65,7 +58,7 @@ class SceneText {
 
   [[nodiscard]] std::string head() const {
     std::string text = fmt::format("title = {}\n# From {}, joint {}. Not in this scene:\n",
-                                   quoted(fmt::format("{}, {} knee", model_.name, side())),
+                                   scene_string(fmt::format("{}, {} knee", model_.name, side())),
                                    file_.filename().string(), knee_.joint);
     for (const std::string& note : out_.notes) text += "# - " + note + "\n";
     return text + "\n[units]\nlength = \"mm\"\nangle = \"deg\"\nforce = \"N\"\n";
@@ -97,13 +90,6 @@ class SceneText {
     return "";
   }
 
-  [[nodiscard]] std::string relative(const fs::path& mesh) const {
-    std::error_code error;
-    const fs::path folder = scene_.has_parent_path() ? scene_.parent_path() : fs::path(".");
-    const fs::path path = fs::relative(mesh, folder, error);
-    return (error || path.empty() ? fs::absolute(mesh) : path).generic_string();
-  }
-
   /// Stands in its body as it is in the file.
   [[nodiscard]] static bool unmoved(const OsimPlacedMesh& placed) {
     return !unit(placed.mesh.scale).empty() && placed.X.p.isZero(1e-9) &&
@@ -111,7 +97,8 @@ class SceneText {
   }
 
   void add_mesh(const OsimPlacedMesh& placed) {
-    line("mesh = {}", quoted(relative(unmoved(placed) ? found(placed.mesh) : moved(placed))));
+    line("mesh = {}",
+         scene_string(mesh_path_in(scene_, unmoved(placed) ? found(placed.mesh) : moved(placed))));
     line("mesh_units = \"{}\"", unmoved(placed) ? unit(placed.mesh.scale) : "mm");
   }
 
@@ -242,7 +229,7 @@ class SceneText {
 
   void add_wrap(const OsimPlacedWrap& placed) {
     const OsimWrap& wrap = placed.wrap;
-    line("\n[[wrap]]\nname = {}\nbody = \"{}\"", quoted(wrap.name),
+    line("\n[[wrap]]\nname = {}\nbody = \"{}\"", scene_string(wrap.name),
          placed.on_femur ? "femur" : "tibia");
     const std::string center = numbers(placed.X.p), axis = numbers(placed.X.R.col(2));
     if (wrap.type == "WrapEllipsoid")
@@ -265,7 +252,7 @@ class SceneText {
     bool all = true;
     for (const std::size_t index : strand.wraps) {
       const OsimPlacedWrap& placed = knee_.wraps[index];
-      names += (names.empty() ? "" : ", ") + quoted(placed.wrap.name);
+      names += (names.empty() ? "" : ", ") + scene_string(placed.wrap.name);
       all &= placed.side.has_value();
       if (placed.side) sides += (sides.empty() ? "" : ", ") + numbers(*placed.side);
     }
@@ -277,7 +264,7 @@ class SceneText {
   }
 
   void add_ligament(const OsimStrand& strand) {
-    line("\n[[ligament]]\nname = {}", quoted(strand.name));
+    line("\n[[ligament]]\nname = {}", scene_string(strand.name));
     line("ends = [ {{ body = \"femur\", at = {} }},\n         {{ body = \"tibia\", at = {} }} ]",
          numbers(strand.femur), numbers(strand.tibia));
     line("law = \"toe-linear\"\nstiffness = {}\ntransition_strain = {}\nslack_length = {}",

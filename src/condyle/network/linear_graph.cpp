@@ -5,29 +5,13 @@
 #include <numeric>
 
 #include "condyle/input_error.h"
+#include "condyle/math/disjoint_sets.h"
 
 namespace condyle {
 namespace {
 
-/// Which vertices are joined so far.
-class Joined {
- public:
-  explicit Joined(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  /// False where they were joined already.
-  bool join(int a, int b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);  // the ground stays the root of what it holds
-    return a != b;
-  }
-
- private:
-  std::vector<int> parent_;
-};
+/// Which vertices are joined so far: the ground, the lowest, stays the root of what it holds.
+using Joined = DisjointSets;
 
 std::string listed_edges(const LinearGraph& graph, const std::vector<int>& edges) {
   std::string text;

@@ -18,6 +18,10 @@ struct BoneFrame {
   [[nodiscard]] Eigen::Vector3d components(const Eigen::Vector3d& v) const {
     return {anterior.dot(v), proximal.dot(v), lateral.dot(v)};
   }
+  /// The vector that has such components.
+  [[nodiscard]] Eigen::Vector3d vector(const Eigen::Vector3d& c) const {
+    return anterior * c.x() + proximal * c.y() + lateral * c.z();
+  }
 };
 
 struct CondylarAxis {

@@ -328,13 +328,8 @@ Place Patch::closest(const Eigen::Vector3d& p, const Place& start) const {
 }
 
 Place Patch::seed(const Eigen::Vector3d& p) const {
-  std::size_t nearest = 0;
-  double square = 0;
-  nanoflann::KNNResultSet<double> result(1);
-  result.init(&nearest, &square);
   const Eigen::Vector3d where_laid = p - seeds_moved_;
-  seeds_->tree->findNeighbors(result, where_laid.data(), nanoflann::SearchParams());
-  return seeds_->places[nearest];
+  return seeds_->places[nearest_point(*seeds_->tree, where_laid).index];
 }
 
 double Patch::edge_distance(const Place& place) const {

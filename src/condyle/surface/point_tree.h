@@ -26,4 +26,17 @@ struct PointCloud {
 using PointTree = nanoflann::
     KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointCloud>, PointCloud, 3>;
 
+/// Of the point that is nearest to p.
+struct NearestPoint {
+  std::size_t index = 0;
+  double square = 0;  ///< of the distance [mm²]
+};
+[[nodiscard]] inline NearestPoint nearest_point(const PointTree& tree, const Eigen::Vector3d& p) {
+  NearestPoint nearest;
+  nanoflann::KNNResultSet<double> result(1);
+  result.init(&nearest.index, &nearest.square);
+  tree.findNeighbors(result, p.data(), nanoflann::SearchParams());
+  return nearest;
+}
+
 }  // namespace condyle
