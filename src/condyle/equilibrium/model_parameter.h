@@ -2,40 +2,16 @@
 
 /// One number of a model that a derivative is taken with respect to (sensitivity.h), in the frames of
 /// the files: directions are the same as the model's.
-///
-///   kReferenceStrain   r: the slack length is l₀ = L_ref/(1 + r), L_ref the length at the start pose [-]
-///   kSlackLength       l₀ [mm]
-///   kStiffness         k [N] or as the law has it; by ln k it is k times as much
-///   kTransitionStrain  ε_t of a toe-linear law [-]
-///   kInsertion         a component of an end, frame of its body [mm]; law held, or strain (Held)
-///   kLoadScale         the factor on a load [-]
-///   kLoadVector        a component of its vector [N] or [N mm]
-///   kLoadPoint         a component of its point, A's frame [mm]
-///   kConditionValue    what is prescribed [rad] or [mm]
-///   kSurfaceShift      a surface moved rigidly along an axis of its body's frame, in all pairs that
-///                      it belongs to [mm]
-///   kLayerModulus      a factor on the modulus of a layer, or of both of a pair, nominally 1 [-]
+/// The kinds and their units stand in scene/parameter_kind.h; of an insertion the law is held, or the
+/// strain (Held).
 
 #include <string>
 
 #include "condyle/equilibrium/drive.h"
 #include "condyle/equilibrium/parameters.h"
+#include "condyle/scene/parameter_kind.h"
 
 namespace condyle {
-
-enum class ParameterKind {
-  kReferenceStrain,
-  kSlackLength,
-  kStiffness,
-  kTransitionStrain,
-  kInsertion,
-  kLoadScale,
-  kLoadVector,
-  kLoadPoint,
-  kConditionValue,
-  kSurfaceShift,
-  kLayerModulus
-};
 
 /// Of which body.
 enum class OfBody { kFixed, kMoving, kBoth };

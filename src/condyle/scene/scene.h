@@ -22,6 +22,8 @@
 #include "condyle/elements/kinematic_condition.h"
 #include "condyle/math/rigid_transform.h"
 #include "condyle/scene/bone_fit.h"
+#include "condyle/scene/calibration_description.h"
+#include "condyle/scene/parameter_kind.h"
 #include "condyle/surface/exact_surfaces.h"
 #include "condyle/wrapping/wrap_shape.h"
 
@@ -186,6 +188,7 @@ struct SweepDescription {
   std::string vary;  ///< as written
   std::vector<double> values;  ///< [rad], [mm] or [-], in the order to be visited
   bool arc_length = false;     ///< follow the path of equilibria through its limit points
+  std::vector<SceneNumber> sensitivities;  ///< by which the results hold derivatives of each pose
 };
 
 /// A test of laxity: the swept load goes over its values at each of these angles of flexion, first
@@ -244,6 +247,7 @@ struct Scene {
   std::optional<SweepDescription> sweep;
   std::optional<LaxityDescription> laxity;
   std::optional<SimulationDescription> simulation;
+  std::optional<CalibrationDescription> calibration;
 
   [[nodiscard]] int fixed_body() const {
     for (std::size_t i = 0; i < bodies.size(); ++i)

@@ -1,0 +1,36 @@
+#pragma once
+
+/// A calibration in words and tables, as it is told without being asked.
+
+#include <string>
+#include <vector>
+
+#include "condyle/calibration/calibration.h"
+#include "condyle/scene/scene.h"
+
+namespace condyle {
+
+/// Lines for people: what the data determine and what they do not, the weakest directions in words
+/// ("pPCL.reference_strain: 0.99"), prior to posterior of each parameter, chi square and what it says of
+/// the model, errors on fitted and unseen rows before and after with the coverage of their intervals,
+/// ligaments that carry nothing, parameters at a bound, starts that found another least, where samples
+/// and delta method part.
+[[nodiscard]] std::vector<std::string> calibration_lines(const Scene& scene,
+                                                         const CalibrationResult& result);
+
+/// A line for each direction that is weaker than 1, weakest first, at most `most`: its singular value and
+/// the parameters whose share is above 0.3.
+[[nodiscard]] std::vector<std::string> weak_directions(const CalibrationResult& result, int most);
+
+/// parameter, unit, scene, prior sd, posterior mean, posterior sd, sample sd, shrinkage, at bound.
+[[nodiscard]] std::string parameter_csv(const Scene& scene, const CalibrationResult& result);
+[[nodiscard]] std::string parameter_latex(const Scene& scene, const CalibrationResult& result);
+/// A column for each θ, a row for each sample.
+[[nodiscard]] std::string samples_csv(const CalibrationResult& result);
+
+/// The text of the scene with the fitted numbers in place of its own: comments and order stay, only
+/// numbers of parameters of the knee change. Throws InputError where a number has no place of its own
+/// in the text.
+[[nodiscard]] std::string fitted_scene_text(const Scene& scene, const CalibrationResult& result);
+
+}  // namespace condyle
