@@ -188,7 +188,8 @@ struct SweepDescription {
   std::string vary;  ///< as written
   std::vector<double> values;  ///< [rad], [mm] or [-], in the order to be visited
   bool arc_length = false;     ///< follow the path of equilibria through its limit points
-  std::vector<SceneNumber> sensitivities;  ///< by which the results hold derivatives of each pose
+  std::vector<SceneNumber> sensitivities =
+      {};  ///< by which the results hold derivatives of each pose
 };
 
 /// A test of laxity: the swept load goes over its values at each of these angles of flexion, first
