@@ -1,0 +1,260 @@
+#include "condyle/calibration/least_squares.h"
+
+#include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
+#include <glog/logging.h>
+
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+namespace condyle {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// f with f² = ρ(r²) and the sign of r, and df/dr: ½ Σ f² is the cost, its gradient exact. Huber's
+/// ρ(r²) = r² within δ, 2 δ |r| - δ² beyond.
+struct RobustResidual {
+  double f, slope;
+};
+RobustResidual robust_residual(double r, const std::optional<double>& huber) {
+  if (!huber || std::abs(r) <= *huber) return {r, 1};
+  const double f = std::sqrt(*huber * (2 * std::abs(r) - *huber));
+  return {std::copysign(f, r), *huber / f};
+}
+
+/// y, J and the cost at one θ.
+struct Trial {
+  VectorXd theta, y;
+  MatrixXd J;
+  double cost = std::numeric_limits<double>::infinity();
+  bool exists = false;
+};
+
+/// The last θ that was asked for and the best: value and derivatives come with one solution of the
+/// poses, however often Ceres asks.
+class Trials {
+ public:
+  explicit Trials(const LeastSquaresProblem& problem) : problem_(problem) {}
+
+  const Trial& at(const VectorXd& theta) {
+    if (best_.exists && best_.theta == theta) return best_;
+    if (last_.theta.size() > 0 && last_.theta == theta) return last_;
+    last_.theta = theta;
+    last_.exists =
+        problem_.evaluate(theta, last_.y, &last_.J) && last_.y.allFinite() && last_.J.allFinite();
+    last_existed_ = last_.exists;
+    if (!last_.exists) {
+      ++refused_;
+      return last_;
+    }
+    last_.cost = cost(last_);
+    if (best_.exists && !(last_.cost < best_.cost)) return last_;
+    std::swap(best_, last_);
+    return best_;
+  }
+  [[nodiscard]] const Trial& best() const { return best_; }
+  [[nodiscard]] bool last_existed() const { return last_existed_; }
+  [[nodiscard]] int refused() const { return refused_; }
+
+ private:
+  [[nodiscard]] double cost(const Trial& trial) const {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < trial.y.size(); ++i) {
+      const double r = (trial.y[i] - problem_.d[i]) / problem_.sd[i];
+      sum += std::pow(robust_residual(r, problem_.huber).f, 2);
+    }
+    const VectorXd from_prior = trial.theta - problem_.prior_mean;
+    return 0.5 * (sum + from_prior.cwiseQuotient(problem_.prior_sd).squaredNorm());
+  }
+
+  const LeastSquaresProblem& problem_;
+  Trial last_, best_;
+  bool last_existed_ = false;
+  int refused_ = 0;
+};
+
+/// θ = scale z, scale a power of 2 next to the inverse of the column's norm at the start: the units of
+/// the parameters drop out, and no bit is lost on the way.
+VectorXd scale_of(const LeastSquaresProblem& problem, const MatrixXd& J) {
+  const VectorXd squares =
+      (problem.sd.cwiseInverse().asDiagonal() * J).colwise().squaredNorm().transpose() +
+      problem.prior_sd.cwiseInverse().cwiseAbs2();
+  return squares.unaryExpr(
+      [](double s) { return s > 0 ? std::exp2(-std::round(0.5 * std::log2(s))) : 1; });
+}
+
+/// All rows of the table as one block over z.
+class DataBlock : public ceres::CostFunction {
+ public:
+  DataBlock(const LeastSquaresProblem& problem, const VectorXd& scale, Trials& trials)
+      : problem_(problem), scale_(scale), trials_(trials) {
+    set_num_residuals(static_cast<int>(problem.d.size()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(scale.size()));
+  }
+
+  bool Evaluate(double const* const* parameters,
+                double* residuals,
+                double** jacobians) const override {
+    const VectorXd theta =
+        scale_.cwiseProduct(Eigen::Map<const VectorXd>(parameters[0], scale_.size()));
+    const Trial& trial = trials_.at(theta);
+    if (!trial.exists) return false;
+    const Eigen::Index rows = trial.y.size();
+    const bool wants_rates = jacobians != nullptr && jacobians[0] != nullptr;
+    Eigen::Map<RowMajor> rates(wants_rates ? jacobians[0] : nullptr, wants_rates ? rows : 0,
+                               scale_.size());
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      const double sd = problem_.sd[i];
+      const RobustResidual r = robust_residual((trial.y[i] - problem_.d[i]) / sd, problem_.huber);
+      residuals[i] = r.f;
+      if (wants_rates)
+        rates.row(i) = (r.slope / sd) * trial.J.row(i).cwiseProduct(scale_.transpose());
+    }
+    return true;
+  }
+
+ private:
+  const LeastSquaresProblem& problem_;
+  const VectorXd& scale_;
+  Trials& trials_;
+};
+
+/// (θ - mean)/sd of the parameters that have a prior.
+std::unique_ptr<ceres::CostFunction> prior_block(const LeastSquaresProblem& problem,
+                                                 const VectorXd& scale) {
+  const VectorXd precision = scale.cwiseQuotient(problem.prior_sd);
+  if (precision.isZero(0)) return nullptr;
+  return std::make_unique<ceres::NormalPrior>(MatrixXd(precision.asDiagonal()),
+                                              problem.prior_mean.cwiseQuotient(scale));
+}
+
+/// Tells of accepted steps.
+class Steps : public ceres::IterationCallback {
+ public:
+  Steps(const LeastSquaresOptions& options, const Trials& trials)
+      : options_(options), trials_(trials) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& at) override {
+    if (at.iteration == 0 || !at.step_is_successful) return ceres::SOLVER_CONTINUE;
+    ++accepted;
+    const bool goes_on =
+        !options_.on_step || options_.on_step(accepted, trials_.best().cost, trials_.best().theta);
+    return goes_on ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+  }
+
+  int accepted = 0;
+
+ private:
+  const LeastSquaresOptions& options_;
+  const Trials& trials_;
+};
+
+ceres::Solver::Options ceres_options(const LeastSquaresOptions& options,
+                                     double start_gradient,
+                                     Steps& steps) {
+  ceres::Solver::Options how;
+  how.linear_solver_type = ceres::DENSE_QR;
+  how.max_num_iterations = options.most_iterations;
+  how.function_tolerance = options.tolerance;
+  how.parameter_tolerance = options.tolerance;
+  how.gradient_tolerance = 1e-14 * start_gradient;
+  how.line_search_interpolation_type = ceres::QUADRATIC;
+  how.jacobi_scaling = false;  // z is scaled
+  how.logging_type = ceres::SILENT;
+  how.num_threads = 1;
+  how.callbacks.push_back(&steps);
+  return how;
+}
+
+/// Largest component of the gradient over z.
+double gradient_of(const LeastSquaresProblem& problem, const Trial& at, const VectorXd& scale) {
+  VectorXd gradient = (at.theta - problem.prior_mean).cwiseQuotient(problem.prior_sd.cwiseAbs2());
+  for (Eigen::Index i = 0; i < at.y.size(); ++i) {
+    const double sd = problem.sd[i];
+    const RobustResidual r = robust_residual((at.y[i] - problem.d[i]) / sd, problem.huber);
+    gradient += (r.f * r.slope / sd) * at.J.row(i).transpose();
+  }
+  return gradient.cwiseProduct(scale).lpNorm<Eigen::Infinity>();
+}
+
+void set_bounds(const LeastSquaresProblem& problem,
+                const VectorXd& scale,
+                double* z,
+                ceres::Problem& to) {
+  constexpr double kNone = 1e300;
+  for (Eigen::Index j = 0; j < scale.size(); ++j) {
+    if (problem.lower[j] > -kNone)
+      to.SetParameterLowerBound(z, static_cast<int>(j), problem.lower[j] / scale[j]);
+    if (problem.upper[j] < kNone)
+      to.SetParameterUpperBound(z, static_cast<int>(j), problem.upper[j] / scale[j]);
+  }
+}
+
+/// Ceres says nothing by itself: its logger starts with stderr open.
+void silence_the_logger() {
+  static const bool done = [] {
+    FLAGS_minloglevel = google::GLOG_FATAL;
+    return true;
+  }();
+  static_cast<void>(done);
+}
+
+/// From the best trial so far; the result gets all but the numbers at the least.
+void minimise(const LeastSquaresProblem& problem,
+              const LeastSquaresOptions& options,
+              Trials& trials,
+              LeastSquaresResult& result) {
+  const VectorXd scale = scale_of(problem, trials.best().J);
+  VectorXd z = trials.best().theta.cwiseQuotient(scale);
+  ceres::Problem sum;
+  sum.AddResidualBlock(new DataBlock(problem, scale, trials), nullptr, z.data());
+  if (auto prior = prior_block(problem, scale))
+    sum.AddResidualBlock(prior.release(), nullptr, z.data());
+  set_bounds(problem, scale, z.data(), sum);
+
+  Steps steps(options, trials);
+  ceres::Solver::Summary summary;
+  ceres::Solve(ceres_options(options, gradient_of(problem, trials.best(), scale), steps), &sum,
+               &summary);
+  result.iterations = steps.accepted;
+  result.stopped = summary.termination_type == ceres::USER_SUCCESS;
+  result.converged = summary.termination_type == ceres::CONVERGENCE && trials.last_existed();
+  result.message = trials.last_existed() || result.stopped
+                       ? summary.message
+                       : "no steps ahead at which there are predictions";
+}
+
+}  // namespace
+
+LeastSquaresResult solve_least_squares(const LeastSquaresProblem& problem,
+                                       const VectorXd& start,
+                                       const LeastSquaresOptions& options) {
+  assert((start.array() >= problem.lower.array()).all() &&
+         (start.array() <= problem.upper.array()).all());
+  const auto begin = std::chrono::steady_clock::now();
+  silence_the_logger();
+  LeastSquaresResult result;
+  Trials trials(problem);
+  if (trials.at(start).exists)
+    minimise(problem, options, trials, result);
+  else
+    result.message = "no predictions at the start";
+  const Trial& best = trials.best();
+  result.theta = best.exists ? best.theta : start;
+  result.y = best.y;
+  result.J = best.J;
+  result.cost = best.cost;
+  if (best.exists) result.chi_square = (best.y - problem.d).cwiseQuotient(problem.sd).squaredNorm();
+  result.refused = trials.refused();
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace condyle
