@@ -18,6 +18,7 @@
 namespace condyle {
 
 struct ContactPair;
+struct ContactRates;
 
 /// Of one pair and one thread: it may keep places from pose to pose. Nothing but prepare and accepts
 /// changes what is computed at a pose, and after reset no bit depends on what was asked before.
@@ -52,6 +53,11 @@ class ContactPotential {
 
   /// U [N mm], 0 where nothing touches.
   virtual double energy(const RigidTransform& X_BA) = 0;
+
+  /// Does it say how its resultant moves and what stiffer layers do (contact_rates.h)?
+  [[nodiscard]] virtual bool knows_rates() const { return false; }
+  /// False where it does not know, or nothing is pressed. Allocates nothing once it was asked.
+  virtual bool rates(const RigidTransform& /*X_BA*/, ContactRates& /*rates*/) { return false; }
 
   /// Fills a cleared result, in the model's frames: closed where it carries, with force, resultant
   /// and a point where it presses most; else the nearest point. Says why a pose with such a contact

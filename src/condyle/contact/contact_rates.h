@@ -22,12 +22,4 @@ struct ContactRates {
   std::array<Stiffer, 2> stiffer;         ///< of the layers on B and on A; zeros for a rigid side
 };
 
-/// What a ContactPotential is besides if it knows that.
-class KnowsContactRates {
- public:
-  virtual ~KnowsContactRates() = default;
-  /// False where nothing is pressed. Allocates nothing once it was asked.
-  virtual bool rates(const RigidTransform& X_BA, ContactRates& rates) = 0;
-};
-
 }  // namespace condyle

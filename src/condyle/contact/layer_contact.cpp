@@ -125,7 +125,7 @@ class BothSides {
   std::vector<bool> of_A_;
 };
 
-class LayerContact final : public ContactPotential, public KnowsContactRates {
+class LayerContact final : public ContactPotential {
  public:
   LayerContact(std::shared_ptr<const Lattices> lattices,
                const ContactPair& pair,
@@ -185,6 +185,7 @@ class LayerContact final : public ContactPotential, public KnowsContactRates {
 
   std::optional<Objection> describe(const RigidTransform& X_BA, ContactResult& result) override;
 
+  [[nodiscard]] bool knows_rates() const override { return true; }
   bool rates(const RigidTransform& X_BA, ContactRates& rates) override;
 
  private:

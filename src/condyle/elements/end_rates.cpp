@@ -20,10 +20,7 @@ bool end_rates(const LineElement& element,
                const double* kept,
                LineRates& rates) {
   const LineEnds ends = ends_of(element, X_BA);
-  if (element.path) {
-    const auto* path = dynamic_cast<const PathEndRates*>(element.path.get());
-    return path != nullptr && path->end_rates(ends, X_BA, kept, rates);
-  }
+  if (element.path) return element.path->end_rates(ends, X_BA, kept, rates);
   if (!((ends.x_D - ends.x_C).norm() > kLeastLength)) return false;
   rates = straight_end_rates(ends);
   return true;

@@ -21,18 +21,6 @@ struct LineRates {
   LineEndRates of_C, of_D;
 };
 
-/// What a path (line_path.h) is besides if it knows that.
-class PathEndRates {
- public:
-  virtual ~PathEndRates() = default;
-  /// `kept`: the numbers of the path at this pose. False where it does not know: a path that was not
-  /// found. Allocates nothing.
-  virtual bool end_rates(const LineEnds& ends,
-                         const RigidTransform& X_BA,
-                         const double* kept,
-                         LineRates& rates) const = 0;
-};
-
 /// Of a straight line from x_C to x_D at the arm q of D.
 [[nodiscard]] LineRates straight_end_rates(const LineEnds& ends);
 

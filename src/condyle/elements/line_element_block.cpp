@@ -6,7 +6,7 @@
 #include <numeric>
 #include <variant>
 
-#include "condyle/elements/bounded_path.h"
+#include "condyle/elements/surely_slack.h"
 #include "condyle/math/simd.h"
 
 namespace condyle {

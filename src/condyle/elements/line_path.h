@@ -36,6 +36,8 @@ struct LineTouch {
   double turn = 0;  ///< angle between t_P and t_Q [rad]
 };
 
+struct LineRates;
+
 /// Constant, and shared by threads. What a path keeps from pose to pose (places, tangents, arcs,
 /// which surfaces it touches) are `numbers()` doubles of the state (EquilibriumState::paths): NaN
 /// where nothing is known yet, those of the pose asked for afterwards.
@@ -58,6 +60,22 @@ class LinePath {
                                       double* kept) const {
     Wrench unit;
     return pull(ends, X_BA, kept, unit);
+  }
+
+  /// No less than L here, told by `kept`, in which the path was followed elsewhere [mm]; infinite
+  /// where that is not known. Of what the path holds while a pose is solved: a strand that is known to
+  /// be slack is passed over (surely_slack.h).
+  [[nodiscard]] virtual double at_most(const LineEnds&,
+                                       const RigidTransform&,
+                                       const double*) const {
+    return std::numeric_limits<double>::infinity();
+  }
+
+  /// How length and pull follow the ends on their own bodies (end_rates.h), for sensitivities by
+  /// insertions. `kept`: the numbers of the path at this pose. False where it does not know: a path
+  /// that was not found. Allocates nothing.
+  virtual bool end_rates(const LineEnds&, const RigidTransform&, const double*, LineRates&) const {
+    return false;
   }
 
   /// At a pose that has been solved: changes in `kept` what is held while one is solved (a surface

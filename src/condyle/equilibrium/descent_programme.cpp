@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "condyle/elements/bounded_path.h"
+#include "condyle/elements/surely_slack.h"
 #include "condyle/equilibrium/descent.h"
 
 namespace condyle {

@@ -103,7 +103,7 @@ const ContactRates* LocalRates::layer(std::size_t pair) {
   Known<std::optional<ContactRates>>& known = layers_[pair];
   if (known.at != stamp_) {
     known.at = stamp_;
-    auto* law = dynamic_cast<KnowsContactRates*>(at_->system.potentials().of(pair));
+    ContactPotential* law = at_->system.potentials().of(pair);
     if (law == nullptr || !law->rates(at_->state.X, known.value.emplace())) known.value.reset();
   }
   return known.value ? &*known.value : nullptr;

@@ -155,8 +155,8 @@ void add_surface(const ModelParameter& parameter, LocalRates& rates, ParameterEf
 
 void add_modulus(const ModelParameter& parameter, LocalRates& rates, ParameterEffect& effect) {
   const Linearization& at = rates.at();
-  ContactPotential* potential = at.system.potentials().of(parameter.index);
-  if (dynamic_cast<KnowsContactRates*>(potential) == nullptr)
+  const ContactPotential* potential = at.system.potentials().of(parameter.index);
+  if (potential == nullptr || !potential->knows_rates())
     refuse(parameter, at.model, "what its law does with a modulus is not known");
   const ContactRates* layer = rates.layer(parameter.index);
   if (layer == nullptr) return;  // nothing is pressed

@@ -20,7 +20,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-class SurfacesPath final : public WrappedPath, public PathEndRates {
+class SurfacesPath final : public WrappedPath {
  public:
   SurfacesPath(std::vector<PathWrap> wraps, const PathEnds& ends, InsideRule inside)
       : wraps_(std::move(wraps)), ends_(ends), inside_(inside) {

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "condyle/elements/bounded_path.h"
+#include "condyle/elements/line_path.h"
 #include "condyle/wrapping/shape_geometry.h"
 
 namespace condyle {
@@ -42,7 +42,7 @@ enum class InsideRule {
 inline constexpr int kMostWraps = 7;
 
 /// Constant and shared by threads.
-class WrappedPath : public BoundedPath {
+class WrappedPath : public LinePath {
  public:
   enum class Outcome {
     kFound,
