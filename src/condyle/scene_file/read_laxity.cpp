@@ -3,17 +3,13 @@
 #include "condyle/scene_file/read_sections.h"
 
 namespace condyle {
-namespace {
 
-/// The condition that holds the flexion; a scene has one at most that a test could set.
-int flexion_condition(const Section& section, const Scene& scene) {
+int flexion_condition(const Scene& scene) {
   for (std::size_t i = 0; i < scene.conditions.size(); ++i) {
     if (scene.conditions[i].kind == ConditionKind::kFlexion) return static_cast<int>(i);
   }
-  section.fail("flexion", "a [[condition]] of kind \"flexion\" that holds it");
+  return -1;
 }
-
-}  // namespace
 
 void read_laxity(const Section& root, Scene& scene) {
   if (!root.has("laxity")) return;
@@ -23,7 +19,9 @@ void read_laxity(const Section& root, Scene& scene) {
   LaxityDescription laxity;
   laxity.flexions = section.numbers("flexion", "angles [f1, f2, ...]");
   for (double& flexion : laxity.flexions) flexion *= scene.angle_to_rad;
-  laxity.condition = flexion_condition(section, scene);
+  laxity.condition = flexion_condition(scene);
+  if (laxity.condition < 0)
+    section.fail("flexion", "a [[condition]] of kind \"flexion\" that holds it");
   if (section.has("cut")) {
     const std::string expected = "names of ligaments [\"aACL\", ...]";
     const Value& cut = section.value("cut", expected);

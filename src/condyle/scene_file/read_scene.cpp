@@ -53,6 +53,7 @@ Scene parse(const std::string& text, const std::filesystem::path& file, bool mes
   read_sweep(root, scene);
   read_laxity(root, scene);
   read_simulation(root, scene);
+  read_calibration(root, scene);
   root.finish();
   return scene;
 }

@@ -25,6 +25,7 @@ void read_loads(const Section& root, Scene& scene);
 void read_sweep(const Section& root, Scene& scene);
 void read_laxity(const Section& root, Scene& scene);
 void read_simulation(const Section& root, Scene& scene);
+void read_calibration(const Section& root, Scene& scene);
 
 // Shared by them:
 
@@ -63,6 +64,13 @@ void check_wraps_used(const Section& root, Scene& scene);
 [[nodiscard]] Eigen::Matrix3d read_axes(const Section& section,
                                         const std::string& key,
                                         const Scene& scene);
+
+/// The condition that holds the flexion, -1 for none; a scene has one at most that a test could set.
+[[nodiscard]] int flexion_condition(const Scene& scene);
+
+/// The [[calibrate.parameter]] tables of [calibrate].
+[[nodiscard]] std::vector<CalibrationParameter> read_fitted_numbers(const Section& calibrate,
+                                                                    const Scene& scene);
 
 /// The key `name`: usable as a name in a result file, and not among `taken`.
 [[nodiscard]] std::string read_name(const Section& section, const std::vector<std::string>& taken);

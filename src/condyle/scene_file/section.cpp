@@ -176,13 +176,15 @@ std::vector<Section> Section::sections(const std::string& key) const {
                       std::all_of(list->items.begin(), list->items.end(), [](const Value& item) {
                         return item.type == Value::Type::kTable;
                       });
-  if (!tables) fail_at(list->line, fmt::format("{}, expected tables headed [[{}]]", key, key));
+  const std::string heading =
+      label_.empty() ? key : label_.substr(1, label_.size() - 2) + "." + key;
+  if (!tables) fail_at(list->line, fmt::format("{}, expected tables headed [[{}]]", key, heading));
   for (std::size_t i = 0; i < list->items.size(); ++i) {
     const Value* name = list->items[i].find("name");
     const bool named = name != nullptr && name->type == Value::Type::kText && !name->text.empty();
-    out.emplace_back(
-        list->items[i], *source_,
-        fmt::format("[[{}]] {}", key, named ? to_text(*name) : fmt::format("number {}", i + 1)));
+    out.emplace_back(list->items[i], *source_,
+                     fmt::format("[[{}]] {}", heading,
+                                 named ? to_text(*name) : fmt::format("number {}", i + 1)));
   }
   return out;
 }

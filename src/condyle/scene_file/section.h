@@ -61,7 +61,8 @@ class Section {
   /// Tables of an inline array.
   [[nodiscard]] std::vector<Section> tables(const std::string& key,
                                             const std::string& expected) const;
-  /// [[key]] tables at the top of a file, each labelled with its name; empty where there are none.
+  /// [[key]] tables at the top of a file, or [[table.key]] of a table there, each labelled with its
+  /// name; empty where there are none.
   [[nodiscard]] std::vector<Section> sections(const std::string& key) const;
 
   /// Index in `names` of the name that stands at `key`.
