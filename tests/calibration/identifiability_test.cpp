@@ -95,5 +95,20 @@ TEST(Identifiability, AParameterAtItsBoundIsKnown) {
   EXPECT_EQ(known.directions.col(2), VectorXd(Eigen::Vector3d(0, 1, 0)));
 }
 
+TEST(Information, IsThatOfThePosteriorWithTheNewRowsToo) {
+  const MatrixXd J = random_matrix(12, 3, 8), more = random_matrix(2, 3, 9);
+  const VectorXd prior_sd = Eigen::Vector3d(0.03, 2, 1), weight = Eigen::Vector2d(2, 0.5);
+  const std::vector<bool> none(3, false);
+  const Identifiability before = identifiability(J, VectorXd::Ones(12), prior_sd, none);
+  const Information told = information_of(more, weight, before.covariance);
+  MatrixXd all(14, 3);
+  all << J, weight.asDiagonal() * more;
+  const Identifiability after = identifiability(all, VectorXd::Ones(14), prior_sd, none);
+  EXPECT_TRUE(told.covariance.isApprox(after.covariance, 1e-10));
+  EXPECT_NEAR(told.nats,
+              0.5 * std::log(before.covariance.determinant() / after.covariance.determinant()),
+              1e-10);
+}
+
 }  // namespace
 }  // namespace condyle::test

@@ -102,7 +102,9 @@ struct CalibrationResult {
 struct CalibrationOptions {
   bool suggest = false;
   bool bands = true, profiles = true;
-  std::optional<int> samples, starts;   ///< in place of the scene's
+  std::optional<int> samples, starts;  ///< in place of the scene's
+  int threads =
+      0;  ///< for starts, profiles and samples; 0: one a core. The same bits with any number
   std::optional<Eigen::VectorXd> from;  ///< θ of an earlier fit that was stopped: its first start
   /// Told of what is done, in words and numbers; false: stop.
   std::function<bool(const std::string& stage, int done, int total)> on_progress;

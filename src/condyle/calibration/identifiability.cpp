@@ -1,5 +1,6 @@
 #include "condyle/calibration/identifiability.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/SVD>
 
 #include <cassert>
@@ -56,6 +57,20 @@ Identifiability identifiability(const Eigen::MatrixXd& J,
   result.effective = (squares / (1 + squares)).sum();
   result.sd = result.covariance.diagonal().cwiseSqrt();
   return result;
+}
+
+Information information_of(const Eigen::MatrixXd& J,
+                           const Eigen::VectorXd& weight,
+                           const Eigen::MatrixXd& covariance) {
+  // det(I + C JᵀW²J) = det(I + W J C JᵀW), as large as there are rows.
+  const Eigen::MatrixXd WJ = weight.asDiagonal() * J;
+  const Eigen::MatrixXd WJC = WJ * covariance;
+  const Eigen::MatrixXd small =
+      Eigen::MatrixXd::Identity(J.rows(), J.rows()) + WJC * WJ.transpose();
+  const Eigen::LLT<Eigen::MatrixXd> root(small);
+  const Eigen::MatrixXd gain = root.matrixL().solve(WJC);
+  return {Eigen::MatrixXd(root.matrixL()).diagonal().array().log().sum(),
+          covariance - gain.transpose() * gain};
 }
 
 }  // namespace condyle

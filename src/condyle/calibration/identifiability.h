@@ -25,4 +25,14 @@ struct Identifiability {
                                               const Eigen::VectorXd& prior_sd,
                                               const std::vector<bool>& fixed);
 
+/// What more rows would tell where C is known: ½ ln det(I + C JᵀW²J) [-], and the covariance
+/// (C⁻¹ + JᵀW²J)⁻¹. `weight`: 1/sd of each row of J.
+struct Information {
+  double nats = 0;
+  Eigen::MatrixXd covariance;
+};
+[[nodiscard]] Information information_of(const Eigen::MatrixXd& J,
+                                         const Eigen::VectorXd& weight,
+                                         const Eigen::MatrixXd& covariance);
+
 }  // namespace condyle
