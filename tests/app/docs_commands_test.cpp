@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "app/run_program.h"
+#include "exchange/jcs_files.h"
 
 namespace condyle {
 namespace {
@@ -30,6 +31,9 @@ class DocsCommands : public CommandLine {
     for (std::size_t at; (at = model.find("../../meshes")) != std::string::npos;)
       model.replace(at, 12, (kRoot / "meshes").string());
     write("knee.osim", model);
+    write("EI1_kinematics_in_JCS_experiment.csv", test::kKinematics);
+    write("EI1_TibiaKinetics_in_TibiaCS_experiment.csv", test::kKinetics);
+    write("State.cfg", test::kState);
     EXPECT_EQ(run("sweep knee.toml -o run.h5").code, 0);
     EXPECT_EQ(run("sweep data/phantom/knee.toml -o out/phantom.h5").code, 0);
     for (const char* name : {"intact.h5", "cut.h5"})

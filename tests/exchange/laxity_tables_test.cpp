@@ -11,26 +11,12 @@
 #include "app/run_program.h"
 #include "calibration/small_calibration.h"
 #include "condyle/calibration/measurement_table.h"
-#include "condyle/exchange/jcs_heading.h"
+#include "exchange/jcs_files.h"
 
 namespace condyle::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::string kKinematics =
-    "Applied Load (Nm),Knee JCS Medial [mm],Knee JCS Posterior [mm],Knee JCS Superior [mm],"
-    "Knee JCS Flexion [deg],Knee JCS Valgus [deg],Knee JCS Internal Rotation [deg]\n"
-    "0,0.5,1,-2,30.5,0.25,3\n"
-    "2.5,0.5,2,-2,30.25,0.5,-4\n"
-    "5,0.75,3,-2.5,30,0.75,-9\n";
-const std::string kKinetics =
-    "Applied Load (Nm),JCS Load Lateral Drawer [N],JCS Load Anterior Drawer [N],"
-    "JCS Load Distraction [N],JCS Load Extension Torque [Nm],JCS Load Varus Torque [Nm],"
-    "JCS Load External Rotation Torque [Nm]\n"
-    "0,0,0,-20,0,0,0\n"
-    "2.5,1,0,-20,0,0,2.5\n"
-    "5,0,0,-20,0,0,5\n";
 
 class LaxityTables : public CommandLine {
  protected:
@@ -96,12 +82,7 @@ TEST_F(LaxityTables, MotionsAndLoadsAreReadInTheirOwnSenses) {
 }
 
 TEST_F(LaxityTables, OffsetsAreAddedInTheSensesOfTheirChannels) {
-  write("State.cfg",
-        "[Other]\nPosition Offset (m,rad) = \"6 9 9 9 9 9 9\"\n[Knee JCS]\n"
-        "Channel Names 0 = \"Medial\"\nChannel Names 1 = \"Posterior\"\n"
-        "Channel Names 2 = \"Superior\"\nChannel Names 3 = \"Flexion\"\n"
-        "Channel Names 4 = \"Valgus\"\nChannel Names 5 = \"Internal Rotation\"\n"
-        "Position Offset (m,rad) = \"6 0.001 -0.002 0.03 0.1 -0.2 0.3\"\n");
+  write("State.cfg", kState);
   options_.offsets = folder_ / "State.cfg";
   const MeasurementTable read = read_by_scene(laxity_table(both(), options_).text);
   constexpr double kDeg = M_PI / 180;

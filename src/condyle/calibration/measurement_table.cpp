@@ -2,113 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <map>
-#include <tuple>
 
-#include "condyle/calibration/csv_file.h"
-#include "condyle/calibration/read_measurement.h"
 #include "condyle/elements/joint_table.h"
-#include "condyle/input_error.h"
-#include "condyle/scene_file/section.h"
 
 namespace condyle {
-namespace {
-
-std::vector<std::string> specimens_of(const CsvFile& csv, const MeasurementColumns& columns) {
-  std::vector<std::string> names;
-  for (const CsvRow& row : csv.rows) {
-    const std::string name = columns.text(row, "specimen");
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  }
-  return names;
-}
-
-/// The one that is meant: [calibrate] specimen, or the only one.
-std::string specimen_of(const CsvFile& csv,
-                        const MeasurementColumns& columns,
-                        const std::string& wanted) {
-  const std::string file = csv.file.string();
-  const std::vector<std::string> names = specimens_of(csv, columns);
-  if (!wanted.empty() && !columns.has("specimen"))
-    throw InputError(
-        fmt::format("{}:{}: no column \"specimen\", expected rows of \"{}\" "
-                    "([calibrate] specimen)",
-                    file, csv.header.line, wanted));
-  if (wanted.empty() && names.size() > 1)
-    throw InputError(fmt::format("{}: rows of {}, expected [calibrate] specimen to say which", file,
-                                 listed(names)));
-  if (!wanted.empty() && std::find(names.begin(), names.end(), wanted) == names.end()) {
-    const std::string meant = nearest(wanted, names);
-    throw InputError(fmt::format("{}: no row of specimen \"{}\", expected {}{}", file, wanted,
-                                 names.empty() ? "one" : listed(names),
-                                 meant.empty() ? "" : "; did you mean \"" + meant + "\"?"));
-  }
-  return !wanted.empty() || names.empty() ? wanted : names.front();
-}
-
-using RowKey = std::tuple<std::string, double, int, double, MeasuredKind, std::size_t>;
-
-RowKey key_of(const Measurement& row) {
-  return {row.test, row.flexion, row.load, row.level, row.kind, row.index};
-}
-
-void check_relative(const Scene& scene, const MeasurementTable& table) {
-  const std::vector<std::string>& relative = scene.calibration->relative;
-  std::vector<std::string> curves;
-  for (const Measurement& row : table.rows)
-    if (std::find(curves.begin(), curves.end(), row.test) == curves.end())
-      curves.push_back(row.test);
-  for (const std::string& name : relative) {
-    if (std::find(curves.begin(), curves.end(), name) != curves.end()) continue;
-    const std::string meant = nearest(name, curves);
-    throw InputError(
-        fmt::format("{}: [calibrate] relative = \"{}\" names no curve of {}, expected {}{}",
-                    scene.file.string(), name, table.file.string(), listed(curves),
-                    meant.empty() ? "" : "; did you mean \"" + meant + "\"?"));
-  }
-}
-
-bool is_relative(const Scene& scene, const std::string& test) {
-  const std::vector<std::string>& relative = scene.calibration->relative;
-  return std::find(relative.begin(), relative.end(), test) != relative.end();
-}
-
-}  // namespace
-
-MeasurementTable read_measurements(const Scene& scene) {
-  if (!scene.calibration)
-    throw InputError(scene.file.string() +
-                     ": no table [calibrate], expected one that names measurements");
-  const CsvFile csv = read_csv(scene.calibration->measurements, "a table of measurements (CSV)");
-  const MeasurementColumns columns(csv);
-  MeasurementTable table;
-  table.file = csv.file;
-  table.specimen = specimen_of(csv, columns, scene.calibration->specimen);
-  std::map<RowKey, int> seen;
-  bool fitted = false;
-  for (const CsvRow& row : csv.rows) {
-    if (columns.text(row, "specimen") != table.specimen && columns.has("specimen")) continue;
-    if (use_of(row, columns) == MeasuredUse::kSkip) continue;
-    const Measurement measured = read_measurement(row, columns, scene);
-    const auto [first, fresh] = seen.try_emplace(key_of(measured), measured.line);
-    if (!fresh)
-      columns.fail(row, "coordinate",
-                   fmt::format("a row that stands once: line {} measures the same", first->second));
-    if (measured.load < 0 && measured.value != 0 && is_relative(scene, measured.test))
-      columns.fail(row, "value",
-                   fmt::format("0: curve {} is told from its unloaded pose ([calibrate] relative)",
-                               measured.test));
-    fitted = fitted || measured.use == MeasuredUse::kFit;
-    table.rows.push_back(measured);
-  }
-  check_relative(scene, table);
-  if (!fitted)
-    throw InputError(
-        fmt::format("{}: no row to fit, expected one with use = fit", csv.file.string()));
-  return table;
-}
 
 std::string name_of(const Measurement& row, const MeasurementTable& table, const Scene& scene) {
   std::string name =
