@@ -42,7 +42,10 @@ struct FreeParameter {
 
 /// Those that [calibrate] asks for, in its order, nuisance last. Insertions move in the tangent plane
 /// and along the normal of the nearest point of their bone (meshes as by Scene::bodies, body frame
-/// [mm], empty ones have none: then along the axes of the body, all with prior_sd). Throws InputError
+/// [mm], empty ones have none: then along the axes of the body, all with prior_sd); what stays then is
+/// the slack length where that is free, else the reference strain where it is free or the scene gives
+/// one, so that the order of changes does not matter. A transition strain stays above a tenth of itself.
+/// Throws InputError
 /// for a number that the scene does not have: the strain of a table, a number twice free.
 [[nodiscard]] std::vector<FreeParameter> free_parameters(const Scene& scene,
                                                          const std::vector<TriangleMesh>& meshes,

@@ -58,7 +58,7 @@ struct MeasurementTable {
                                   const Scene& scene);
 /// "anterior drawer", "reaction", "force of aACL".
 [[nodiscard]] std::string quantity_of(const Measurement& row, const Scene& scene);
-/// Unit in which a row is told, "deg", "mm", "N" or "N mm", and how much of the unit used inside it is.
+/// Unit in which a row is told, "deg", "mm", "N", "N m" or "N mm", and how much of the unit used inside it is.
 struct MeasuredUnit {
   const char* name;
   double inside;
