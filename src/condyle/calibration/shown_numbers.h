@@ -1,0 +1,39 @@
+#pragma once
+
+/// Names, values and units of a calibration, as charts and tables have them.
+
+#include <string>
+#include <vector>
+
+#include "condyle/calibration/calibration.h"
+#include "condyle/scene/scene.h"
+
+namespace condyle {
+
+/// "aACL strain", "aMCL insertion femur normal"
+[[nodiscard]] std::string shown_name(const FreeParameter& parameter);
+[[nodiscard]] std::vector<std::string> shown_names(const CalibrationResult& result);
+
+/// What a level of a test is told in: "N", "N m", "mm", "°", and how much of it is one inside.
+struct LevelUnit {
+  std::string name;
+  double inside = 1;
+};
+[[nodiscard]] LevelUnit level_unit(const Scene& scene, int load);
+[[nodiscard]] std::string load_name(const Scene& scene, int load);
+
+/// Of numbers: a minus sign in place of the hyphen before a digit.
+[[nodiscard]] std::string with_minus(std::string text);
+/// "°" for deg, others as they are.
+[[nodiscard]] std::string shown_unit(const std::string& units);
+/// 30.000000001 as 30.
+[[nodiscard]] std::string shown_degrees(double angle);
+
+/// θ as it is shown: a factor of logarithmic ones, the number itself of those that have one, degrees
+/// of turns.
+[[nodiscard]] double shown_value(const FreeParameter& parameter, double theta);
+[[nodiscard]] std::string shown_axis(const FreeParameter& parameter);
+/// A standard deviation of θ, in that unit where it is linear.
+[[nodiscard]] std::string shown_deviation(const FreeParameter& parameter, double sd);
+
+}  // namespace condyle

@@ -1,0 +1,210 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <tuple>
+
+#include "condyle/calibration/calibration.h"
+#include "condyle/calibration/shown_numbers.h"
+#include "condyle/pictures/plot_calibration.h"
+
+namespace condyle {
+namespace {
+
+constexpr double kCurveInterval = 1.96;  // 95 % of a normal distribution, in standard deviations
+constexpr double kAngle = 180 / std::numbers::pi;
+constexpr double kCurveHeight = 210;  // [pixel]
+
+/// Rows of one quantity over level or, where each flexion has but one level, over flexion.
+struct RowCurve {
+  std::string title, x_label;
+  std::vector<std::pair<double, std::size_t>> points;  // x, row
+};
+
+/// What belongs to one panel: flexion is that of all rows, or none.
+using Group = std::tuple<std::string, double, int, MeasuredKind, std::size_t>;
+
+bool over_flexion(const MeasurementTable& table, const std::string& test, int load) {
+  std::map<double, std::set<double>> levels;
+  for (const Measurement& row : table.rows)
+    if (row.test == test && row.load == load) levels[row.flexion].insert(row.level);
+  return load < 0 ||
+         (levels.size() > 1 && std::all_of(levels.begin(), levels.end(),
+                                           [](const auto& at) { return at.second.size() == 1; }));
+}
+
+/// Loads under which an unloaded row stands as level 0: those of its test at its flexion.
+std::vector<int> loads_of(const MeasurementTable& table, const Measurement& row) {
+  if (row.load >= 0) return {row.load};
+  std::set<int> loads;
+  for (const Measurement& other : table.rows)
+    if (other.test == row.test && other.flexion == row.flexion && other.load >= 0 &&
+        !over_flexion(table, row.test, other.load))
+      loads.insert(other.load);
+  if (loads.empty()) return {-1};
+  return {loads.begin(), loads.end()};
+}
+
+RowCurve named_curve(const Scene& scene, const MeasurementTable& table, const Group& group) {
+  const auto& [test, flexion, load, kind, index] = group;
+  RowCurve curve;
+  if (over_flexion(table, test, load)) {
+    curve.title = load < 0 ? test : test + ", " + load_name(scene, load);
+    curve.x_label = "Flexion [°]";
+  } else {
+    curve.title = test + " at " + shown_degrees(flexion);
+    curve.x_label = fmt::format("{} [{}]", load_name(scene, load), level_unit(scene, load).name);
+  }
+  return curve;
+}
+
+/// In the order of the table.
+std::vector<std::pair<Group, RowCurve>> row_curves(const Scene& scene,
+                                                   const CalibrationResult& result) {
+  const MeasurementTable& table = result.table;
+  std::vector<std::pair<Group, RowCurve>> curves;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const Measurement& row = table.rows[i];
+    for (const int load : loads_of(table, row)) {
+      const bool flexed = over_flexion(table, row.test, load);
+      const Group group{row.test, flexed ? std::nan("") : row.flexion, load, row.kind, row.index};
+      auto found = std::find_if(curves.begin(), curves.end(), [&](const auto& known) {
+        const auto& [a, b, c, d, e] = known.first;
+        return a == row.test && (flexed ? std::isnan(b) : b == row.flexion) && c == load &&
+               d == row.kind && e == row.index;
+      });
+      if (found == curves.end())
+        found = curves.insert(curves.end(), {group, named_curve(scene, table, group)});
+      const double x = flexed ? row.flexion * kAngle : row.level / level_unit(scene, load).inside;
+      found->second.points.emplace_back(x, i);
+    }
+  }
+  for (auto& [group, curve] : curves) std::stable_sort(curve.points.begin(), curve.points.end());
+  return curves;
+}
+
+/// By how many of its deviations the quantity changes along the curve.
+double signal(const CalibrationResult& result, const RowCurve& curve) {
+  double low = INFINITY, high = -INFINITY, sd = 0;
+  for (const auto& [x, i] : curve.points) {
+    low = std::min(low, result.table.rows[i].value);
+    high = std::max(high, result.table.rows[i].value);
+    sd += result.table.rows[i].sd / static_cast<double>(curve.points.size());
+  }
+  return sd > 0 ? (high - low) / sd : 0;
+}
+
+/// Of the curves of the same poses that which moves most.
+std::vector<bool> main_curves(const CalibrationResult& result,
+                              const std::vector<std::pair<Group, RowCurve>>& curves) {
+  std::map<std::tuple<std::string, std::string, int>, std::size_t> best;
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    const auto key = std::tuple{curves[k].second.title, std::get<0>(curves[k].first),
+                                std::get<2>(curves[k].first)};
+    const auto at = best.try_emplace(key, k).first;
+    if (signal(result, curves[k].second) > signal(result, curves[at->second].second))
+      at->second = k;
+  }
+  std::vector<bool> is_main(curves.size(), false);
+  for (const auto& [key, k] : best) is_main[k] = true;
+  return is_main;
+}
+
+/// Half of what a curve of one point is drawn wide.
+double half_width(const RowCurve& curve) {
+  return curve.points.front().first == curve.points.back().first
+             ? std::max(1.0, 0.1 * std::abs(curve.points.front().first))
+             : 0;
+}
+
+struct Predicted {
+  Mark before, after, band;
+};
+
+Predicted predictions(const CalibrationResult& result, const RowCurve& curve, double unit) {
+  Predicted made;
+  made.before = {Mark::Kind::kLine, {}, {}, {}, {}, kBeforeInk, true, false, 1.8};
+  made.after = {Mark::Kind::kLine, {}, {}, {}, {}, kAfterInk, false, false, 2.2};
+  made.band = {Mark::Kind::kBand, {}, {}, {}, {}, kAfterInk};
+  const auto add = [&](double x, const CalibratedRow& row) {
+    for (Mark* mark : {&made.before, &made.after, &made.band}) mark->x.push_back(x);
+    made.before.y.push_back(row.before / unit);
+    made.after.y.push_back(row.after / unit);
+    made.band.low.push_back((row.after - kCurveInterval * row.after_sd) / unit);
+    made.band.high.push_back((row.after + kCurveInterval * row.after_sd) / unit);
+  };
+  const double wide = half_width(curve);
+  for (const auto& [x, i] : curve.points) {
+    if (wide > 0) add(x - wide, result.rows[i]);
+    add(x + wide, result.rows[i]);
+  }
+  return made;
+}
+
+Mark measured(const CalibrationResult& result, const RowCurve& curve, double unit, bool unseen) {
+  Mark mark{
+      Mark::Kind::kDots, {}, {}, {}, {}, unseen ? kUnseenInk : kMeasuredInk, false, unseen, 0.9};
+  for (const auto& [x, i] : curve.points) {
+    const Measurement& row = result.table.rows[i];
+    if ((row.use == MeasuredUse::kTest) != unseen) continue;
+    mark.x.push_back(x);
+    mark.y.push_back(row.value / unit);
+    mark.high.push_back(kCurveInterval * result.rows[i].sd / unit);
+  }
+  return mark;
+}
+
+PagePanel curve_panel(const Scene& scene, const CalibrationResult& result, const RowCurve& curve) {
+  const Measurement& row = result.table.rows[curve.points.front().second];
+  const MeasuredUnit unit = unit_of(row, scene);
+  const std::vector<std::string>& relative = scene.calibration->relative;
+  const bool change = std::find(relative.begin(), relative.end(), row.test) != relative.end();
+  PagePanel panel;
+  panel.title = curve.title;
+  panel.x_label = curve.x_label;
+  panel.y_label =
+      fmt::format("{}{} [{}]", change ? "Δ " : "", quantity_of(row, scene), shown_unit(unit.name));
+  Predicted made = predictions(result, curve, unit.inside);
+  panel.marks = {made.band, made.before, made.after, measured(result, curve, unit.inside, false),
+                 measured(result, curve, unit.inside, true)};
+  const double low = curve.points.front().first, high = curve.points.back().first;
+  const double room = std::max(0.06 * (high - low), 2 * half_width(curve));
+  panel.x_range = {low - room, high + room};
+  return panel;
+}
+
+std::vector<KeyEntry> curve_key() {
+  const Mark band{Mark::Kind::kBand, {}, {}};
+  const Mark after{Mark::Kind::kLine, {}, {}, {}, {}, kAfterInk, false, false, 2.2};
+  const Mark before{Mark::Kind::kLine, {}, {}, {}, {}, kBeforeInk, true, false, 1.8};
+  const Mark fitted{Mark::Kind::kDots, {}, {}, {}, {0}, kMeasuredInk, false, false, 0.9};
+  const Mark unseen{Mark::Kind::kDots, {}, {}, {}, {0}, kUnseenInk, false, true, 0.9};
+  return {{"fitted knee, 95 %", {band, after}},
+          {"scene's own numbers", {before}},
+          {"measured and fitted, 95 %", {fitted}},
+          {"measured, not fitted", {unseen}}};
+}
+
+}  // namespace
+
+std::vector<NamedPage> measured_pages(const Scene& scene, const CalibrationResult& result) {
+  if (!scene.calibration || result.rows.size() != result.table.rows.size()) return {};
+  ChartPage first{scene.title, "measured and fitted"},
+      others{scene.title, "measured and fitted, the other coordinates"};
+  first.key = others.key = curve_key();
+  const auto curves = row_curves(scene, result);
+  const std::vector<bool> is_main = main_curves(result, curves);
+  for (std::size_t k = 0; k < curves.size(); ++k)
+    (is_main[k] ? first : others).panels.push_back(curve_panel(scene, result, curves[k].second));
+  std::vector<NamedPage> pages =
+      divided("calibration_curves", first, kMostPanels, kPanelColumns, kCurveHeight);
+  for (NamedPage& page :
+       divided("calibration_other_curves", others, kMostPanels, kPanelColumns, kCurveHeight))
+    pages.push_back(std::move(page));
+  return pages;
+}
+
+}  // namespace condyle

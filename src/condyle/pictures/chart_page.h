@@ -1,0 +1,101 @@
+#pragma once
+
+/// Pages of panels side by side, through gnuplot: for bands, measured points, bars and cells of a
+/// matrix, where `Chart` has lines over one abscissa. Pixels are told from the upper left corner.
+
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "condyle/pictures/gnuplot.h"
+#include "condyle/pictures/image.h"
+
+namespace condyle {
+
+/// Inks of those pages, out of Okabe and Ito's.
+inline constexpr const char* kBeforeInk = "#8a9199";
+inline constexpr const char* kAfterInk = "#0072B2";
+inline constexpr const char* kUnseenInk = "#D55E00";
+inline constexpr const char* kMeasuredInk = "#262c34";
+
+struct Mark {
+  enum class Kind {
+    kBand,  ///< between low and high over x
+    kLine,  ///< y over x
+    kDots,  ///< y over x, bars of ± high where there is one
+    kBars,  ///< from low to high along x, about the row y, half as thick as `size`
+    kCells  ///< squares about (x, y) of size 1, each with its own colour
+  };
+  Kind kind = Kind::kLine;
+  std::vector<double> x, y, low = {}, high = {};  ///< NaN: a gap
+  std::string ink = kAfterInk;
+  bool dashed = false, hollow = false;
+  double size = 2;  ///< width of a line, size of a dot, thickness of a bar
+  std::vector<Rgb> colors = {};
+};
+
+/// Words at a place of the axes.
+struct Words {
+  double x = 0, y = 0;
+  std::string text;
+  bool light = false;  ///< on a dark ground
+};
+
+struct PagePanel {
+  std::string title, x_label, y_label;
+  std::vector<Mark> marks;
+  static constexpr double kFree = std::numeric_limits<double>::quiet_NaN();
+  std::array<double, 2> x_range = {kFree, kFree}, y_range = {kFree, kFree};
+  std::vector<std::string> x_names = {}, y_names = {};  ///< of 0, 1, ... in place of numbers
+  std::vector<std::string> right_names = {};            ///< of the rows, right of the axes
+  std::vector<Words> words = {};
+  bool log_y = false, frame = true;
+  double name_size = 10;                            ///< of names [point]
+  double left = 0, top = 0, width = 0, height = 0;  ///< of the axes [pixel]
+};
+
+struct KeyEntry {
+  std::string words;
+  std::vector<Mark> samples;  ///< only their looks count
+};
+
+struct ChartPage {
+  std::string title, what;
+  std::vector<std::string> notes = {};  ///< lines below the title
+  std::vector<KeyEntry> key = {};
+  std::vector<PagePanel> panels = {};
+  int width = 1200, height = 0;  ///< [pixel]
+};
+
+struct NamedPage {
+  std::string name;  ///< of the file, without its ending
+  ChartPage page;
+};
+
+inline constexpr std::size_t kMostPanels = 12;  ///< of a page in three columns
+inline constexpr int kPanelColumns = 3;
+
+/// Height of title, notes and key: where panels may begin [pixel].
+[[nodiscard]] double top_of_panels(const ChartPage& page);
+
+/// Puts all panels side by side in rows of `columns`, and gives the page its height.
+void lay_in_grid(ChartPage& page, int columns, double panel_height);
+
+/// Panels over as many pages as they need, `most` on each; "name", or "name_1", "name_2", ...
+[[nodiscard]] std::vector<NamedPage> divided(const std::string& name,
+                                             const ChartPage& page,
+                                             std::size_t most,
+                                             int columns,
+                                             double panel_height);
+
+/// Width of words in regular letters of that size [pixel].
+[[nodiscard]] double words_width(const std::string& text, double size);
+
+[[nodiscard]] std::string gnuplot_script(const ChartPage& page, PlotFormat format);
+
+/// Throws as `plot` of a chart does.
+void plot(const ChartPage& page, const std::filesystem::path& file, PlotFormat format);
+
+}  // namespace condyle

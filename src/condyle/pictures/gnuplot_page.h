@@ -1,0 +1,56 @@
+#pragma once
+
+/// What all pages of plots share: size, colours, title, terminal, and the way through gnuplot. The
+/// origin of pixels is the upper left corner of the page.
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "condyle/pictures/gnuplot.h"
+
+namespace condyle {
+
+inline constexpr int kPageWidth = 1200, kHeadHeight = 80;  // [pixel]
+inline constexpr double kTitleSize = 16;                   // [point]
+inline constexpr double kPixelPerPoint = 4.0 / 3;          // of gnuplot's PNG and SVG
+
+/// Okabe and Ito's colours for every kind of sight; lines beyond their number are dashed.
+inline constexpr std::array<const char*, 8> kColors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                       "#E69F00", "#56B4E9", "#000000", "#8C6BB1"};
+
+/// In single quotes gnuplot takes everything as it is, except the quote itself.
+[[nodiscard]] std::string single_quoted(const std::string& text);
+/// Letters of UTF-8.
+[[nodiscard]] std::size_t letters(const std::string& text);
+/// At most `most` letters of UTF-8.
+[[nodiscard]] std::string shortened(const std::string& text, std::size_t most);
+
+/// Of a page of that size; in a PDF kPageWidth is the width of two columns of a journal.
+[[nodiscard]] std::string terminal(PlotFormat format, int width, int height);
+/// Letters of that size on a page of pixels [point], as the format has them.
+[[nodiscard]] double letter_size(PlotFormat format, double size);
+/// Borders, tics, grid, and what all panels of a page begin with.
+[[nodiscard]] std::string plot_style(PlotFormat format, int width, int height);
+
+/// The title in one line or, where that is too long, in two, smaller where it has to be.
+struct Title {
+  std::vector<std::string> lines;
+  double size = kTitleSize;  ///< [point]
+};
+/// `room` for it [pixel].
+[[nodiscard]] Title page_title(const std::string& title, const std::string& what, double room);
+/// Height above the panels [pixel].
+[[nodiscard]] int head_height(const Title& title);
+/// Labels from number 1; `left` of the page [-].
+[[nodiscard]] std::string title_labels(const Title& title,
+                                       double left,
+                                       PlotFormat format,
+                                       int height);
+
+/// Gives the script to gnuplot and writes what it draws. Throws as `plot` does.
+void draw_script(const std::string& script, const std::filesystem::path& file);
+
+}  // namespace condyle

@@ -1,0 +1,145 @@
+#include "condyle/pictures/page_marks.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace condyle {
+namespace {
+
+constexpr double kHalfCell = 0.5;
+
+bool known(const std::vector<double>& values, std::size_t i) {
+  return i < values.size() && std::isfinite(values[i]);
+}
+
+std::string block(const std::string& name, const std::string& lines) {
+  return "$" + name + " << END_OF_DATA\n" + lines + "END_OF_DATA\n";
+}
+
+/// From the first to one past the last of following points that all have values.
+std::vector<std::pair<std::size_t, std::size_t>> pieces(const Mark& mark) {
+  std::vector<std::pair<std::size_t, std::size_t>> found;
+  bool open = false;
+  for (std::size_t i = 0; i < mark.x.size(); ++i) {
+    const bool here = known(mark.x, i) && known(mark.low, i) && known(mark.high, i);
+    if (here && !open) found.emplace_back(i, i + 1);
+    if (here) found.back().second = i + 1;
+    open = here;
+  }
+  return found;
+}
+
+MarkScript band(const Mark& mark, const std::string& name) {
+  MarkScript script;
+  int count = 0;
+  for (const auto& [begin, end] : pieces(mark)) {
+    std::string lines;
+    for (std::size_t i = begin; i < end; ++i)
+      lines += fmt::format("{:.6g} {:.6g} {:.6g}\n", mark.x[i], mark.low[i], mark.high[i]);
+    const std::string piece = fmt::format("{}piece{}", name, count++);
+    script.data += block(piece, lines);
+    script.command +=
+        fmt::format("{}${} using 1:2:3 with filledcurves linecolor '{}' {} notitle",
+                    script.command.empty() ? "" : ", ", piece, mark.ink, fill_look(mark));
+  }
+  return script;
+}
+
+MarkScript line(const Mark& mark, const std::string& name) {
+  std::string lines;
+  bool any = false;
+  for (std::size_t i = 0; i < mark.x.size(); ++i) {
+    const bool here = known(mark.x, i) && known(mark.y, i);
+    lines += here ? fmt::format("{:.6g} {:.6g}\n", mark.x[i], mark.y[i]) : "\n";
+    any = any || here;
+  }
+  if (!any) return {};
+  return {block(name, lines),
+          fmt::format("${} using 1:2 with lines {} notitle", name, line_look(mark))};
+}
+
+MarkScript dots(const Mark& mark, const std::string& name) {
+  std::string lines;
+  for (std::size_t i = 0; i < mark.x.size(); ++i)
+    if (known(mark.x, i) && known(mark.y, i))
+      lines += fmt::format("{:.6g} {:.6g} {:.6g}\n", mark.x[i], mark.y[i],
+                           known(mark.high, i) ? mark.high[i] : 0);
+  if (lines.empty()) return {};
+  std::string command;
+  if (!mark.high.empty())
+    command = fmt::format(
+        "${} using 1:2:3 with yerrorbars pointtype 0 linewidth 1.2 linecolor '{}' notitle, ", name,
+        mark.ink);
+  if (mark.hollow)  // paper within, so that lines do not run through it
+    command += fmt::format(
+        "${} using 1:2 with points pointtype 7 pointsize {:g} linecolor '#ffffff' notitle, ", name,
+        mark.size);
+  return {block(name, lines),
+          command + fmt::format("${} using 1:2 with points {} notitle", name, dot_look(mark))};
+}
+
+MarkScript bars(const Mark& mark, const std::string& name) {
+  std::string lines;
+  for (std::size_t i = 0; i < mark.y.size(); ++i)
+    if (known(mark.low, i) && known(mark.high, i))
+      lines += fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g}\n", mark.high[i], mark.y[i],
+                           mark.low[i], mark.high[i], mark.y[i] - mark.size / 2,
+                           mark.y[i] + mark.size / 2);
+  if (lines.empty()) return {};
+  return {block(name, lines),
+          fmt::format("${} using 1:2:3:4:5:6 with boxxyerror linecolor '{}' {} notitle", name,
+                      mark.ink, fill_look(mark))};
+}
+
+MarkScript cells(const Mark& mark, const std::string& name) {
+  std::string lines;
+  for (std::size_t i = 0; i < mark.x.size() && i < mark.colors.size(); ++i) {
+    const Rgb& c = mark.colors[i];
+    lines += fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {}\n", mark.x[i], mark.y[i],
+                         mark.x[i] - kHalfCell, mark.x[i] + kHalfCell, mark.y[i] - kHalfCell,
+                         mark.y[i] + kHalfCell, (c[0] << 16) + (c[1] << 8) + c[2]);
+  }
+  if (lines.empty()) return {};
+  return {block(name, lines),
+          fmt::format("${} using 1:2:3:4:5:6:7 with boxxyerror linecolor rgb variable fillstyle "
+                      "solid noborder notitle",
+                      name)};
+}
+
+}  // namespace
+
+std::string dot_look(const Mark& mark) {
+  return fmt::format("pointtype {} pointsize {:g} linewidth 1.6 linecolor '{}'",
+                     mark.hollow ? 6 : 7, mark.size, mark.ink);
+}
+
+std::string line_look(const Mark& mark) {
+  return fmt::format("linewidth {:g} linecolor '{}' dashtype {}", mark.size, mark.ink,
+                     mark.dashed ? 2 : 1);
+}
+
+std::string fill_look(const Mark& mark) {
+  return mark.kind == Mark::Kind::kBand ? "fillstyle transparent solid 0.25 noborder"
+                                        : "fillstyle solid noborder";
+}
+
+MarkScript mark_script(const Mark& mark, const std::string& name) {
+  switch (mark.kind) {
+    case Mark::Kind::kBand:
+      return band(mark, name);
+    case Mark::Kind::kLine:
+      return line(mark, name);
+    case Mark::Kind::kDots:
+      return dots(mark, name);
+    case Mark::Kind::kBars:
+      return bars(mark, name);
+    case Mark::Kind::kCells:
+      return cells(mark, name);
+  }
+  return {};
+}
+
+}  // namespace condyle
