@@ -104,6 +104,33 @@ TEST(MeasurementTable, SkippedRowsMaySayAnything) {
             7u);
 }
 
+TEST(MeasurementTable, RelativeCurvesAreToldFromTheirUnloadedRowWhichIsThenLeftOut) {
+  const std::string rows =
+      "test,flexion,load,level,coordinate,value,sd\n"
+      "a,30,none,0,anterior_drawer,2,0.5\na,30,anterior,88,anterior_drawer,7,0.5\n"
+      "a,30,anterior,-88,anterior_drawer,-1,0.5\na,30,anterior,88,distraction,3,0.5\n"
+      "a,60,anterior,88,anterior_drawer,4,0.5\nb,30,none,0,anterior_drawer,1,0.5\n";
+  Scene scene = scene_beside(table_folder(), rows);
+  scene.calibration->relative = {"a"};
+  const MeasurementTable table = read_measurements(scene);
+  ASSERT_EQ(table.rows.size(), 5u);
+  EXPECT_EQ(table.rows[0].value, 5);
+  EXPECT_EQ(table.rows[1].value, -3);
+  EXPECT_EQ(table.rows[2].value, 3);  // another coordinate, without an unloaded row
+  EXPECT_EQ(table.rows[3].value, 4);  // another flexion
+  EXPECT_EQ(table.rows[4].value, 1);  // another curve
+}
+
+TEST(MeasurementTable, ALaxityIsOfACoordinate) {
+  const MeasurementTable table = table_of(
+      "test,flexion,load,level,coordinate,value,sd\na,30,anterior,88,anterior_drawer.laxity,7,0.5\n"
+      "a,30,anterior,88,anterior_drawer,4,0.5\n");
+  ASSERT_EQ(table.rows.size(), 2u);
+  EXPECT_TRUE(table.rows[0].laxity);
+  EXPECT_EQ(table.rows[0].index, 4u);
+  EXPECT_FALSE(table.rows[1].laxity);
+}
+
 TEST(MeasurementTable, ACurveThatIsToldFromItsUnloadedPoseIsOfTheTable) {
   Scene scene = scene_beside(table_folder(), kTable);
   scene.calibration->relative = {"ap3"};
@@ -184,10 +211,12 @@ const BadTable kBadTables[] = {
      "9: load = anteror, expected a [[calibrate.load]]: \"none\", \"anterior\", \"internal\" or "
      "\"robot\"; did you mean \"anterior\"?"},
     {"UnknownCoordinate", with_row("k1,ap30,30,anterior,88,aduction,1,1,fit"),
-     "9: coordinate = aduction, expected a joint coordinate, reaction, LIGAMENT.force or "
+     "9: coordinate = aduction, expected a joint coordinate, one with .laxity, reaction, "
+     "LIGAMENT.force or "
      "CONTACT.force; did you mean \"adduction\"?"},
     {"UnknownLigament", with_row("k1,ap30,30,anterior,88,pALC.force,1,1,fit"),
-     "9: coordinate = pALC.force, expected a joint coordinate, reaction, LIGAMENT.force or "
+     "9: coordinate = pALC.force, expected a joint coordinate, one with .laxity, reaction, "
+     "LIGAMENT.force or "
      "CONTACT.force; did you mean \"pACL.force\"?"},
     {"NoDeviation", with_row("k1,ap30,30,anterior,88,adduction,1,0,fit"),
      "9: sd = 0, expected a standard deviation > 0"},
@@ -231,8 +260,13 @@ const BadTable kBadTables[] = {
      "which hold one"},
     {"UnknownUse", with_row("k1,ap30,30,anterior,88,adduction,1,1,fitt"),
      "9: use = fitt, expected \"fit\", \"test\" or \"skip\"; did you mean \"fit\"?"},
-    {"RelativeAndNotZero", with_row("k1,ap30,30,none,0,adduction,1,1,fit"),
-     "9: value = 1, expected 0: curve ap30 is told from its unloaded pose ([calibrate] relative)"},
+    {"LaxityWithoutLevel", with_row("k1,ap30,30,none,0,adduction.laxity,1,1,fit"),
+     "9: level = 0, expected a level > 0: a laxity is told at it and at the opposite one"},
+    {"LaxityAtTheOppositeLevel", with_row("k1,ap30,30,anterior,-88,adduction.laxity,1,1,fit"),
+     "9: level = -88, expected a level > 0: a laxity is told at it and at the opposite one"},
+    {"UnloadedTwice",
+     with_row("k1,ap30,30,none,0,adduction,1,1,fit\nk1,ap30,30,anterior,0,adduction,1,1,fit"),
+     "10: coordinate = adduction, expected a row that stands once: line 9 measures the same"},
     {"NothingToFit",
      "test,flexion,load,level,coordinate,value,sd,use\nap30,30,none,0,adduction,0,1,test\n",
      " no row to fit, expected one with use = fit"},

@@ -26,7 +26,7 @@ std::string name_of(const Measurement& row, const MeasurementTable& table, const
 std::string quantity_of(const Measurement& row, const Scene& scene) {
   switch (row.kind) {
     case MeasuredKind::kJointCoordinate:
-      return kJointCoordinates[row.index].words;
+      return (row.laxity ? "laxity of " : "") + std::string(kJointCoordinates[row.index].words);
     case MeasuredKind::kReaction:
       return "reaction";
     case MeasuredKind::kLigamentForce:

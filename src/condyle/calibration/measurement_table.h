@@ -10,7 +10,8 @@
 ///   level        of that load: N, or the unit of moments; of a held coordinate its value
 ///   coordinate   flexion, adduction, internal_rotation, lateral_shift, anterior_drawer, distraction;
 ///                reaction: what holds the coordinate of a displacement-controlled test, positive where
-///                it drives it to greater values; LIGAMENT.force, CONTACT.force
+///                it drives it to greater values; COORDINATE.laxity: at the level less at the opposite
+///                one; LIGAMENT.force, CONTACT.force
 ///   value, sd    in the scene's units, standard deviation > 0
 ///   use          fit, test (predicted, never fitted), skip
 
@@ -34,6 +35,8 @@ struct Measurement {
   int load = -1;       ///< of CalibrationDescription::loads; -1: none
   double level = 0;  ///< [N] or [N mm]; [mm] or [rad] under displacement control; 0 without a load
   MeasuredKind kind = MeasuredKind::kJointCoordinate;
+  /// kJointCoordinate: the coordinate at the level less that at the opposite one.
+  bool laxity = false;
   std::size_t index = 0;  ///< joint coordinate (joint_table.h), ligament or contact
   double value = 0, sd = 1;
   MeasuredUse use = MeasuredUse::kFit;

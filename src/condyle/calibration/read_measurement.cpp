@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "condyle/elements/joint_table.h"
 #include "condyle/input_error.h"
@@ -108,7 +109,10 @@ void read_force(const CsvRow& row,
                 Measurement& measured) {
   const std::string name = columns.text(row, "coordinate");
   std::vector<std::string> ligaments, contacts, all = {"reaction"};
-  for (const JointCoordinate& coordinate : kJointCoordinates) all.emplace_back(coordinate.name);
+  for (const JointCoordinate& coordinate : kJointCoordinates) {
+    all.emplace_back(coordinate.name);
+    all.push_back(std::string(coordinate.name) + ".laxity");
+  }
   for (const LigamentDescription& it : scene.ligaments) ligaments.push_back(it.name + ".force");
   for (const ContactDescription& it : scene.contacts) contacts.push_back(it.name + ".force");
   all.insert(all.end(), ligaments.begin(), ligaments.end());
@@ -120,7 +124,9 @@ void read_force(const CsvRow& row,
   if (!is_ligament && !is_contact)
     columns.fail(
         row, "coordinate",
-        with_advice("a joint coordinate, reaction, LIGAMENT.force or CONTACT.force", name, all));
+        with_advice(
+            "a joint coordinate, one with .laxity, reaction, LIGAMENT.force or CONTACT.force", name,
+            all));
   measured.kind = is_ligament ? MeasuredKind::kLigamentForce : MeasuredKind::kContactForce;
   measured.index = is_ligament ? ligament : contact;
 }
@@ -139,6 +145,15 @@ void check_free(const CsvRow& row,
     columns.fail(row, "coordinate",
                  fmt::format("another coordinate, or reaction: load {} prescribes it",
                              columns.text(row, "load")));
+  if (measured.laxity && !(measured.level > 0))
+    columns.fail(row, "level", "a level > 0: a laxity is told at it and at the opposite one");
+}
+
+constexpr std::string_view kLaxity = ".laxity";
+
+bool is_laxity(const std::string& name) {
+  return name.size() > kLaxity.size() &&
+         name.compare(name.size() - kLaxity.size(), kLaxity.size(), kLaxity) == 0;
 }
 
 void read_coordinate(const CsvRow& row,
@@ -146,8 +161,11 @@ void read_coordinate(const CsvRow& row,
                      const Scene& scene,
                      Measurement& measured) {
   const std::string name = columns.text(row, "coordinate");
+  measured.laxity = is_laxity(name);
+  const std::string coordinate =
+      measured.laxity ? name.substr(0, name.size() - kLaxity.size()) : name;
   for (std::size_t i = 0; i < kJointCoordinates.size(); ++i) {
-    if (name != kJointCoordinates[i].name) continue;
+    if (coordinate != kJointCoordinates[i].name) continue;
     measured.index = i;
     return check_free(row, columns, scene, measured);
   }

@@ -47,10 +47,18 @@ std::string specimen_of(const CsvFile& csv,
   return !wanted.empty() || names.empty() ? wanted : names.front();
 }
 
-using RowKey = std::tuple<std::string, double, int, double, MeasuredKind, std::size_t>;
+/// Rows that measure the same have the same: a level of 0 is no load, but of what holds a coordinate.
+using RowKey = std::tuple<std::string, double, int, double, MeasuredKind, bool, std::size_t>;
 
-RowKey key_of(const Measurement& row) {
-  return {row.test, row.flexion, row.load, row.level, row.kind, row.index};
+bool is_unloaded(const Measurement& row, const Scene& scene) {
+  if (row.load < 0) return true;
+  const auto load = static_cast<std::size_t>(row.load);
+  return row.level == 0 && !scene.calibration->loads[load].displacement_control;
+}
+
+RowKey key_of(const Measurement& row, const Scene& scene) {
+  const int load = is_unloaded(row, scene) ? -1 : row.load;
+  return {row.test, row.flexion, load, row.level, row.kind, row.laxity, row.index};
 }
 
 void check_relative(const Scene& scene, const MeasurementTable& table) {
@@ -74,6 +82,26 @@ bool is_relative(const Scene& scene, const std::string& test) {
   return std::find(relative.begin(), relative.end(), test) != relative.end();
 }
 
+bool is_told(const Measurement& row, const Scene& scene) {
+  return is_relative(scene, row.test) && row.kind == MeasuredKind::kJointCoordinate && !row.laxity;
+}
+
+/// Coordinates of relative curves less what their unloaded rows say, 0 where there is none; these rows
+/// then say nothing more and are left out.
+void tell_from_unloaded(const Scene& scene, MeasurementTable& table) {
+  std::map<std::tuple<std::string, double, std::size_t>, double> unloaded;
+  for (const Measurement& row : table.rows)
+    if (is_told(row, scene) && is_unloaded(row, scene))
+      unloaded[{row.test, row.flexion, row.index}] = row.value;
+  std::erase_if(table.rows, [&](const Measurement& row) {
+    return is_told(row, scene) && is_unloaded(row, scene);
+  });
+  for (Measurement& row : table.rows) {
+    const auto zero = unloaded.find({row.test, row.flexion, row.index});
+    if (is_told(row, scene) && zero != unloaded.end()) row.value -= zero->second;
+  }
+}
+
 }  // namespace
 
 MeasurementTable read_measurements(const Scene& scene) {
@@ -86,24 +114,20 @@ MeasurementTable read_measurements(const Scene& scene) {
   table.file = csv.file;
   table.specimen = specimen_of(csv, columns, scene.calibration->specimen);
   std::map<RowKey, int> seen;
-  bool fitted = false;
   for (const CsvRow& row : csv.rows) {
     if (columns.text(row, "specimen") != table.specimen && columns.has("specimen")) continue;
     if (use_of(row, columns) == MeasuredUse::kSkip) continue;
     const Measurement measured = read_measurement(row, columns, scene);
-    const auto [first, fresh] = seen.try_emplace(key_of(measured), measured.line);
+    const auto [first, fresh] = seen.try_emplace(key_of(measured, scene), measured.line);
     if (!fresh)
       columns.fail(row, "coordinate",
                    fmt::format("a row that stands once: line {} measures the same", first->second));
-    if (measured.load < 0 && measured.value != 0 && is_relative(scene, measured.test))
-      columns.fail(row, "value",
-                   fmt::format("0: curve {} is told from its unloaded pose ([calibrate] relative)",
-                               measured.test));
-    fitted = fitted || measured.use == MeasuredUse::kFit;
     table.rows.push_back(measured);
   }
   check_relative(scene, table);
-  if (!fitted)
+  tell_from_unloaded(scene, table);
+  if (std::none_of(table.rows.begin(), table.rows.end(),
+                   [](const Measurement& row) { return row.use == MeasuredUse::kFit; }))
     throw InputError(
         fmt::format("{}: no row to fit, expected one with use = fit", csv.file.string()));
   return table;
