@@ -62,6 +62,8 @@ Measured all_kinds() {
       knee.add_row(MeasuredKind::kContactForce, contact, load, level, 20);
   }
   knee.add_row(MeasuredKind::kReaction, 0, 3, -9, 20);
+  for (const std::size_t coordinate : {2, 4})
+    knee.add_row(MeasuredKind::kJointCoordinate, coordinate, 0, 80, 20).laxity = true;
   return knee;
 }
 
@@ -162,6 +164,22 @@ void free_frames(Measured& knee) {
       parameter.prior_sd = component < 3 ? 2 : 2 * kDegree;
       knee.parameters.push_back(parameter);
     }
+}
+
+TEST(Predictions, ALaxityIsTheDifferenceOfOppositeLevels) {
+  Measured knee;
+  add_coordinates("there", 30 * kDegree, 0, 100, knee.table);
+  add_coordinates("back", 30 * kDegree, 0, -100, knee.table);
+  for (std::size_t c = 1; c < 6; ++c)
+    knee.add_row(MeasuredKind::kJointCoordinate, c, 0, 100, 30).laxity = true;
+  knee.parameters = free_strains(knee.scene);
+  Predictions predictions = knee.predictions();
+  VectorXd y;
+  MatrixXd J;
+  ASSERT_TRUE(predictions.evaluate(VectorXd::Zero(12), y, &J)) << predictions.failure();
+  EXPECT_LT((y.segment(10, 5) - y.segment(0, 5) + y.segment(5, 5)).norm(), 1e-14);
+  EXPECT_LT((J.middleRows(10, 5) - J.middleRows(0, 5) + J.middleRows(5, 5)).norm(), 1e-12);
+  EXPECT_GT(y[13], 1);  // [mm]
 }
 
 TEST(Predictions, AreTheJointCoordinatesOfASweepAtThoseLoads) {

@@ -231,7 +231,8 @@ void add_offsets(const CalibrationDescription& calibration,
   if (!calibration.curve_sd) return;
   std::set<std::pair<std::string, std::size_t>> made_for;
   for (const Measurement& row : table.rows) {
-    if (row.use != MeasuredUse::kFit || row.kind != MeasuredKind::kJointCoordinate) continue;
+    if (row.use != MeasuredUse::kFit || row.kind != MeasuredKind::kJointCoordinate || row.laxity)
+      continue;
     const JointCoordinate& coordinate = kJointCoordinates[row.index];
     const double sd = (*calibration.curve_sd)[coordinate.angle ? 1 : 0];
     if (!(sd > 0) || !made_for.insert({row.test, row.index}).second) continue;

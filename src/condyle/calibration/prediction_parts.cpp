@@ -110,20 +110,20 @@ void Predictions::Parts::tell_rows(const std::vector<ToldPose>& of,
   if (J != nullptr) J->resize(count, static_cast<Eigen::Index>(study->parameters.size()));
   for (Eigen::Index i = 0; i < count; ++i) {
     const ToldRows::Row& row = rows[static_cast<std::size_t>(i)];
-    const ToldPose &pose = of[row.number.pose], &unloaded = of[row.unloaded.pose];
-    if (pose.lost || (row.relative && unloaded.lost)) {
+    const ToldPose &pose = of[row.number.pose], &other = of[row.from.pose];
+    if (pose.lost || (row.is_difference && other.lost)) {
       y[i] = kNoPrediction;
       if (J != nullptr) J->row(i).setConstant(kNoPrediction);
       continue;
     }
     const auto output = static_cast<Eigen::Index>(row.number.output),
-               from = static_cast<Eigen::Index>(row.unloaded.output);
+               from = static_cast<Eigen::Index>(row.from.output);
     y[i] = row.sign * pose.values[output];
-    if (row.relative) y[i] -= unloaded.values[from];
+    if (row.is_difference) y[i] -= other.values[from];
     for (const std::size_t j : row.offsets) y[i] += theta[static_cast<Eigen::Index>(j)];
     if (J == nullptr) continue;
     J->row(i) = row.sign * pose.by_theta.row(output);
-    if (row.relative) J->row(i) -= unloaded.by_theta.row(from);
+    if (row.is_difference) J->row(i) -= other.by_theta.row(from);
     for (const std::size_t j : row.offsets) (*J)(i, static_cast<Eigen::Index>(j)) += 1;
   }
 }

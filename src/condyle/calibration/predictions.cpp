@@ -87,10 +87,10 @@ VectorXd Predictions::input_variance(const VectorXd& theta) {
   VectorXd variance = VectorXd::Zero(y.size());
   for (Eigen::Index i = 0; i < y.size(); ++i) {
     const ToldRows::Row& row = parts.study->told.rows[static_cast<std::size_t>(i)];
-    const ToldPose &pose = parts.told[row.number.pose], &unloaded = parts.told[row.unloaded.pose];
-    if (pose.lost || (row.relative && unloaded.lost)) continue;
+    const ToldPose &pose = parts.told[row.number.pose], &other = parts.told[row.from.pose];
+    if (pose.lost || (row.is_difference && other.lost)) continue;
     Eigen::RowVector2d by = pose.by_inputs.row(static_cast<Eigen::Index>(row.number.output));
-    if (row.relative) by -= unloaded.by_inputs.row(static_cast<Eigen::Index>(row.unloaded.output));
+    if (row.is_difference) by -= other.by_inputs.row(static_cast<Eigen::Index>(row.from.output));
     variance[i] = by.squaredNorm();
   }
   return variance;

@@ -2,7 +2,7 @@
 
 /// What a knee with changed numbers answers in the tests of a table, with exact derivatives
 /// (equilibrium/sensitivity.h): poses of equilibrium, one for each flexion, load and level that a row
-/// names, and the unloaded ones that curves are told from.
+/// names, the unloaded ones that relative curves are told from, the opposite ones of laxities.
 
 #include <Eigen/Core>
 

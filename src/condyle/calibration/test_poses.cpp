@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <tuple>
 
 namespace condyle {
@@ -29,6 +30,19 @@ bool is_relative(const Measurement& row, const CalibrationDescription& calibrati
   const std::vector<std::string>& curves = calibration.relative;
   return row.kind == MeasuredKind::kJointCoordinate &&
          std::find(curves.begin(), curves.end(), row.test) != curves.end();
+}
+
+/// The pose whose number is taken from that of the row, if there is one.
+std::optional<TestPose> told_from(const Measurement& row,
+                                  const Scene& scene,
+                                  const MeasuredModels& models) {
+  if (row.laxity) {
+    Measurement opposite = row;
+    opposite.level = -row.level;
+    return pose_of(opposite, scene, models);
+  }
+  if (is_relative(row, *scene.calibration)) return unloaded_pose(row.flexion);
+  return std::nullopt;
 }
 
 using Key = std::tuple<std::size_t, double, int, double>;
@@ -73,15 +87,15 @@ TestPoses test_poses(const Scene& scene,
     const Measurement& row = table.rows[i];
     const bool fitted = row.use == MeasuredUse::kFit;
     collected.add(pose_of(row, scene, models), i, fitted);
-    if (is_relative(row, *scene.calibration)) collected.add(unloaded_pose(row.flexion), i, fitted);
+    if (const auto from = told_from(row, scene, models)) collected.add(*from, i, fitted);
   }
   TestPoses result;
   result.poses = collected.in_order();
   for (const Measurement& row : table.rows) {
     RowPlace& place = result.rows.emplace_back();
     place.pose = collected.find(pose_of(row, scene, models));
-    if (is_relative(row, *scene.calibration))
-      place.unloaded = static_cast<int>(collected.find(unloaded_pose(row.flexion)));
+    if (const auto from = told_from(row, scene, models))
+      place.from = static_cast<int>(collected.find(*from));
   }
   return result;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The poses that a table of measurements asks for: one for each flexion, load and level, and the
-/// unloaded ones that curves are told from.
+/// The poses that a table of measurements asks for: one for each flexion, load and level, and those
+/// that rows are told from: unloaded ones of relative curves, the opposite ones of laxities.
 
 #include <vector>
 
@@ -19,10 +19,10 @@ struct TestPose {
   std::size_t row = 0;    ///< the first that needs it, a fitted one before others
 };
 
-/// A row of the table: at which pose it is told, and from which unloaded one.
+/// A row of the table: at which pose it is told, and from which other one.
 struct RowPlace {
   std::size_t pose = 0;
-  int unloaded = -1;  ///< pose that a relative curve is told from, -1: none
+  int from = -1;  ///< pose whose number is taken from it, -1: none
 };
 
 struct TestPoses {

@@ -53,6 +53,7 @@ bool has_coordinates(const ToldRows& told, const std::vector<PoseOutput>& output
 std::vector<std::size_t> offsets_of(const Measurement& row,
                                     const std::vector<FreeParameter>& parameters) {
   std::vector<std::size_t> offsets;
+  if (row.laxity) return offsets;
   for (std::size_t j = 0; j < parameters.size(); ++j)
     if (parameters[j].kind == FreeParameter::Kind::kCurveOffset && parameters[j].test == row.test &&
         row.kind == MeasuredKind::kJointCoordinate && parameters[j].coordinate == row.index)
@@ -92,10 +93,10 @@ ToldRows told_rows(const MeasurementTable& table,
       made.number = {place.pose, place_of(output, told.frames, told.outputs[place.pose])};
       made.sign = row.kind == MeasuredKind::kReaction ? -1 : 1;
       made.offsets = offsets_of(row, parameters);
-      if (place.unloaded < 0) continue;
-      const auto unloaded = static_cast<std::size_t>(place.unloaded);
-      made.relative = true;
-      made.unloaded = {unloaded, place_of(output, told.frames, told.outputs[unloaded])};
+      if (place.from < 0) continue;
+      const auto from = static_cast<std::size_t>(place.from);
+      made.is_difference = true;
+      made.from = {from, place_of(output, told.frames, told.outputs[from])};
     }
   }
   return told;

@@ -21,9 +21,9 @@ struct ToldRows {
   };
   struct Row {
     Number number;
-    double sign = 1;        ///< -1: the reaction is what the multiplier is not (pose_result.h)
-    bool relative = false;  ///< less the unloaded one:
-    Number unloaded;
+    double sign = 1;             ///< -1: the reaction is what the multiplier is not (pose_result.h)
+    bool is_difference = false;  ///< less another one:
+    Number from;
     std::vector<std::size_t> offsets;  ///< θ that are added to it
   };
   /// By poses. Where frames are free (`frames`) and a coordinate is asked for, all six come first.
