@@ -187,7 +187,7 @@ std::vector<NamedPage> suggestion_pages(const Scene& scene, const CalibrationRes
   information.x_label = "½ ln det of the posterior's precision [-]";
   shrinkage.title = "Mean deviation of the knee's parameters";
   shrinkage.x_label = "less by [%]";
-  shrinkage.y_names = {""};
+  shrinkage.y_names.assign(information.y_names.size(), "");
   information.marks = {bits};
   shrinkage.marks = {sd};
   const double rows = static_cast<double>(information.y_names.size());

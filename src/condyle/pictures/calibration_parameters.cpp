@@ -14,6 +14,7 @@ namespace {
 constexpr double kSpread = 560, kTallestRow = 40, kLeastRow = 12;  // of the matrix [pixel]
 constexpr double kNamesEnd = 24, kGap = 64, kBarsWidth = 260;      // [pixel]
 constexpr Eigen::Index kMostNumbers = 13;  // of a row whose cells have their number in them
+constexpr double kTitlePoints = 12.5;  // as wide as the bold title of a panel
 constexpr int kScaleSteps = 10;
 constexpr double kNothing = 0.02;  // a correlation that is left white
 constexpr double kParted = 0.1;    // samples and delta method differ by more: say so
@@ -110,7 +111,7 @@ PagePanel shrinkage_panel(const CalibrationResult& result) {
               : shown_deviation(result.parameters[j], before) + " → " +
                     shown_deviation(result.parameters[j], result.known.sd[at]));
   }
-  panel.y_names.assign(1, "");
+  panel.y_names.assign(result.parameters.size(), "");
   panel.marks = {prior, posterior, samples};
   return panel;
 }
@@ -135,7 +136,8 @@ void lay_out_parameters(ChartPage& page, std::size_t count) {
   }
   matrix.left = kNamesEnd + widest(matrix.y_names, size) + 14;
   matrix.width = n * row;
-  bars.left = matrix.left + matrix.width + kGap;
+  const double title = words_width(matrix.title, kTitlePoints);
+  bars.left = matrix.left + std::max(matrix.width, title) + kGap;
   bars.width = kBarsWidth;
   const double right = bars.left + bars.width + widest(bars.right_names, size) + 40;
   page.width = std::max(page.width, static_cast<int>(std::ceil(right)));
