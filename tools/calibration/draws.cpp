@@ -6,6 +6,8 @@
 #include <memory>
 #include <random>
 
+#include "condyle/calibration/knee_fit.h"
+#include "condyle/calibration/multi_start.h"
 #include "condyle/calibration/predictions.h"
 #include "condyle/input_error.h"
 
@@ -194,6 +196,36 @@ Draws draw_and_fit(const StudyKnee& model,
     draws.outcomes.push_back(std::move(outcome));
   }
   return draws;
+}
+
+Starts fit_from_starts(const StudyKnee& knee, const DrawPlan& plan, int starts) {
+  MeasurementTable table = planned_table(knee, plan.fitted);
+  const std::vector<FreeParameter> parameters = free_parameters(knee.scene, knee.meshes, table);
+  const VectorXd prior = prior_sds(parameters), sd = deviations(table);
+  Tests truth(knee, plan.fitted, parameters);
+  std::mt19937_64 engine(plan.seed);
+  VectorXd y;
+  while (!truth.at(plan.truth * prior.cwiseProduct(normal_numbers(engine, prior.size())), y)) {
+  }
+  y += plan.noise * sd.cwiseProduct(normal_numbers(engine, sd.size()));
+  for (Eigen::Index i = 0; i < y.size(); ++i) table.rows[static_cast<std::size_t>(i)].value = y[i];
+  KneeFit fit(knee.scene, knee.surfaces, table, parameters, 0);
+  Progress progress({});
+  const std::vector<LeastSquaresResult> fits = fit_from_prior(
+      fit.problem(), starts + 1, plan.seed, [](const VectorXd&, double) {}, progress);
+  const LeastSquaresResult* best = &fits.front();
+  for (const LeastSquaresResult& each : fits)
+    if (each.cost < best->cost) best = &each;
+  Starts found;
+  for (const LeastSquaresResult& each : fits) {
+    ++found.starts;
+    found.next = std::max(found.next, each.cost - best->cost);
+    if (each.cost > best->cost + 1e-6) continue;
+    ++found.same;
+    found.distance = std::max(
+        found.distance, (each.theta - best->theta).cwiseQuotient(prior).lpNorm<Eigen::Infinity>());
+  }
+  return found;
 }
 
 Coverage coverage_of(const Draws& draws) {

@@ -49,6 +49,14 @@ struct Draws {
                                  const DrawPlan& plan,
                                  const std::function<void(Scene&, unsigned draw)>& disturb = {});
 
+/// How fits of one set of measurements from starts of the prior end.
+struct Starts {
+  int starts = 0, same = 0;  ///< same: cost within 1e-6 of the least
+  double next = 0;           ///< greatest cost over the least
+  double distance = 0;       ///< of the farthest θ that has the same cost [prior sd]
+};
+[[nodiscard]] Starts fit_from_starts(const StudyKnee& knee, const DrawPlan& plan, int starts);
+
 /// Of all parameters together, of the one with the fewest and of the one with the most: share of 95 %
 /// intervals that hold the truth.
 struct Coverage {
