@@ -219,6 +219,35 @@ void describe_motion(const Scene& scene, Out out) {
   fmt::format_to(out, "\n");
 }
 
+const char* word(ParameterKind what) {
+  switch (what) {
+    case ParameterKind::kReferenceStrain:
+      return "reference strain";
+    case ParameterKind::kSlackLength:
+      return "slack length";
+    case ParameterKind::kStiffness:
+      return "stiffness";
+    case ParameterKind::kTransitionStrain:
+      return "transition strain";
+    case ParameterKind::kInsertion:
+      return "insertion";
+    default:
+      return "size";
+  }
+}
+
+void describe_calibration(const Scene& scene, Out out) {
+  if (!scene.calibration) return;
+  fmt::format_to(out, "calibrate  to {}\n", scene.calibration->measurements.filename().string());
+  for (const CalibrationParameter& parameter : scene.calibration->parameters) {
+    const bool load = parameter.what == ParameterKind::kLoadScale;
+    fmt::format_to(out, "free       {} of {} {}{}{}, prior within {:.4g}\n", word(parameter.what),
+                   parameter.of.size(), load ? "loads" : "ligaments",
+                   parameter.body < 0 ? "" : " on " + body_name(scene, parameter.body),
+                   parameter.together ? ", together" : "", parameter.prior_sd);
+  }
+}
+
 }  // namespace
 
 std::string describe(const Scene& scene) {
@@ -229,6 +258,7 @@ std::string describe(const Scene& scene) {
   describe_wraps(scene, out);
   describe_ligaments(scene, out);
   describe_motion(scene, out);
+  describe_calibration(scene, out);
   return text;
 }
 
