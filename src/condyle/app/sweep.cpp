@@ -15,6 +15,7 @@
 #include "condyle/app/resume.h"
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
+#include "condyle/equilibrium/sweep_sensitivities.h"
 #include "condyle/input_error.h"
 #include "condyle/results/journal.h"
 #include "condyle/results/output_file.h"
@@ -99,6 +100,7 @@ int run_sweep(const SweepCommand& command) {
   if (!earlier.message.empty()) say(talk, "{}\n\n", earlier.message);
   Journal journal(journal_path(command.output), identity(scene, surfaces), earlier.journal_bytes);
   run.sweep = sweep_aloud(talk, scene, surfaces, std::move(earlier.poses), journal);
+  run.sensitivities = sweep_sensitivities(scene, surfaces, run.sweep.poses);
   const SweepResult& result = run.sweep;
   for (const std::string& line : event_lines(scene, swept_quantity(run), result))
     say(talk, "{}\n", line);

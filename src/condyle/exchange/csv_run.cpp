@@ -25,7 +25,8 @@ std::string csv_of_poses(const Run& run, const std::vector<ShownPose>& shown) {
     for (const TableColumn& column : columns) {
       if (!std::isfinite(column.values[i])) continue;
       fmt::format_to(std::back_inserter(text), "{}{},{},{},{},{}\n", head, column.quantity,
-                     csv_quoted(column.name), column.component, column.values[i], column.unit);
+                     csv_quoted(column.name), csv_quoted(column.component), column.values[i],
+                     column.unit);
     }
   }
   return text;

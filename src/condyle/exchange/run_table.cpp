@@ -5,7 +5,9 @@
 #include <functional>
 #include <utility>
 
+#include "condyle/equilibrium/sweep_sensitivities.h"
 #include "condyle/results/run_layout.h"
+#include "condyle/results/sensitivity_group.h"
 
 namespace condyle {
 namespace {
@@ -23,6 +25,7 @@ class Columns {
     for (std::size_t i = 0; i < scene_.contacts.size(); ++i) add_contact(i);
     for (std::size_t i = 0; i < scene_.ligaments.size(); ++i) add_ligament(i);
     for (std::size_t i = 0; i < scene_.conditions.size(); ++i) add_condition(i);
+    if (run_.sensitivities) add_sensitivities();
     add_solver();
     return std::move(columns_);
   }
@@ -124,6 +127,22 @@ class Columns {
         [&](const PoseResult& p) { return p.conditions[i].value / (angle ? kDegree : 1); });
     add("condition", condition.name, "multiplier", angle ? "N mm" : "N",
         [&](const PoseResult& p) { return p.conditions[i].multiplier; });
+  }
+
+  /// Of each output by each number: quantity "sensitivity", the number's name as component.
+  void add_sensitivities() {
+    const SweepSensitivities& all = *run_.sensitivities;
+    for (std::size_t i = 0; i < all.outputs.size(); ++i)
+      for (std::size_t j = 0; j < all.parameters.size(); ++j) {
+        TableColumn column{"sensitivity",
+                           all.outputs[i].place,
+                           all.parameters[j].name,
+                           all.outputs[i].unit.name + "/" + all.parameters[j].unit.name,
+                           {}};
+        for (const ShownPose& shown : shown_)
+          column.values.push_back(shown_derivative(all, shown.index, i, j));
+        columns_.push_back(std::move(column));
+      }
   }
 
   void add_solver() {

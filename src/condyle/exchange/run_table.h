@@ -11,7 +11,7 @@
 namespace condyle {
 
 struct TableColumn {
-  std::string quantity;   ///< pose, joint, contact, ligament, condition, solver
+  std::string quantity;   ///< pose, joint, contact, ligament, condition, sensitivity, solver
   std::string name;       ///< of the body, contact, ligament or condition
   std::string component;  ///< "force", "point_x" ...
   std::string unit;

@@ -3,8 +3,17 @@
 #include <utility>
 
 #include "condyle/pictures/plot_comparison.h"
+#include "condyle/pictures/sensitivity_map.h"
 
 namespace condyle {
+
+std::vector<NamedChart> all_charts(const Run& run) {
+  std::vector<NamedChart> charts = run_charts(run);
+  for (NamedChart& chart : comparison_charts(run)) charts.push_back(std::move(chart));
+  if (run.laxity()) charts.push_back({"laxity", laxity_chart(run)});
+  return charts;
+}
+
 std::vector<std::filesystem::path> plot_charts(const std::vector<NamedChart>& charts,
                                                const std::filesystem::path& folder,
                                                const std::vector<PlotFormat>& formats) {
@@ -22,10 +31,10 @@ std::vector<std::filesystem::path> plot_charts(const std::vector<NamedChart>& ch
 std::vector<std::filesystem::path> plot_run(const Run& run,
                                             const std::filesystem::path& folder,
                                             const std::vector<PlotFormat>& formats) {
-  std::vector<NamedChart> charts = run_charts(run);
-  for (NamedChart& chart : comparison_charts(run)) charts.push_back(std::move(chart));
-  if (run.laxity()) charts.push_back({"laxity", laxity_chart(run)});
-  return plot_charts(charts, folder, formats);
+  std::vector<std::filesystem::path> written = plot_charts(all_charts(run), folder, formats);
+  for (std::filesystem::path& file : plot_sensitivities(run, folder, formats))
+    written.push_back(std::move(file));
+  return written;
 }
 
 }  // namespace condyle

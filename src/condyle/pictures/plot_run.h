@@ -18,6 +18,9 @@ std::vector<std::filesystem::path> plot_run(const Run& run,
                                             const std::filesystem::path& folder,
                                             const std::vector<PlotFormat>& formats);
 
+/// Those of all kinds, without the map of its sensitivities.
+[[nodiscard]] std::vector<NamedChart> all_charts(const Run& run);
+
 std::vector<std::filesystem::path> plot_charts(const std::vector<NamedChart>& charts,
                                                const std::filesystem::path& folder,
                                                const std::vector<PlotFormat>& formats);

@@ -12,6 +12,8 @@ std::string picture_section(const Run& run) {
 
 std::string plot_section(const Run&) { return ""; }
 
+std::string sensitivity_figure(const Run&) { return ""; }
+
 ViewerPressures viewer_pressures(const Run&, const ShapeOptions&, const std::vector<ShownPose>&) {
   return {};
 }

@@ -13,6 +13,7 @@
 #include "condyle/pictures/plot_run.h"
 #include "condyle/pictures/png_file.h"
 #include "condyle/pictures/pressure_map.h"
+#include "condyle/pictures/sensitivity_map.h"
 #include "condyle/pictures/strip.h"
 #include "condyle/report/html.h"
 #include "condyle/report/sections.h"
@@ -156,6 +157,10 @@ std::string inlined(std::string svg, const std::string& prefix) {
   return svg;
 }
 
+std::string plot_figure(const fs::path& svg, const std::string& prefix) {
+  return "<figure class=\"plot\">" + inlined(contents(svg), prefix) + "</figure>\n";
+}
+
 }  // namespace
 
 std::string picture_section(const Run& run) {
@@ -180,11 +185,17 @@ std::string plot_section(const Run& run) {
   const PassingFolder folder;
   std::string body;
   int count = 0;
-  for (const fs::path& file : plot_run(run, folder.path(), {PlotFormat::kSvg})) {
-    body += "<figure class=\"plot\">" + inlined(contents(file), fmt::format("plot{}-", ++count)) +
-            "</figure>\n";
-  }
+  for (const fs::path& file : plot_charts(all_charts(run), folder.path(), {PlotFormat::kSvg}))
+    body += plot_figure(file, fmt::format("plot{}-", ++count));
   return section("plots", "Plots", body);
+}
+
+std::string sensitivity_figure(const Run& run) {
+  const PassingFolder folder;
+  std::string body;
+  for (const fs::path& file : plot_sensitivities(run, folder.path(), {PlotFormat::kSvg}, 1))
+    body += plot_figure(file, "sensitivities-");
+  return body;
 }
 
 }  // namespace condyle

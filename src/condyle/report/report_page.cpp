@@ -60,6 +60,7 @@ std::string report_page(const Run& run, const std::string& file, const ReportOpt
   parts.emplace_back([&] { return pose_section(run) + event_section(run); });
   parts.emplace_back(
       [&] { return contact_section(run) + layer_section(run) + ligament_section(run); });
+  parts.emplace_back([&] { return sensitivity_section(run, options.pictures); });
   parts.emplace_back([&] { return solver_section(run) + fit_section(run); });
   parts.emplace_back([&] { return source_section(run, file); });
   std::string page;

@@ -32,6 +32,11 @@ namespace condyle {
 [[nodiscard]] std::string picture_section(const Run& run);
 [[nodiscard]] std::string plot_section(const Run& run);
 
+/// Derivatives by numbers of the knee: the greatest effects in words, with the map of plot above.
+[[nodiscard]] std::string sensitivity_section(const Run& run, bool with_map);
+/// The map alone; nothing in a build without plots.
+[[nodiscard]] std::string sensitivity_figure(const Run& run);
+
 /// The 3-D view with its data and the program that shows it; a sentence in a build without it.
 [[nodiscard]] std::string viewer_section(const Run& run, const std::string& file);
 

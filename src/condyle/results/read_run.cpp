@@ -12,6 +12,7 @@
 #include "condyle/results/path_group.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/run_view.h"
+#include "condyle/results/sensitivity_group.h"
 #include "condyle/results/simulation_group.h"
 #include "condyle/results/sweep_group.h"
 #include "condyle/results/trace_columns.h"
@@ -319,7 +320,13 @@ Run read_run(const std::filesystem::path& path) {
   if (root.has("inputs")) run.inputs = read_inputs(root.open("inputs"));
   run.study = read_study(root, run.scene);
   const Unit unit = swept_quantity(run).unit;
-  if (root.has("sweep")) run.sweep.poses = read_sweep(root.open("sweep"), run.scene, unit);
+  if (root.has("sweep")) {
+    const Hdf5Group sweep = root.open("sweep");
+    run.sweep.poses = read_sweep(sweep, run.scene, unit);
+    if (run.scene.sweep && sweep.has("sensitivities"))
+      run.sensitivities =
+          read_sensitivities(sweep.open("sensitivities"), run.scene, run.sweep.poses.size());
+  }
   if (root.has("events")) read_events(root.open("events"), unit, run);
   if (root.has("fit")) run.start = root.open("fit").read_texts("start");
   const Hdf5Group patches = root.open("patches");

@@ -40,6 +40,7 @@ struct InputFile {
 struct Comparison;
 struct LaxityResult;
 struct Simulation;
+struct SweepSensitivities;  ///< equilibrium/sweep_sensitivities.h
 
 /// Which command a run is of. Its scene, which may hold the tables of several, does not say.
 enum class RunKind { kSweep, kFit, kComparison, kLaxity, kSimulation };
@@ -62,6 +63,8 @@ struct Run {
   RunStudy study = SweepStudy{};
   std::vector<std::string> start = {};     ///< what start_warnings found
   std::vector<InputFile> inputs = {};      ///< the meshes; none in files of version 0.1.0
+  /// Where the sweep asks for them; else null.
+  std::shared_ptr<const SweepSensitivities> sensitivities = {};
   std::string program = {}, created = {};  ///< read back only: who wrote the file, and when (UTC)
 
   [[nodiscard]] RunKind kind() const { return static_cast<RunKind>(study.index()); }

@@ -13,6 +13,7 @@
 #include "condyle/results/path_group.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/run_view.h"
+#include "condyle/results/sensitivity_group.h"
 #include "condyle/results/simulation_group.h"
 #include "condyle/results/sweep_group.h"
 #include "condyle/results/trace_columns.h"
@@ -345,7 +346,9 @@ void write_all(const Hdf5Group& root, const Run& run) {
   write_wraps(root, run.scene);
   if (!run.sweep.poses.empty()) {
     const Unit unit = swept_quantity(run).unit;
-    write_sweep(root.create("sweep"), run.scene, unit, run.sweep.poses);
+    const Hdf5Group sweep = root.create("sweep");
+    write_sweep(sweep, run.scene, unit, run.sweep.poses);
+    if (run.sensitivities) write_sensitivities(sweep.create("sensitivities"), *run.sensitivities);
     write_events(root.create("events"), run, unit);
   }
   const Hdf5Group patches = root.create("patches");

@@ -6,6 +6,7 @@
 #include "condyle/input_error.h"
 #include "condyle/scene/start_pose.h"
 #include "condyle/scene/swept_quantity.h"
+#include "condyle/scene_file/read_scene_numbers.h"
 #include "condyle/scene_file/read_sections.h"
 
 namespace condyle {
@@ -129,6 +130,8 @@ void read_sweep(const Section& root, Scene& scene) {
   if (sweep.arc_length && sweep.values.size() < 2)
     section.fail("path",
                  "\"steps\": a path that is followed by its arc length needs two values or more");
+  if (section.has("sensitivities"))
+    sweep.sensitivities = read_scene_numbers(section, "sensitivities", scene);
   section.finish();
   scene.sweep = sweep;
   const double factor = quantity_of_sweep(scene).declared.factor;

@@ -1,0 +1,47 @@
+#pragma once
+
+/// A table of numbers of both signs as coloured cells, through gnuplot: panels of the same
+/// rows and columns. The numbers stand in the cells.
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "condyle/pictures/gnuplot.h"
+
+namespace condyle {
+
+struct HeatMap {
+  struct Row {
+    std::string name, note;  ///< the note stands after the name
+  };
+  struct Column {
+    std::string name;
+    std::size_t scale = 0;  ///< whose colours it has
+  };
+  /// Colours go from -largest to +largest, white in the middle; columns of one scale stand together.
+  struct Scale {
+    std::string title, unit;  ///< of its columns
+    double largest = 0;
+  };
+  struct Panel {
+    std::string title;
+    std::vector<double> values;  ///< by rows; NaN: no number
+  };
+  std::string title;
+  std::vector<std::string> notes;  ///< lines below the title
+  std::vector<Row> rows;
+  std::vector<Column> columns;
+  std::vector<Scale> scales;
+  std::vector<Panel> panels;
+  std::size_t beside = 2;  ///< panels beside each other; the others go below
+};
+
+/// The script that draws it.
+[[nodiscard]] std::string gnuplot_script(const HeatMap& map, PlotFormat format);
+
+/// Errors as of plot (gnuplot.h).
+void plot(const HeatMap& map, const std::filesystem::path& file, PlotFormat format);
+
+}  // namespace condyle
