@@ -25,7 +25,20 @@ struct RowCurve {
 };
 
 /// What belongs to one panel: flexion is that of all rows, or none.
-using Group = std::tuple<std::string, double, int, MeasuredKind, std::size_t>;
+struct Group {
+  std::string test;
+  double flexion;  // NaN: over flexion
+  int load;
+  MeasuredKind kind;
+  bool laxity;
+  std::size_t index;
+
+  bool operator==(const Group& other) const {
+    return test == other.test && load == other.load && kind == other.kind &&
+           laxity == other.laxity && index == other.index &&
+           (flexion == other.flexion || (std::isnan(flexion) && std::isnan(other.flexion)));
+  }
+};
 
 bool over_flexion(const MeasurementTable& table, const std::string& test, int load) {
   std::map<double, std::set<double>> levels;
@@ -49,7 +62,7 @@ std::vector<int> loads_of(const MeasurementTable& table, const Measurement& row)
 }
 
 RowCurve named_curve(const Scene& scene, const MeasurementTable& table, const Group& group) {
-  const auto& [test, flexion, load, kind, index] = group;
+  const auto& [test, flexion, load, kind, laxity, index] = group;
   RowCurve curve;
   if (over_flexion(table, test, load)) {
     curve.title = load < 0 ? test : test + ", " + load_name(scene, load);
@@ -70,12 +83,10 @@ std::vector<std::pair<Group, RowCurve>> row_curves(const Scene& scene,
     const Measurement& row = table.rows[i];
     for (const int load : loads_of(table, row)) {
       const bool flexed = over_flexion(table, row.test, load);
-      const Group group{row.test, flexed ? std::nan("") : row.flexion, load, row.kind, row.index};
-      auto found = std::find_if(curves.begin(), curves.end(), [&](const auto& known) {
-        const auto& [a, b, c, d, e] = known.first;
-        return a == row.test && (flexed ? std::isnan(b) : b == row.flexion) && c == load &&
-               d == row.kind && e == row.index;
-      });
+      const Group group{row.test, flexed ? std::nan("") : row.flexion, load, row.kind, row.laxity,
+                        row.index};
+      auto found = std::find_if(curves.begin(), curves.end(),
+                                [&](const auto& known) { return known.first == group; });
       if (found == curves.end())
         found = curves.insert(curves.end(), {group, named_curve(scene, table, group)});
       const double x = flexed ? row.flexion * kAngle : row.level / level_unit(scene, load).inside;
@@ -102,8 +113,7 @@ std::vector<bool> main_curves(const CalibrationResult& result,
                               const std::vector<std::pair<Group, RowCurve>>& curves) {
   std::map<std::tuple<std::string, std::string, int>, std::size_t> best;
   for (std::size_t k = 0; k < curves.size(); ++k) {
-    const auto key = std::tuple{curves[k].second.title, std::get<0>(curves[k].first),
-                                std::get<2>(curves[k].first)};
+    const auto key = std::tuple{curves[k].second.title, curves[k].first.test, curves[k].first.load};
     const auto at = best.try_emplace(key, k).first;
     if (signal(result, curves[k].second) > signal(result, curves[at->second].second))
       at->second = k;
@@ -161,7 +171,8 @@ PagePanel curve_panel(const Scene& scene, const CalibrationResult& result, const
   const Measurement& row = result.table.rows[curve.points.front().second];
   const MeasuredUnit unit = unit_of(row, scene);
   const std::vector<std::string>& relative = scene.calibration->relative;
-  const bool change = std::find(relative.begin(), relative.end(), row.test) != relative.end();
+  const bool change = row.kind == MeasuredKind::kJointCoordinate && !row.laxity &&
+                      std::find(relative.begin(), relative.end(), row.test) != relative.end();
   PagePanel panel;
   panel.title = curve.title;
   panel.x_label = curve.x_label;
