@@ -212,7 +212,8 @@ TEST(PlotCalibration, TheParabolaHasTheDeviationOfTheDeltaMethod) {
   const Mark& strain = mark_of(pages[0].page.panels[0], Mark::Kind::kLine, kBeforeInk);
   // Profiles go to three deviations: χ² is 9 there, the number that of the scene and θ.
   EXPECT_NEAR(strain.y.front(), 9, 1e-9);
-  EXPECT_NEAR(strain.x.front(), 0.002 + result.fit.theta[0] - 3 * result.known.sd[0], 1e-12);
+  EXPECT_NEAR(strain.x.front(), 100 * (0.002 + result.fit.theta[0] - 3 * result.known.sd[0]),
+              1e-10);
   EXPECT_EQ(pages[0].page.panels[2].x_label, "factor [-]");
   const Mark& factor = mark_of(pages[0].page.panels[2], Mark::Kind::kLine, kAfterInk);
   EXPECT_NEAR(factor.x[9], 1.25, 1e-12) << "the factor on the stiffness";

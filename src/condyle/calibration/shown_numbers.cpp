@@ -23,7 +23,21 @@ const CalibrationLoad* load_of(const Scene& scene, int load) {
   return i < loads.size() ? &loads[i] : nullptr;
 }
 
-bool turns(const FreeParameter& parameter) { return parameter.units == "rad"; }
+/// How much of θ is one of what it is shown in.
+struct ShownUnit {
+  std::string name;
+  double inside;
+};
+
+ShownUnit unit_of_theta(const FreeParameter& parameter) {
+  const auto strain = [](const auto& move) {
+    return move.first.kind == ParameterKind::kReferenceStrain ||
+           move.first.kind == ParameterKind::kTransitionStrain;
+  };
+  if (parameter.units == "rad") return {"°", kOneDegree};
+  if (!parameter.moves.empty() && strain(parameter.moves.front())) return {"%", 0.01};
+  return {shown_unit(parameter.units), 1};
+}
 
 }  // namespace
 
@@ -76,21 +90,19 @@ std::string shown_degrees(double angle) {
 
 double shown_value(const FreeParameter& parameter, double theta) {
   if (parameter.logarithmic) return std::exp(theta);
-  const double value = parameter.start + theta;
-  return turns(parameter) ? value / kOneDegree : value;
+  return (parameter.start + theta) / unit_of_theta(parameter).inside;
 }
 
 std::string shown_axis(const FreeParameter& parameter) {
-  if (parameter.logarithmic) return "factor [-]";
-  return fmt::format("[{}]", turns(parameter) ? "°" : shown_unit(parameter.units));
+  return parameter.logarithmic ? "factor [-]" : "[" + unit_of_theta(parameter).name + "]";
 }
 
 std::string shown_deviation(const FreeParameter& parameter, double sd) {
   if (!std::isfinite(sd)) return "none";
-  if (parameter.logarithmic) return fmt::format("{:.2g} %", 100 * sd);
-  if (turns(parameter)) return fmt::format("{:.2g}°", sd / kOneDegree);
-  return parameter.units == "1" ? fmt::format("{:.2g}", sd)
-                                : fmt::format("{:.2g} {}", sd, shown_unit(parameter.units));
+  if (parameter.logarithmic) return fmt::format("{:.2g} of ln", sd);
+  const ShownUnit unit = unit_of_theta(parameter);
+  const std::string number = fmt::format("{:.2g}", sd / unit.inside);
+  return unit.name == "-" ? number : number + " " + unit.name;
 }
 
 }  // namespace condyle

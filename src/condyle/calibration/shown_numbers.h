@@ -29,11 +29,11 @@ struct LevelUnit {
 /// 30.000000001 as 30.
 [[nodiscard]] std::string shown_degrees(double angle);
 
-/// θ as it is shown: a factor of logarithmic ones, the number itself of those that have one, degrees
-/// of turns.
+/// θ as it is shown: a factor of logarithmic ones, the number itself of those that have one, strains in
+/// %, turns in degrees.
 [[nodiscard]] double shown_value(const FreeParameter& parameter, double theta);
 [[nodiscard]] std::string shown_axis(const FreeParameter& parameter);
-/// A standard deviation of θ, in that unit where it is linear.
+/// A standard deviation of θ with its unit; of ln of the factor of logarithmic ones.
 [[nodiscard]] std::string shown_deviation(const FreeParameter& parameter, double sd);
 
 }  // namespace condyle
