@@ -1,8 +1,8 @@
 #pragma once
 
-/// Samples of the posterior by randomise-then-optimise [Bardsley 2014]: the least for data with noise of
-/// their own sd added and for a mean of the prior that is drawn from it. For predictions linear in θ
-/// these are draws of the posterior itself.
+/// Samples of the posterior by randomising, then optimising ("randomised maximum likelihood", [Ba 2021]):
+/// the least for data with noise of their own sd added and for a mean of the prior that is drawn from
+/// it. For predictions linear in θ these are draws of the posterior itself, else nearly so.
 
 #include "condyle/calibration/fit_problem.h"
 
