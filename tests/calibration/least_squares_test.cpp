@@ -134,6 +134,22 @@ TEST(LeastSquares, ALeastBehindAWallIsNotCalledConverged) {
   EXPECT_GT(result.theta[0], 1);  // steps are cut by half and less: a good part of the way is made
 }
 
+TEST(LeastSquares, ALeastAtAKinkIsOne) {
+  // ½ (|θ0| + 1)² + ½ (θ1 - 1)²: least at (0, 1), where the gradient of θ0 is 1 or -1.
+  LeastSquaresProblem problem = linear_problem(MatrixXd::Identity(2, 2), Vector2d(-1, 1));
+  problem.prior_sd.setConstant(kInfinity);
+  problem.evaluate = [](const VectorXd& t, VectorXd& y, MatrixXd* J) {
+    y = Vector2d(std::abs(t[0]), t[1]);
+    if (J != nullptr) *J = Vector2d(t[0] < 0 ? -1 : 1, 1).asDiagonal();
+    return true;
+  };
+  const LeastSquaresResult result = solve_least_squares(problem, Vector2d(0.7, -2));
+  EXPECT_TRUE(result.converged);
+  EXPECT_NE(result.message.find("kink"), std::string::npos) << result.message;
+  EXPECT_NEAR(result.theta[0], 0, 1e-3);
+  EXPECT_NEAR(result.theta[1], 1, 1e-3);
+}
+
 TEST(LeastSquares, NoPredictionsAtTheStartAreToldAndNothingIsThrown) {
   LeastSquaresProblem problem = rosenbrock();
   problem.evaluate = [](const VectorXd&, VectorXd&, MatrixXd*) { return false; };

@@ -44,10 +44,12 @@ class Trials {
  public:
   explicit Trials(const LeastSquaresProblem& problem) : problem_(problem) {}
 
+  /// Holds until the next one.
   const Trial& at(const VectorXd& theta) {
     if (best_.exists && best_.theta == theta) return best_;
     if (last_.theta.size() > 0 && last_.theta == theta) return last_;
     last_.theta = theta;
+    last_is_newest_ = true;
     last_.exists =
         problem_.evaluate(theta, last_.y, &last_.J) && last_.y.allFinite() && last_.J.allFinite();
     if (!last_.exists) {
@@ -57,9 +59,12 @@ class Trials {
     last_.cost = cost(last_);
     if (best_.exists && !(last_.cost < best_.cost)) return last_;
     std::swap(best_, last_);
+    last_is_newest_ = false;
     return best_;
   }
   [[nodiscard]] const Trial& best() const { return best_; }
+  /// The last step led to predictions that are no better.
+  [[nodiscard]] bool ended_above() const { return last_.exists && last_is_newest_; }
   [[nodiscard]] int refused() const { return refused_; }
 
  private:
@@ -75,6 +80,7 @@ class Trials {
 
   const LeastSquaresProblem& problem_;
   Trial last_, best_;
+  bool last_is_newest_ = false;
   int refused_ = 0;
 };
 
@@ -260,9 +266,11 @@ void minimise(const LeastSquaresProblem& problem,
   result.message = summary.message;
   if (summary.termination_type != ceres::CONVERGENCE) return;
   result.converged = is_least(problem, options, trials.best(), scale);
-  if (!result.converged)
-    result.message = trials.refused() > 0 ? "the cost falls on, where there are no predictions"
-                                          : "the cost falls on, by less than it is known";
+  if (result.converged) return;
+  result.converged = trials.refused() == 0 || trials.ended_above();
+  result.message = result.converged
+                       ? "least at a kink: in some pose a contact is about to open or close"
+                       : "the cost falls on, where there are no predictions";
 }
 
 }  // namespace

@@ -3,7 +3,8 @@
 /// Maximum a posteriori estimate θ: least of
 ///     ½ Σ_i ρ(((y_i(θ) - d_i)/sd_i)²) + ½ Σ_j (θ_j/prior_j)²
 /// within bounds, ρ(s) = s or Huber's. By Ceres (trust region of Levenberg and Marquardt) with the
-/// derivatives of the predictions. A θ at which y does not exist shortens the step.
+/// derivatives of the predictions. A θ at which y does not exist shortens the step. Where the slope of y
+/// jumps, as where a contact opens, the least may lie at the kink: no step leads further down.
 
 #include <Eigen/Core>
 
@@ -30,7 +31,7 @@ struct LeastSquaresProblem {
 struct LeastSquaresOptions {
   int most_iterations = 100;
   double tolerance =
-      1e-12;  ///< relative change of the cost, of θ; of the gradient 1e-14 of its start
+      1e-10;  ///< relative change of the cost, of θ; of the gradient 1e-14 of its start
   /// Told of every accepted step, with cost; false: stop with the best so far.
   std::function<bool(int iteration, double cost, const Eigen::VectorXd& theta)> on_step;
 };
