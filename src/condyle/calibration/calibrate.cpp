@@ -68,7 +68,9 @@ LeastSquaresResult first_fit(const CalibrationOptions& options,
     better(theta, cost);
     return progress("fit", iteration, how.most_iterations);
   };
-  return solve_least_squares(problem, start, how);
+  LeastSquaresResult fit = solve_least_squares(problem, start, how);
+  better(fit.theta, fit.cost);  // the last trial may be the best
+  return fit;
 }
 
 /// Costs that differ by less are the same least.

@@ -36,7 +36,9 @@ std::vector<LeastSquaresResult> fit_from_prior(
   const auto make_task = [&] {
     return [&, worker = problem.make_worker()](int k) {
       const Eigen::VectorXd start = nearest_start(worker, drawn_start(problem.rows, seed, k + 1));
-      fits[static_cast<std::size_t>(k)] = fit_by(worker, problem.rows, start, progress, options);
+      LeastSquaresResult& fit = fits[static_cast<std::size_t>(k)];
+      fit = fit_by(worker, problem.rows, start, progress, options);
+      options.on_step(fit.iterations, fit.cost, fit.theta);  // the last trial may be the best
     };
   };
   in_parallel("starts", static_cast<int>(fits.size()), problem.threads, make_task, progress);
