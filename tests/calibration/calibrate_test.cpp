@@ -48,7 +48,7 @@ TEST(Calibrate, IntervalsHoldTheTruthAsOftenAsTheySay) {
   KneeFit fit(knee.scene, knee.surfaces, knee.table, knee.parameters, 1);
   FitProblem problem = fit.problem();
   const VectorXd sd = problem.rows.sd;
-  Progress progress(nullptr);
+  StudyProgress progress(nullptr);
   int covered = 0;
   double squares = 0, chi_squares = 0, effective = 0;
   constexpr int kDraws = 25;

@@ -52,7 +52,7 @@ struct LinearCase {
   MatrixXd A = random_matrix(12, 3, 1) * Eigen::Vector3d(30, 1, 0.3).asDiagonal();
   VectorXd prior_sd = Eigen::Vector3d(0.03, 2, 1);
   FitProblem problem = problem_of(linear(A), random_matrix(12, 1, 2), prior_sd);
-  Progress progress{nullptr};
+  StudyProgress progress{nullptr};
   LeastSquaresResult least =
       fit_by(problem.make_worker(), problem.rows, VectorXd::Zero(3), progress);
   Identifiability known =
@@ -74,12 +74,12 @@ TEST(NormalDraws, AreStandardNormalAndBelongToTheirPlace) {
 
 TEST(InParallel, DoesEveryTaskOnceAndStopsAtAWordOrAnError) {
   std::vector<int> done(100, 0);
-  Progress free(nullptr);
+  StudyProgress free(nullptr);
   EXPECT_TRUE(in_parallel(
       "", 100, 3, [&] { return [&](int k) { ++done[static_cast<std::size_t>(k)]; }; }, free));
   EXPECT_EQ(std::count(done.begin(), done.end(), 1), 100);
 
-  Progress after_ten([](const std::string& stage, int number, int total) {
+  StudyProgress after_ten([](const std::string& stage, int number, int total) {
     EXPECT_EQ(stage, "tasks");
     EXPECT_EQ(total, 100);
     return number < 10;
@@ -90,7 +90,7 @@ TEST(InParallel, DoesEveryTaskOnceAndStopsAtAWordOrAnError) {
   EXPECT_TRUE(after_ten.stopped());
   EXPECT_LE(begun, 11);
 
-  Progress other(nullptr);
+  StudyProgress other(nullptr);
   const auto fails = [] {
     return [](int k) {
       if (k == 3) throw std::runtime_error("three");
@@ -140,7 +140,7 @@ TEST(PosteriorSamples, ThoseBeyondAWallAreCountedAsLost) {
     return theta[0] < 0.5;
   };
   const FitProblem problem = problem_of(walled, VectorXd::Zero(1), VectorXd::Ones(1));
-  Progress progress(nullptr);
+  StudyProgress progress(nullptr);
   const PosteriorSamples samples = posterior_samples(problem, VectorXd::Zero(1), 400, 1, progress);
   EXPECT_EQ(samples.theta.rows() + samples.lost, 400);
   EXPECT_NEAR(samples.lost / 400., 0.24, 0.085);  // 4 binomial sds
@@ -185,7 +185,7 @@ FitProblem two_valleys() {
 
 TEST(MultiStart, FindsBothValleysFromWhereverPosesAre) {
   const FitProblem problem = two_valleys();
-  Progress progress(nullptr);
+  StudyProgress progress(nullptr);
   double least = 1e300;
   const auto fits = fit_from_prior(
       problem, 33, 1, [&](const VectorXd&, double cost) { least = std::min(least, cost); },

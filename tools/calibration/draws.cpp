@@ -210,7 +210,7 @@ Starts fit_from_starts(const StudyKnee& knee, const DrawPlan& plan, int starts) 
   y += plan.noise * sd.cwiseProduct(normal_numbers(engine, sd.size()));
   for (Eigen::Index i = 0; i < y.size(); ++i) table.rows[static_cast<std::size_t>(i)].value = y[i];
   KneeFit fit(knee.scene, knee.surfaces, table, parameters, 0);
-  Progress progress({});
+  StudyProgress progress({});
   const std::vector<LeastSquaresResult> fits = fit_from_prior(
       fit.problem(), starts + 1, plan.seed, [](const VectorXd&, double) {}, progress);
   const LeastSquaresResult* best = &fits.front();

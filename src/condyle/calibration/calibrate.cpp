@@ -59,7 +59,7 @@ VectorXd first_start(const CalibrationOptions& options, KneeFit& knee) {
 LeastSquaresResult first_fit(const CalibrationOptions& options,
                              KneeFit& knee,
                              Better& better,
-                             Progress& progress) {
+                             StudyProgress& progress) {
   const VectorXd start = first_start(options, knee);
   LeastSquaresProblem problem = knee.problem().rows;
   problem.evaluate = knee.worker().evaluate;
@@ -81,7 +81,7 @@ void search(const CalibrationOptions& options,
             const CalibrationDescription& asked,
             KneeFit& knee,
             CalibrationResult& result,
-            Progress& progress) {
+            StudyProgress& progress) {
   Better better(options);
   const auto begin = std::chrono::steady_clock::now();
   std::vector<LeastSquaresResult> fits = {first_fit(options, knee, better, progress)};
@@ -179,7 +179,7 @@ void find_samples(const CalibrationOptions& options,
                   const CalibrationDescription& asked,
                   const FitProblem& problem,
                   CalibrationResult& result,
-                  Progress& progress) {
+                  StudyProgress& progress) {
   PosteriorSamples samples = posterior_samples(
       problem, result.fit.theta, options.samples.value_or(asked.samples), asked.seed, progress);
   result.samples = std::move(samples.theta);
@@ -193,7 +193,7 @@ void find_studies(const Scene& scene,
                   const CalibrationOptions& options,
                   const FitProblem& problem,
                   CalibrationResult& result,
-                  Progress& progress) {
+                  StudyProgress& progress) {
   if (options.bands && progress("bands", 0, 1)) {
     result.band_flexions = band_flexions(scene, result.table);
     result.bands = find_bands(scene, surfaces, result);
@@ -213,7 +213,7 @@ CalibrationResult calibrate(const Scene& scene,
                             const CalibrationOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const CalibrationDescription& asked = *scene.calibration;
-  Progress progress(options.on_progress);
+  StudyProgress progress(options.on_progress);
   CalibrationResult result;
   result.table = read_measurements(scene);
   result.parameters = free_parameters(scene, meshes, result.table);

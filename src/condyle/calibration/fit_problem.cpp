@@ -35,7 +35,7 @@ Eigen::VectorXd nearest_start(const FitWorker& worker, const Eigen::VectorXd& th
 LeastSquaresResult fit_by(const FitWorker& worker,
                           LeastSquaresProblem rows,
                           const Eigen::VectorXd& start,
-                          Progress& progress,
+                          StudyProgress& progress,
                           LeastSquaresOptions options) {
   rows.evaluate = worker.evaluate;
   options.on_step = [&progress, told = std::move(options.on_step)](int iteration, double cost,

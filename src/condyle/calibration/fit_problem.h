@@ -34,7 +34,7 @@ bool reach(const FitWorker& worker, const Eigen::VectorXd& theta);
 [[nodiscard]] LeastSquaresResult fit_by(const FitWorker& worker,
                                         LeastSquaresProblem rows,
                                         const Eigen::VectorXd& start,
-                                        Progress& progress,
+                                        StudyProgress& progress,
                                         LeastSquaresOptions options = {});
 
 /// Of samples and profiles: θ to 1e-3 posterior sd where the cost is some hundreds.

@@ -7,12 +7,12 @@
 
 namespace condyle {
 
-bool Progress::tell_now() {
+bool StudyProgress::tell_now() {
   if (!stopped_ && tell_ && !tell_(stage_, done_, total_)) stopped_ = true;
   return !stopped_;
 }
 
-bool Progress::operator()(const std::string& stage, int done, int total) {
+bool StudyProgress::operator()(const std::string& stage, int done, int total) {
   const std::lock_guard lock(one_at_a_time_);
   stage_ = stage;
   done_ = done;
@@ -20,7 +20,7 @@ bool Progress::operator()(const std::string& stage, int done, int total) {
   return tell_now();
 }
 
-bool Progress::goes_on() {
+bool StudyProgress::goes_on() {
   const std::lock_guard lock(one_at_a_time_);
   return tell_now();
 }
@@ -29,7 +29,7 @@ bool in_parallel(const std::string& stage,
                  int tasks,
                  int threads,
                  const std::function<std::function<void(int)>()>& make_task,
-                 Progress& progress) {
+                 StudyProgress& progress) {
   if (threads <= 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   threads = std::min(threads, tasks);
   if (tasks == 0 || !progress(stage, 0, tasks)) return tasks == 0;

@@ -10,10 +10,10 @@
 namespace condyle {
 
 /// Told of how far a stage is, from any thread; false: stop, and it stays so.
-class Progress {
+class StudyProgress {
  public:
   using Tell = std::function<bool(const std::string& stage, int done, int total)>;
-  explicit Progress(Tell tell) : tell_(std::move(tell)) {}
+  explicit StudyProgress(Tell tell) : tell_(std::move(tell)) {}
 
   bool operator()(const std::string& stage, int done, int total);
   /// The same numbers once more, so that a word to stop is heard within a long task.
@@ -38,6 +38,6 @@ bool in_parallel(const std::string& stage,
                  int tasks,
                  int threads,
                  const std::function<std::function<void(int)>()>& make_task,
-                 Progress& progress);
+                 StudyProgress& progress);
 
 }  // namespace condyle

@@ -24,7 +24,7 @@ std::vector<LeastSquaresResult> fit_from_prior(
     int count,
     unsigned seed,
     const std::function<void(const Eigen::VectorXd& theta, double cost)>& on_better,
-    Progress& progress) {
+    StudyProgress& progress) {
   std::vector<LeastSquaresResult> fits(static_cast<std::size_t>(std::max(0, count - 1)));
   std::mutex one_at_a_time;
   LeastSquaresOptions options;

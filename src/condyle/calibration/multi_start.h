@@ -14,6 +14,6 @@ namespace condyle {
     int count,
     unsigned seed,
     const std::function<void(const Eigen::VectorXd& theta, double cost)>& on_better,
-    Progress& progress);
+    StudyProgress& progress);
 
 }  // namespace condyle

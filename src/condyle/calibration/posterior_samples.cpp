@@ -33,7 +33,7 @@ PosteriorSamples posterior_samples(const FitProblem& problem,
                                    const Eigen::VectorXd& theta,
                                    int count,
                                    unsigned seed,
-                                   Progress& progress) {
+                                   StudyProgress& progress) {
   std::vector<LeastSquaresResult> fits(static_cast<std::size_t>(std::max(0, count)));
   std::vector<char> done(fits.size(), 0);
   LeastSquaresOptions options;

@@ -20,6 +20,6 @@ struct PosteriorSamples {
                                                  const Eigen::VectorXd& theta,
                                                  int count,
                                                  unsigned seed,
-                                                 Progress& progress);
+                                                 StudyProgress& progress);
 
 }  // namespace condyle

@@ -87,7 +87,7 @@ void walk(const FitWorker& worker,
           const LeastSquaresResult& least,
           bool upwards,
           Profile& profile,
-          Progress& progress) {
+          StudyProgress& progress) {
   if (!reach(worker, least.theta)) return;
   const auto j = static_cast<Index>(profile.parameter);
   VectorXd others = without(least.theta, j);
@@ -113,7 +113,7 @@ std::vector<Profile> find_profiles(const FitProblem& problem,
                                    const LeastSquaresResult& least,
                                    const Identifiability& known,
                                    int most,
-                                   Progress& progress) {
+                                   StudyProgress& progress) {
   std::vector<Profile> profiles;
   if (least.theta.size() < 2) return profiles;
   for (const std::size_t j : weakest(known, problem.rows.prior_sd, most))

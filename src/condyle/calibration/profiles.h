@@ -15,6 +15,6 @@ namespace condyle {
                                                  const LeastSquaresResult& least,
                                                  const Identifiability& known,
                                                  int most,
-                                                 Progress& progress);
+                                                 StudyProgress& progress);
 
 }  // namespace condyle
