@@ -2,6 +2,7 @@
 
 /// A calibration in words and tables, as it is told without being asked.
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -22,15 +23,19 @@ namespace condyle {
 /// the parameters whose share is above 0.3.
 [[nodiscard]] std::vector<std::string> weak_directions(const CalibrationResult& result, int most);
 
-/// parameter, unit, scene, prior sd, posterior mean, posterior sd, sample sd, shrinkage, at bound.
-[[nodiscard]] std::string parameter_csv(const Scene& scene, const CalibrationResult& result);
-[[nodiscard]] std::string parameter_latex(const Scene& scene, const CalibrationResult& result);
-/// A column for each θ, a row for each sample.
+/// parameter, unit, scene, prior sd, posterior mean, posterior sd, sample sd, shrinkage, at bound; units as
+/// ToldParameter. LaTeX: a tabular of its own, without packages.
+[[nodiscard]] std::string parameter_csv(const CalibrationResult& result);
+[[nodiscard]] std::string parameter_latex(const CalibrationResult& result);
+/// A column for each θ (change from the scene; mm, deg, 1), a row for each sample.
 [[nodiscard]] std::string samples_csv(const CalibrationResult& result);
 
 /// The text of the scene with the fitted numbers in place of its own: comments and order stay, only
-/// numbers of parameters of the knee change. Throws InputError where a number has no place of its own
-/// in the text.
-[[nodiscard]] std::string fitted_scene_text(const Scene& scene, const CalibrationResult& result);
+/// numbers of parameters of the knee change, and a first line says where they are from. Of a text that
+/// will stand in another folder, as `file`, relative paths change too. Throws InputError where a number
+/// has no place of its own in the text.
+[[nodiscard]] std::string fitted_scene_text(const Scene& scene,
+                                            const CalibrationResult& result,
+                                            const std::filesystem::path& file = {});
 
 }  // namespace condyle

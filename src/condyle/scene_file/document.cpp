@@ -45,6 +45,8 @@ int line_of(const toml::node& node, int line_of_parent) {
 Value convert(const toml::node& node, int line_of_parent) {
   Value value;
   value.line = line_of(node, line_of_parent);
+  value.column = static_cast<int>(node.source().begin.column);
+  value.end = static_cast<int>(node.source().end.column);
   if (const toml::table* table = node.as_table()) {
     convert_entries(*table, value);
   } else if (const toml::array* array = node.as_array()) {

@@ -12,6 +12,9 @@ struct Value {
   enum class Type { kBoolean, kInteger, kNumber, kText, kArray, kTable, kDate };
   Type type = Type::kTable;
   int line = 1;  ///< in the file, from 1
+  int column = 0,
+      end = 0;  ///< on it, the first character and the one behind the last, from 1 [code
+                ///< points]; of tables and arrays, which may end elsewhere, of no use
   bool boolean = false;
   double number = 0;  ///< integers too
   std::string text;
