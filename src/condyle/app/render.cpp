@@ -23,6 +23,7 @@
 #include "condyle/pictures/strip.h"
 #include "condyle/results/output_file.h"
 #include "condyle/results/run_view.h"
+#include "condyle/results/without_poses.h"
 
 namespace condyle {
 namespace {
@@ -73,7 +74,7 @@ std::vector<std::size_t> chosen_poses(const RenderCommand& command,
                                       const Run& run,
                                       const SweptQuantity& swept) {
   if (run.sweep.poses.empty())
-    throw InputError(command.run + ": holds no poses, expected the result of condyle sweep");
+    throw InputError(command.run + ": " + no_poses(run) + ", expected the result of condyle sweep");
   std::vector<std::size_t> poses;
   for (const double place :
        command.at.empty() ? default_places(stored_range(run, swept), swept) : command.at) {

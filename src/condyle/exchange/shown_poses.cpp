@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "condyle/input_error.h"
+#include "condyle/results/without_poses.h"
 
 namespace condyle {
 namespace {
@@ -34,9 +35,9 @@ std::vector<ShownPose> shown_poses(const Run& run, const std::string& file) {
     if (has_place(poses[i])) shown.push_back({i, poses[i].value});
   }
   if (shown.empty()) {
-    throw InputError(file +
-                     ": holds no pose that converged, expected the result of condyle sweep "
-                     "or simulate");
+    throw InputError(file + ": " +
+                     (poses.empty() ? no_poses(run) : "holds no pose that converged") +
+                     ", expected the result of condyle sweep or simulate");
   }
   if (run.kind() == RunKind::kSimulation) return shown;
   const Unit unit = swept_quantity(run).unit;

@@ -1,15 +1,8 @@
 #include "condyle/results/journal.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <charconv>
-#include <fstream>
-#include <iterator>
-#include <system_error>
 
 #include "condyle/input_error.h"
 #include "condyle/results/journal_line.h"
@@ -25,11 +18,6 @@ constexpr std::string_view kSurfaces = " surfaces ";
 
 std::string head(const RunIdentity& identity) {
   return fmt::format("{}{:016x}{}{:016x}\n", kFormat, identity.scene, kSurfaces, identity.surfaces);
-}
-
-std::string contents(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 /// Takes a word and a hash off the front of the head.
@@ -66,7 +54,7 @@ fs::path journal_path(const fs::path& run) { return run.string() + ".journal"; }
 
 JournalContents read_journal(const fs::path& path, const Scene& scene) {
   JournalContents journal;
-  const std::string text = contents(path);
+  const std::string text = bytes_of_file(path);
   journal.started = !text.empty() && read_head(path, text, journal);
   if (!journal.started) return journal;
   KnownPose known;
@@ -82,41 +70,15 @@ JournalContents read_journal(const fs::path& path, const Scene& scene) {
   }
 }
 
-Journal::Journal(fs::path path, const RunIdentity& identity, std::size_t kept_bytes)
-    : path_(std::move(path)) {
-  const auto fail = [&](const std::string& why) {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    throw InputError(path_.string() + ": " + why);
-  };
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail("cannot be written: " + std::generic_category().message(errno));
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    fail("another run is writing it, expected an output of its own for each run");
-  if (::ftruncate(descriptor_, static_cast<off_t>(kept_bytes)) != 0)
-    fail("cannot be written: " + std::generic_category().message(errno));
-  if (kept_bytes > 0) return;
-  line_ = head(identity);
-  write_line();
-}
-
-Journal::~Journal() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+Journal::Journal(const fs::path& path, const RunIdentity& identity, std::size_t kept_bytes)
+    : file_(path, kept_bytes) {
+  if (kept_bytes == 0) file_.append(head(identity));
 }
 
 void Journal::append(const KnownPose& known) {
-  if (!failure_.empty()) return;
   line_.clear();
   write_journal_line(known, line_);
-  write_line();
+  file_.append(line_);
 }
-
-void Journal::write_line() {
-  const ssize_t written = ::write(descriptor_, line_.data(), line_.size());
-  if (written == static_cast<ssize_t>(line_.size())) return;
-  failure_ = fmt::format("{}: cannot be written: {}", path_.string(),
-                         std::generic_category().message(written < 0 ? errno : ENOSPC));
-}
-
-void Journal::remove() { ::unlink(path_.c_str()); }
 
 }  // namespace condyle

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "condyle/equilibrium/known_poses.h"
+#include "condyle/results/line_file.h"
 #include "condyle/results/run_identity.h"
 #include "condyle/scene/scene.h"
 
@@ -42,24 +43,18 @@ class Journal {
  public:
   /// Goes on after the first `kept_bytes` of a journal, or with 0 starts a new one. Throws
   /// InputError where it cannot be written or another run is writing it.
-  Journal(std::filesystem::path path, const RunIdentity& identity, std::size_t kept_bytes);
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
-  ~Journal();
+  Journal(const std::filesystem::path& path, const RunIdentity& identity, std::size_t kept_bytes);
 
   /// One line, in one write. The first failure ends the journal and is kept in `failure`.
   void append(const KnownPose& known);
-  [[nodiscard]] const std::string& failure() const { return failure_; }
+  [[nodiscard]] const std::string& failure() const { return file_.failure(); }
 
   /// The run is complete: the journal is no longer needed.
-  void remove();
+  void remove() { file_.remove(); }
 
  private:
-  void write_line();
-
-  std::filesystem::path path_;
-  int descriptor_ = -1;
-  std::string line_, failure_;
+  LineFile file_;
+  std::string line_;
 };
 
 }  // namespace condyle

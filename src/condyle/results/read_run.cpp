@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "condyle/results/calibration_group.h"
 #include "condyle/results/comparison_groups.h"
 #include "condyle/results/estimates.h"
 #include "condyle/results/hdf5_file.h"
@@ -173,6 +174,7 @@ RunStudy read_study(const Hdf5Group& root, const Scene& scene) {
   if (root.has("simulate")) return held(read_simulation(root.open("simulate"), scene));
   if (root.has("reference")) return held(read_comparison(root, scene));
   if (root.has("laxity")) return held(read_laxity(root.open("laxity"), scene));
+  if (root.has("calibrate")) return held(read_calibration(root));
   if (root.has("sweep")) return SweepStudy{};
   return FitStudy{};
 }

@@ -35,15 +35,16 @@ struct InputFile {
   std::string sha256;  ///< of its bytes, in hexadecimal digits
 };
 
-// What a study has beside poses: who asks for it includes compare/compare.h, compare/laxity.h or
-// network/simulate.h.
+// What a study has beside poses: who asks for it includes compare/compare.h, compare/laxity.h,
+// network/simulate.h or calibration/calibration.h.
+struct CalibrationResult;
 struct Comparison;
 struct LaxityResult;
 struct Simulation;
 struct SweepSensitivities;  ///< equilibrium/sweep_sensitivities.h
 
 /// Which command a run is of. Its scene, which may hold the tables of several, does not say.
-enum class RunKind { kSweep, kFit, kComparison, kLaxity, kSimulation };
+enum class RunKind { kSweep, kFit, kComparison, kLaxity, kSimulation, kCalibration };
 
 struct SweepStudy {};  ///< all there is to know are the poses
 struct FitStudy {};    ///< and here there are none
@@ -53,7 +54,8 @@ using RunStudy = std::variant<SweepStudy,
                               FitStudy,
                               std::shared_ptr<const Comparison>,
                               std::shared_ptr<const LaxityResult>,
-                              std::shared_ptr<const Simulation>>;
+                              std::shared_ptr<const Simulation>,
+                              std::shared_ptr<const CalibrationResult>>;
 
 struct Run {
   Scene scene;        ///< as it was read
@@ -73,6 +75,7 @@ struct Run {
   [[nodiscard]] const LaxityResult* laxity() const { return held<LaxityResult>(); }
   /// Read back it has no poses of its own.
   [[nodiscard]] const Simulation* simulation() const { return held<Simulation>(); }
+  [[nodiscard]] const CalibrationResult* calibration() const { return held<CalibrationResult>(); }
 
  private:
   template <typename T>

@@ -64,7 +64,8 @@ std::string short_time(double seconds, const std::string& micro) {
 
 SweptQuantity swept_quantity(const Run& run) {
   if (run.kind() == RunKind::kSimulation) return quantity_of_motion();
-  return run.kind() == RunKind::kFit ? SweptQuantity{} : quantity_of_sweep(run.scene);
+  const bool none = run.kind() == RunKind::kFit || run.kind() == RunKind::kCalibration;
+  return none ? SweptQuantity{} : quantity_of_sweep(run.scene);
 }
 
 const SweepResult* reference_poses(const Run& run) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "condyle/results/calibration_group.h"
 #include "condyle/results/comparison_groups.h"
 #include "condyle/results/estimates.h"
 #include "condyle/results/hdf5_file.h"
@@ -361,6 +362,7 @@ void write_all(const Hdf5Group& root, const Run& run) {
   if (run.comparison()) write_comparison(root, run.scene, *run.comparison());
   if (run.simulation()) write_simulation(root.create("simulate"), run.scene, *run.simulation());
   if (run.laxity()) write_laxity(root.create("laxity"), run.scene, *run.laxity());
+  if (run.calibration()) write_calibration(root, run.scene, *run.calibration());
 }
 
 }  // namespace

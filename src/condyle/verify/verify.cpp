@@ -7,6 +7,7 @@
 
 #include "condyle/input_error.h"
 #include "condyle/results/run_view.h"
+#include "condyle/results/without_poses.h"
 #include "condyle/verify/gap_checks.h"
 #include "condyle/verify/layer_checks.h"
 #include "condyle/verify/ledger.h"
@@ -21,8 +22,7 @@ using namespace verification;
 
 void check_kind(const Run& run, std::vector<std::string>& not_checked) {
   if (run.sweep.poses.empty())
-    throw InputError(fmt::format("holds no poses{}, expected a run of sweep, compare or simulate",
-                                 run.laxity() ? " (a test of laxity stores none)" : ""));
+    throw InputError(no_poses(run) + ", expected a run of sweep, compare or simulate");
   const Scene& scene = run.scene;
   for (const ContactDescription& contact : scene.contacts)
     for (const int surface : contact.surfaces)

@@ -1,0 +1,54 @@
+#pragma once
+
+/// The journal of a calibration under way: the best numbers so far, a line each time that better ones
+/// are found. A command that is killed leaves it behind, and a later one goes on from it.
+///
+///     condyle calibration 1 scene HASH surfaces HASH table HASH
+///     best COST θ1 θ2 ... HASH
+///
+/// θ in mm, rad and 1, with as many digits as say them exactly; the hash at the end is that of the
+/// line before it. What follows a torn line is not read.
+
+#include <Eigen/Core>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "condyle/results/line_file.h"
+#include "condyle/results/run_identity.h"
+
+namespace condyle {
+
+struct CalibrationIdentity {
+  RunIdentity run;
+  std::uint64_t table = 0;  ///< hash of the bytes of the measurements
+};
+
+[[nodiscard]] CalibrationIdentity calibration_identity(const Scene& scene,
+                                                       const std::vector<FittedSurface>& surfaces);
+
+/// The last θ of a journal; none where there is no journal, or nothing in it yet. Throws InputError for
+/// a file that is no such journal, and, naming which, where scene, patches or table are not these.
+[[nodiscard]] std::optional<Eigen::VectorXd> read_calibration_journal(
+    const std::filesystem::path& path, const CalibrationIdentity& identity, const Scene& scene);
+
+/// Throws InputError where something else than a journal of a calibration stands at `path`.
+void expect_calibration_journal(const std::filesystem::path& path);
+
+class CalibrationJournal {
+ public:
+  /// Starts anew, with `from` as the best so far. Throws InputError as LineFile does.
+  CalibrationJournal(const std::filesystem::path& path,
+                     const CalibrationIdentity& identity,
+                     const std::optional<Eigen::VectorXd>& from);
+
+  void append(const Eigen::VectorXd& theta, double cost);
+  [[nodiscard]] const std::string& failure() const { return file_.failure(); }
+  void remove() { file_.remove(); }
+
+ private:
+  LineFile file_;
+};
+
+}  // namespace condyle

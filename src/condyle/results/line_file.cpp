@@ -1,0 +1,50 @@
+#include "condyle/results/line_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "condyle/input_error.h"
+
+namespace condyle {
+
+LineFile::LineFile(std::filesystem::path path, std::size_t kept_bytes) : path_(std::move(path)) {
+  const auto fail = [&](const std::string& why) {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    throw InputError(path_.string() + ": " + why);
+  };
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) fail("cannot be written: " + std::generic_category().message(errno));
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    fail("another run is writing it, expected an output of its own for each run");
+  if (::ftruncate(descriptor_, static_cast<off_t>(kept_bytes)) != 0)
+    fail("cannot be written: " + std::generic_category().message(errno));
+}
+
+LineFile::~LineFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void LineFile::append(const std::string& line) {
+  if (!failure_.empty()) return;
+  const ssize_t written = ::write(descriptor_, line.data(), line.size());
+  if (written == static_cast<ssize_t>(line.size())) return;
+  failure_ = fmt::format("{}: cannot be written: {}", path_.string(),
+                         std::generic_category().message(written < 0 ? errno : ENOSPC));
+}
+
+void LineFile::remove() { ::unlink(path_.c_str()); }
+
+std::string bytes_of_file(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace condyle

@@ -1,0 +1,34 @@
+#pragma once
+
+/// A text file that grows by whole lines while a command works, and belongs to one process at a time.
+
+#include <filesystem>
+#include <string>
+
+namespace condyle {
+
+class LineFile {
+ public:
+  /// Goes on after the first `kept_bytes`. Throws InputError where it cannot be written or another run
+  /// is writing it.
+  LineFile(std::filesystem::path path, std::size_t kept_bytes);
+  LineFile(const LineFile&) = delete;
+  LineFile& operator=(const LineFile&) = delete;
+  ~LineFile();
+
+  /// A line with its end, in one write. The first failure is kept, and nothing more is written.
+  void append(const std::string& line);
+  [[nodiscard]] const std::string& failure() const { return failure_; }
+  /// The file is no longer needed.
+  void remove();
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  std::string failure_;
+};
+
+/// All bytes of a file; none where it cannot be read.
+[[nodiscard]] std::string bytes_of_file(const std::filesystem::path& path);
+
+}  // namespace condyle
