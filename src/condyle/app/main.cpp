@@ -27,6 +27,7 @@ void setup(CLI::App& program, int& status) {
   setup_sweep(program, status);
   setup_compare(program, status);
   setup_laxity(program, status);
+  setup_calibrate(program, status);
   setup_simulate(program, status);
   setup_export(program, status);
   setup_import(program, status);

@@ -21,6 +21,7 @@ constexpr const char* kPolicy =
 std::string what_was_done(const Run& run) {
   const std::vector<PoseResult>& poses = run.sweep.poses;
   if (run.kind() == RunKind::kLaxity) return "Test of laxity";
+  if (run.kind() == RunKind::kCalibration) return "Calibration";
   if (poses.empty()) return "Fit of the surfaces";
   const SweptQuantity swept = swept_quantity(run);
   return fmt::format("{}{} poses, {} from {} to {}{}",

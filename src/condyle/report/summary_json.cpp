@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "condyle/calibration/calibration_words.h"
+#include "condyle/calibration/told_parameter.h"
 #include "condyle/compare/laxity.h"
 #include "condyle/results/motion_view.h"
 #include "condyle/results/run_layout.h"
@@ -150,6 +152,95 @@ Json simulation_of(const MotionView& motion) {
           {"imbalance", motion.imbalance}, {"events", std::move(events)}};
 }
 
+Json agreement_of(const Agreement& a) {
+  return {{"name", a.name},
+          {"rows", a.rows},
+          {"lost", a.lost},
+          {"rms_before", a.before},
+          {"rms_after", a.after},
+          {"length_before_mm", a.length_before},
+          {"length_after_mm", a.length_after},
+          {"angle_before_deg", in_unit(a.angle_before, {"deg", kDegree})},
+          {"angle_after_deg", in_unit(a.angle_after, {"deg", kDegree})},
+          {"covered", a.covered}};
+}
+
+Json parameters_of(const CalibrationResult& result) {
+  Json parameters = Json::array();
+  for (const ToldParameter& told : told_parameters(result)) {
+    Json row = {
+        {"name", told.name},           {"unit", told.unit},           {"scene", told.scene},
+        {"prior_sd", told.prior_sd},   {"mean", told.mean},           {"sd", told.sd},
+        {"sample_sd", told.sample_sd}, {"shrinkage", told.shrinkage}, {"at_bound", told.at_bound}};
+    if (told.at_bound) row["sd"] = row["sample_sd"] = row["shrinkage"] = Json();
+    parameters.push_back(std::move(row));
+  }
+  return parameters;
+}
+
+Json starts_of(const CalibrationResult& result) {
+  Json starts = Json::array();
+  for (const CalibrationStart& start : result.starts)
+    starts.push_back({{"cost", start.cost},
+                      {"distance", start.distance},
+                      {"converged", start.converged},
+                      {"iterations", start.iterations},
+                      {"message", start.message}});
+  return starts;
+}
+
+Json suggested_of(const CalibrationResult& result, const Scene& scene) {
+  Json tests = Json::array();
+  for (const SuggestedTest& test : result.suggested) {
+    const bool loaded = test.load >= 0 && scene.calibration;
+    tests.push_back(
+        {{"flexion_deg", in_unit(test.flexion, {"deg", kDegree})},
+         {"load", loaded ? scene.calibration->loads.at(static_cast<std::size_t>(test.load)).name
+                         : std::string("none")},
+         {"level", test.level},
+         {"information", test.information},
+         {"shrinkage", test.shrinkage},
+         {"reason", test.reason}});
+  }
+  return tests;
+}
+
+Json calibration_of(const Run& run) {
+  const CalibrationResult& result = *run.calibration();
+  Json tests = Json::array();
+  for (const Agreement& test : result.tests) tests.push_back(agreement_of(test));
+  const Eigen::VectorXd& values = result.known.singular_values;
+  return {{"table", result.table.file.string()},
+          {"specimen", result.table.specimen},
+          {"stopped", result.stopped},
+          {"converged", result.fit.converged},
+          {"counts",
+           {{"parameters", result.parameters.size()},
+            {"rows", result.table.rows.size()},
+            {"iterations", result.fit.iterations},
+            {"poses", result.poses},
+            {"failed_poses", result.failed_poses},
+            {"samples", result.samples.rows()},
+            {"lost_samples", result.lost_samples}}},
+          {"parameters", parameters_of(result)},
+          {"determined", result.known.determined},
+          {"effective", result.known.effective},
+          {"singular_values", std::vector<double>(values.begin(), values.end())},
+          {"weakest", weak_directions(result, 5)},
+          {"chi_square", result.fit.chi_square},
+          {"reduced_chi_square", result.reduced_chi_square},
+          {"reduced_chi_square_limit", result.reduced_chi_square_limit},
+          {"agreements",
+           {{"fitted", agreement_of(result.fitted)},
+            {"unseen", agreement_of(result.unseen)},
+            {"tests", std::move(tests)}}},
+          {"silent", result.silent},
+          {"starts", starts_of(result)},
+          {"cold_difference", result.cold_difference},
+          {"suggested", suggested_of(result, run.scene)},
+          {"fit_seconds", result.fit_seconds}};
+}
+
 void add_run(Json& json, const Run& run) {
   json["scene"] = run.scene.file.string();
   json["title"] = run.scene.title;
@@ -165,6 +256,7 @@ void add_run(Json& json, const Run& run) {
     json["reference"] = {{"counts", counts_of(*reference)},
                          {"poses", poses_of(run, swept, *reference)}};
   if (run.laxity()) json["laxity"] = laxity_of_run(run);
+  if (run.calibration()) json["calibration"] = calibration_of(run);
   if (const auto motion = motion_view(run)) json["simulation"] = simulation_of(*motion);
 }
 

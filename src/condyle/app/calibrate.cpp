@@ -1,0 +1,253 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "condyle/app/commands.h"
+#include "condyle/app/interrupt.h"
+#include "condyle/app/make_run.h"
+#include "condyle/app/progress.h"
+#include "condyle/app/summary.h"
+#include "condyle/app/talk.h"
+#include "condyle/calibration/calibration_words.h"
+#include "condyle/input_error.h"
+#include "condyle/results/calibration_journal.h"
+#include "condyle/results/journal.h"
+#include "condyle/results/output_file.h"
+#include "condyle/specimen/fit_surfaces.h"
+
+namespace condyle {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kNoWholeFit = 2;
+
+struct CalibrateCommand {
+  Talk talk;
+  std::string scene, output;
+  std::string fitted_scene, table, latex, posterior;  ///< empty: not asked for
+  std::optional<int> starts, samples;
+  std::optional<unsigned> seed;
+  bool suggest = false, resume = false;
+};
+
+std::vector<fs::path> files_to_write(const CalibrateCommand& command) {
+  std::vector<fs::path> files = {command.output, journal_path(command.output)};
+  for (const std::string* file :
+       {&command.fitted_scene, &command.table, &command.latex, &command.posterior})
+    if (!file->empty()) files.emplace_back(*file);
+  return files;
+}
+
+/// Each file to write is one of its own, can be written, and is none that is read.
+void check_files(const CalibrateCommand& command, const Scene& scene) {
+  const std::vector<fs::path> files = files_to_write(command);
+  expect_calibration_journal(journal_path(command.output));
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    check_output_file(files[i]);
+    refuse_to_overwrite_inputs(files[i], scene);
+    refuse_to_overwrite(files[i], {scene.calibration->measurements});
+    for (std::size_t k = 0; k < i; ++k)
+      if (fs::weakly_canonical(fs::absolute(files[i])) ==
+          fs::weakly_canonical(fs::absolute(files[k])))
+        throw InputError(files[i].string() + ": is to be written twice, expected a file for each");
+  }
+}
+
+/// The meshes by Scene::bodies, empty ones where there are none.
+std::vector<TriangleMesh> meshes_of(const Scene& scene,
+                                    const std::vector<FittedSurface>& surfaces) {
+  std::vector<TriangleMesh> meshes;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    meshes.push_back(scene.bodies[b].mesh ? body_mesh(scene, static_cast<int>(b), surfaces)
+                                          : TriangleMesh{});
+  return meshes;
+}
+
+/// Before the long work: every number that may change has a place in the text.
+void check_text(const CalibrateCommand& command,
+                const Scene& scene,
+                const std::vector<TriangleMesh>& meshes) {
+  if (command.fitted_scene.empty()) return;
+  constexpr double kSomeChange = 1e-3;
+  CalibrationResult changed;
+  changed.table = read_measurements(scene);
+  changed.parameters = free_parameters(scene, meshes, changed.table);
+  changed.fit.theta =
+      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(changed.parameters.size()), kSomeChange);
+  (void)fitted_scene_text(scene, changed, command.fitted_scene);
+}
+
+/// What a journal holds of an earlier run, and a word about it.
+std::optional<Eigen::VectorXd> earlier_numbers(const CalibrateCommand& command,
+                                               const CalibrationIdentity& identity,
+                                               const Scene& scene) {
+  const fs::path file = journal_path(command.output);
+  if (!command.resume) {
+    std::error_code unknown;
+    if (fs::exists(file, unknown))
+      say(command.talk,
+          "{} is of a run that was stopped: --resume would have gone on with it, this run starts "
+          "anew\n\n",
+          file.string());
+    return std::nullopt;
+  }
+  std::optional<Eigen::VectorXd> from = read_calibration_journal(file, identity, scene);
+  say(command.talk, "{} {}\n\n",
+      from ? "going on from the best numbers of" : "nothing to resume from, starting anew: no",
+      file.string());
+  return from;
+}
+
+/// One progress line for each stage of the work.
+class Stages {
+ public:
+  explicit Stages(const Talk& talk) : talk_(talk) {}
+  void at(const std::string& stage, int done, int total) {
+    if (!line_ || stage != stage_) {
+      line_.reset();
+      line_.emplace(talk_, stage);
+      stage_ = stage;
+    }
+    line_->at(done, total);
+  }
+  void clear() { line_.reset(); }
+
+ private:
+  const Talk& talk_;
+  std::string stage_;
+  std::optional<Progress> line_;
+};
+
+CalibrationResult calibrate_aloud(const CalibrateCommand& command,
+                                  const Scene& scene,
+                                  const std::vector<FittedSurface>& surfaces,
+                                  const std::vector<TriangleMesh>& meshes,
+                                  const std::optional<Eigen::VectorXd>& from,
+                                  CalibrationJournal& journal) {
+  const Interrupt interrupt;
+  Stages stages(command.talk);
+  CalibrationOptions options;
+  options.suggest = command.suggest;
+  options.starts = command.starts;
+  options.samples = command.samples;
+  options.from = from;
+  options.on_progress = [&](const std::string& stage, int done, int total) {
+    stages.at(stage, done, total);
+    return !interrupt.asked();
+  };
+  options.on_better = [&](const Eigen::VectorXd& theta, double cost) {
+    journal.append(theta, cost);
+  };
+  CalibrationResult result = calibrate(scene, surfaces, meshes, options);
+  stages.clear();
+  return result;
+}
+
+/// A line for each thing that did not succeed.
+int report_failures(const CalibrateCommand& command, const CalibrationResult& result) {
+  std::vector<std::string> lines;
+  if (result.stopped)
+    lines.push_back(
+        fmt::format("stopped: {} holds the best so far, --resume goes on from it", command.output));
+  else if (!result.fit.converged)
+    lines.push_back("the fit did not converge: " + result.fit.message);
+  for (const Agreement* rows : {&result.fitted, &result.unseen})
+    if (rows->lost > 0)
+      lines.push_back(
+          fmt::format("{} of {} {} rows have no pose", rows->lost, rows->rows, rows->name));
+  for (const std::string& line : lines) fmt::print(stderr, "condyle: {}\n", line);
+  return lines.empty() ? 0 : kNoWholeFit;
+}
+
+std::vector<fs::path> write_tables(const CalibrateCommand& command,
+                                   const Scene& scene,
+                                   const CalibrationResult& result) {
+  std::vector<fs::path> written;
+  const auto write = [&](const std::string& file, const auto& text) {
+    if (file.empty()) return;
+    write_output_file(file, text());
+    say(command.talk, "wrote {}\n", file);
+    written.emplace_back(file);
+  };
+  write(command.fitted_scene,
+        [&] { return fitted_scene_text(scene, result, command.fitted_scene); });
+  write(command.table, [&] { return parameter_csv(result); });
+  write(command.latex, [&] { return parameter_latex(result); });
+  write(command.posterior, [&] { return samples_csv(result); });
+  return written;
+}
+
+int run_calibrate(const CalibrateCommand& command) {
+  const Talk& talk = command.talk;
+  CommandClock clock;
+  auto [scene, surfaces, run] =
+      begin_study(talk, command.scene, command.output, [&](const Scene& s) {
+        if (!s.calibration)
+          throw InputError(s.file.string() +
+                           ": [calibrate] is missing, expected the table of measurements");
+        check_files(command, s);
+      });
+  if (command.seed) scene.calibration->seed = *command.seed;
+  const std::vector<TriangleMesh> meshes = meshes_of(scene, surfaces);
+  check_text(command, scene, meshes);
+  const CalibrationIdentity identity = calibration_identity(scene, surfaces);
+  const std::optional<Eigen::VectorXd> from = earlier_numbers(command, identity, scene);
+  CalibrationJournal journal(journal_path(command.output), identity, from);
+  const auto result = std::make_shared<const CalibrationResult>(
+      calibrate_aloud(command, scene, surfaces, meshes, from, journal));
+  run.study = result;
+  for (const std::string& line : calibration_lines(scene, *result)) say(talk, "{}\n", line);
+  say(talk, "\n");
+  write_run(command.output, run);
+  say(talk, "wrote {}\n", command.output);
+  const std::vector<fs::path> files = write_tables(command, scene, *result);
+  if (!result->stopped) journal.remove();
+  const int status = report_failures(command, *result);
+  CommandSummary facts = clock.summary(talk, command.output, status);
+  facts.files = files;
+  if (!journal.failure().empty()) {
+    fmt::print(stderr, "condyle: {}\n", journal.failure());
+    facts.warnings.push_back(journal.failure());
+  }
+  return finish(talk, facts, run);
+}
+
+void add_outputs(CLI::App& command, CalibrateCommand& options) {
+  command.add_option("-o,--output", options.output, "result file to write (HDF5)")->required();
+  command.add_option("--scene", options.fitted_scene, "the scene with the fitted numbers (TOML)");
+  command.add_option("--table", options.table, "table of the numbers (CSV)");
+  command.add_option("--latex", options.latex, "table of the numbers (LaTeX)");
+  command.add_option("--posterior", options.posterior, "samples of the posterior (CSV)");
+}
+
+}  // namespace
+
+void setup_calibrate(CLI::App& program, int& status) {
+  const auto options = std::make_shared<CalibrateCommand>();
+  CLI::App* command = program.add_subcommand(
+      "calibrate", "Fit numbers of the knee to measurements, and say what these determine");
+  command->add_option("SCENE", options->scene, "scene file (TOML) with [calibrate]")->required();
+  add_outputs(*command, *options);
+  command->add_flag("--suggest", options->suggest, "rank tests that were not made");
+  command->add_option("--starts", options->starts, "starts of the search, in place of the scene's")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--samples", options->samples, "of the posterior, in place of the scene's")
+      ->check(CLI::Range(0, 1000000));
+  command->add_option("--seed", options->seed, "of all random numbers, in place of the scene's");
+  command->add_flag("--resume", options->resume, "go on from the journal of a stopped run");
+  add_talk_options(*command, options->talk);
+  command->footer(
+      "Example: condyle calibrate knee.toml -o out/knee.fit.h5 --scene knee.fitted.toml");
+  command->callback([options, &status] {
+    status = run_telling_errors(options->talk, [&] { return run_calibrate(*options); });
+  });
+}
+
+}  // namespace condyle
