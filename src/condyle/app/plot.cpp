@@ -34,7 +34,7 @@ PlotFormat format_from_name(const std::string& text) {
 
 Run read_plottable(const std::string& file) {
   Run run = read_run(file);
-  if (run.sweep.poses.empty() && !run.laxity())
+  if (run.sweep.poses.empty() && !run.laxity() && !run.calibration())
     throw InputError(file + ": holds no poses, expected the result of condyle sweep");
   return run;
 }

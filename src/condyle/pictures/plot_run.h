@@ -1,11 +1,12 @@
 #pragma once
 
 /// Plots as files. What they show is in run_charts.h, and for runs with a reference model or a test
-/// of laxity in plot_comparison.h.
+/// of laxity in plot_comparison.h, for calibrations in plot_calibration.h.
 
 #include <filesystem>
 #include <vector>
 
+#include "condyle/pictures/chart_page.h"
 #include "condyle/pictures/gnuplot.h"
 #include "condyle/pictures/overlay.h"
 #include "condyle/pictures/run_charts.h"
@@ -24,5 +25,11 @@ std::vector<std::filesystem::path> plot_run(const Run& run,
 std::vector<std::filesystem::path> plot_charts(const std::vector<NamedChart>& charts,
                                                const std::filesystem::path& folder,
                                                const std::vector<PlotFormat>& formats);
+
+/// None of a run of another kind.
+[[nodiscard]] std::vector<NamedPage> calibration_pages(const Run& run);
+std::vector<std::filesystem::path> plot_pages(const std::vector<NamedPage>& pages,
+                                              const std::filesystem::path& folder,
+                                              const std::vector<PlotFormat>& formats);
 
 }  // namespace condyle

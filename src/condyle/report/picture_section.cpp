@@ -161,6 +161,13 @@ std::string plot_figure(const fs::path& svg, const std::string& prefix) {
   return "<figure class=\"plot\">" + inlined(contents(svg), prefix) + "</figure>\n";
 }
 
+/// Pages of a calibration that are looked at where something else is asked.
+bool of_second_rank(const fs::path& file) {
+  const std::string name = file.stem().string();
+  return name.rfind("calibration_profiles", 0) == 0 ||
+         name.rfind("calibration_other_curves", 0) == 0;
+}
+
 }  // namespace
 
 std::string picture_section(const Run& run) {
@@ -181,12 +188,15 @@ std::string picture_section(const Run& run) {
 }
 
 std::string plot_section(const Run& run) {
-  if (count_with_place(run.sweep) == 0 && !run.laxity()) return "";
+  if (count_with_place(run.sweep) == 0 && !run.laxity() && !run.calibration()) return "";
   const PassingFolder folder;
-  std::string body;
+  std::string body, folded;
   int count = 0;
   for (const fs::path& file : plot_charts(all_charts(run), folder.path(), {PlotFormat::kSvg}))
     body += plot_figure(file, fmt::format("plot{}-", ++count));
+  for (const fs::path& file : plot_pages(calibration_pages(run), folder.path(), {PlotFormat::kSvg}))
+    (of_second_rank(file) ? folded : body) += plot_figure(file, fmt::format("plot{}-", ++count));
+  if (!folded.empty()) body += details("Profiles and the other coordinates", folded);
   return section("plots", "Plots", body);
 }
 

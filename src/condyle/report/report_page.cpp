@@ -48,6 +48,7 @@ std::string head(const Run& run) {
 std::string report_page(const Run& run, const std::string& file, const ReportOptions& options) {
   using Part = std::function<std::string()>;
   std::vector<Part> parts = {[&] { return head(run); }, [&] { return status_section(run); }};
+  parts.emplace_back([&] { return calibration_section(run); });
   if (options.viewer) parts.emplace_back([&] { return viewer_section(run, file); });
   if (options.pictures) {
     parts.emplace_back([&] { return picture_section(run); });

@@ -22,6 +22,7 @@ namespace condyle {
 /// By which way poses were found: a part of the solver's section.
 [[nodiscard]] std::string trace_details(const std::vector<PoseResult>& poses,
                                         const SweptQuantity& swept);
+[[nodiscard]] std::string calibration_section(const Run& run);
 [[nodiscard]] std::string comparison_section(const Run& run);
 [[nodiscard]] std::string laxity_section(const Run& run);
 [[nodiscard]] std::string motion_section(const Run& run);  ///< of a simulation
