@@ -94,7 +94,8 @@ double shown_value(const FreeParameter& parameter, double theta) {
 }
 
 std::string shown_axis(const FreeParameter& parameter) {
-  return parameter.logarithmic ? "factor [-]" : "[" + unit_of_theta(parameter).name + "]";
+  if (parameter.logarithmic) return "factor [-]";
+  return fmt::format("[{}]", unit_of_theta(parameter).name);
 }
 
 std::string shown_deviation(const FreeParameter& parameter, double sd) {
