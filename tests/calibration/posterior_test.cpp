@@ -162,14 +162,14 @@ TEST(Profiles, OfALinearProblemAreParabolasOfThePosteriorSd) {
   }
 }
 
-TEST(Profiles, AreThoseOfTheWeakestAndOfNoneAtABound) {
+TEST(Profiles, AreThoseOfTheBestKnownAndOfNoneAtABound) {
   LinearCase linear_case;
   linear_case.known.sd[1] = 0;  // at its bound
   const VectorXd kept = linear_case.known.sd.cwiseQuotient(linear_case.prior_sd);
   const std::vector<Profile> profiles = find_profiles(linear_case.problem, linear_case.least,
                                                       linear_case.known, 1, linear_case.progress);
   ASSERT_EQ(profiles.size(), 1U);
-  EXPECT_EQ(profiles[0].parameter, kept[0] > kept[2] ? 0U : 2U);
+  EXPECT_EQ(profiles[0].parameter, kept[0] < kept[2] ? 0U : 2U);
 }
 
 /// Two leasts near -1 and 1, the right one deeper; poses only for |θ| < 3.

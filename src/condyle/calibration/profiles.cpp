@@ -51,7 +51,10 @@ LeastSquaresProblem with_held(const LeastSquaresProblem& rows,
   return others;
 }
 
-std::vector<std::size_t> weakest(const Identifiability& known, const VectorXd& prior_sd, int most) {
+/// Of which the data say most: the profile of one that they leave alone is the prior's parabola.
+std::vector<std::size_t> best_known(const Identifiability& known,
+                                    const VectorXd& prior_sd,
+                                    int most) {
   std::vector<std::size_t> order(static_cast<std::size_t>(known.sd.size()));
   std::iota(order.begin(), order.end(), 0U);
   const auto kept = [&](std::size_t j) {
@@ -59,7 +62,7 @@ std::vector<std::size_t> weakest(const Identifiability& known, const VectorXd& p
   };
   std::erase_if(order, [&](std::size_t j) { return !(kept(j) > 0); });
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return kept(a) > kept(b); });
+                   [&](std::size_t a, std::size_t b) { return kept(a) < kept(b); });
   order.resize(std::min(order.size(), static_cast<std::size_t>(std::max(0, most))));
   std::sort(order.begin(), order.end());
   return order;
@@ -116,7 +119,7 @@ std::vector<Profile> find_profiles(const FitProblem& problem,
                                    StudyProgress& progress) {
   std::vector<Profile> profiles;
   if (least.theta.size() < 2) return profiles;
-  for (const std::size_t j : weakest(known, problem.rows.prior_sd, most))
+  for (const std::size_t j : best_known(known, problem.rows.prior_sd, most))
     profiles.push_back(empty_profile(problem.rows, least, known, j));
   const auto make_task = [&] {
     return [&, worker = problem.make_worker()](int side) {

@@ -8,7 +8,7 @@
 
 namespace condyle {
 
-/// Of the parameters whose posterior sd is largest beside the prior's, at most `most` of them and none
+/// Of the parameters whose posterior sd is smallest beside the prior's, at most `most` of them and none
 /// at a bound: 20 values over ±3 posterior sd, cut to the bounds, each fitted from the one before it,
 /// outwards from the least. NaN: there was no fit. In the order of the parameters.
 [[nodiscard]] std::vector<Profile> find_profiles(const FitProblem& problem,

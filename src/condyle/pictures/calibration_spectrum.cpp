@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMostDirections = 4, kMostShares = 7;
 constexpr double kLeastShare = 0.1;
-constexpr double kShown = 1e-6;  // of the largest singular value: less is drawn there
+constexpr double kShown = 1e-4;  // of the largest singular value: less is drawn there
 constexpr double kSpectrumWidth = 380, kShareWidth = 200, kRow = 22;  // [pixel]
 
 PagePanel spectrum_panel(const CalibrationResult& result) {
