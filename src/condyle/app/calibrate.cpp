@@ -117,7 +117,6 @@ class Stages {
     }
     line_->at(done, total);
   }
-  void clear() { line_.reset(); }
 
  private:
   const Talk& talk_;
@@ -145,9 +144,12 @@ CalibrationResult calibrate_aloud(const CalibrateCommand& command,
   options.on_better = [&](const Eigen::VectorXd& theta, double cost) {
     journal.append(theta, cost);
   };
-  CalibrationResult result = calibrate(scene, surfaces, meshes, options);
-  stages.clear();
-  return result;
+  try {
+    return calibrate(scene, surfaces, meshes, options);
+  } catch (const InputError&) {
+    if (!journal.holds_numbers()) journal.remove();
+    throw;
+  }
 }
 
 /// A line for each thing that did not succeed.
@@ -193,6 +195,7 @@ int run_calibrate(const CalibrateCommand& command) {
           throw InputError(s.file.string() +
                            ": [calibrate] is missing, expected the table of measurements");
         check_files(command, s);
+        (void)read_measurements(s);  // before the surfaces are fitted
       });
   if (command.seed) scene.calibration->seed = *command.seed;
   const std::vector<TriangleMesh> meshes = meshes_of(scene, surfaces);

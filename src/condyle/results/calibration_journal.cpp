@@ -96,6 +96,7 @@ void CalibrationJournal::append(const Eigen::VectorXd& theta, double cost) {
   std::string line = fmt::format("best {}", cost);
   for (const double value : theta) line += fmt::format(" {}", value);
   file_.append(sealed(line));
+  holds_numbers_ = true;
 }
 
 }  // namespace condyle

@@ -44,11 +44,13 @@ class CalibrationJournal {
                      const std::optional<Eigen::VectorXd>& from);
 
   void append(const Eigen::VectorXd& theta, double cost);
+  [[nodiscard]] bool holds_numbers() const { return holds_numbers_; }
   [[nodiscard]] const std::string& failure() const { return file_.failure(); }
   void remove() { file_.remove(); }
 
  private:
   LineFile file_;
+  bool holds_numbers_ = false;
 };
 
 }  // namespace condyle
