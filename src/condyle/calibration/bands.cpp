@@ -18,7 +18,7 @@ struct Quantity {
 
 std::vector<Quantity> quantities_of(const Scene& scene) {
   std::vector<Quantity> quantities;
-  for (std::size_t i = 0; i < kJointCoordinates.size(); ++i)
+  for (std::size_t i = 1; i < kJointCoordinates.size(); ++i)  // flexion is prescribed
     quantities.push_back({kJointCoordinates[i].name, MeasuredKind::kJointCoordinate, i});
   for (std::size_t i = 0; i < scene.ligaments.size(); ++i)
     quantities.push_back({scene.ligaments[i].name + ".force", MeasuredKind::kLigamentForce, i});

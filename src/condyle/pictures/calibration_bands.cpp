@@ -54,12 +54,12 @@ void add_band(PagePanel& panel,
   panel.marks.push_back(line);
 }
 
-PagePanel band_panel(const CalibrationResult& result, const Band& band) {
+PagePanel band_panel(const Scene& scene, const CalibrationResult& result, const Band& band) {
   std::vector<double> x;
   for (const double angle : result.band_flexions) x.push_back(angle * 180 / std::numbers::pi);
   PagePanel panel;
   const std::string of = carrier(band);
-  panel.title = of.empty() ? band.quantity : of;
+  panel.title = of.empty() ? band.quantity : !has_ligament(scene, of) ? of + " contact" : of;
   std::replace(panel.title.begin(), panel.title.end(), '_', ' ');
   panel.x_label = "Flexion [°]";
   panel.y_label = !of.empty()          ? "Force [N]"
@@ -89,9 +89,9 @@ std::vector<NamedPage> band_pages(const Scene& scene, const CalibrationResult& r
   for (const Band& band : result.bands) {
     const std::string of = carrier(band);
     if (of.empty() || !has_ligament(scene, of))
-      joint.panels.push_back(band_panel(result, band));
+      joint.panels.push_back(band_panel(scene, result, band));
     else if (carries(band))
-      ligaments.panels.push_back(band_panel(result, band));
+      ligaments.panels.push_back(band_panel(scene, result, band));
   }
   std::vector<NamedPage> pages =
       divided("calibration_bands", joint, kMostPanels, kPanelColumns, kBandHeight);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMostDirections = 4, kMostShares = 7;
 constexpr double kLeastShare = 0.1;
-constexpr double kShown = 1e-4;  // of the largest singular value: less is drawn there
+constexpr double kShown = 1e-3;  // of the largest singular value: less is drawn there
 constexpr double kSpectrumWidth = 380, kShareWidth = 200, kRow = 22;  // [pixel]
 
 PagePanel spectrum_panel(const CalibrationResult& result) {
@@ -21,7 +21,7 @@ PagePanel spectrum_panel(const CalibrationResult& result) {
   PagePanel panel;
   panel.title = "Singular values";
   panel.x_label = "Direction";
-  panel.y_label = "Prior deviation over that of the data [-]";
+  panel.y_label = "Prior sd over that of the data [-]";
   panel.log_y = true;
   Mark above{Mark::Kind::kDots, {}, {}, {}, {}, kAfterInk, false, false, 1.0};
   Mark below{Mark::Kind::kDots, {}, {}, {}, {}, kUnseenInk, false, true, 1.0};
