@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -18,11 +19,14 @@
 #include <vector>
 
 #include "condyle/equilibrium/arc_length.h"
+#include "condyle/equilibrium/build_model.h"
 #include "condyle/equilibrium/carried_pose.h"
 #include "condyle/equilibrium/equilibrium_solver.h"
 #include "condyle/equilibrium/linearization.h"
 #include "condyle/equilibrium/path_system.h"
 #include "condyle/equilibrium/sweep.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "support/allocation_count.h"
 #include "support/counted_model.h"
 #include "support/patch_knee.h"
@@ -333,6 +337,21 @@ TEST_F(SharedKnee, ParametersCostNoRebuildingAndMustFit) {
   parameters.elements.push_back(parameters.elements[0]);
   expect_refused(model->elements.size() + 1, model->loads.size());
   EXPECT_TRUE(solver.solve().converged());
+}
+
+/// 100 N at half their scale are 50 N.
+TEST(Parameters, TheScaleOfADescribedLoadIsThatOfTheNominalDrive) {
+  Scene scene =
+      read_scene(std::filesystem::path(CONDYLE_SOURCE_DIR) / "data/wismans-type/drawer.toml");
+  const auto pose_with = [&](double vector, double scale) {
+    scene.loads[0].vector = {0, vector, 0};
+    scene.loads[0].scale = scale;
+    EquilibriumSolver solver(build_model(scene, fit_surfaces(scene)));
+    EXPECT_EQ(drive_of(solver.model()).scales[0], scale);
+    return solver.solve().joint.anterior_drawer;
+  };
+  EXPECT_NEAR(pose_with(100, 0.5), pose_with(50, 1), 1e-10);
+  EXPECT_GT(pose_with(100, 1) - pose_with(100, 0), 0.1);
 }
 
 }  // namespace

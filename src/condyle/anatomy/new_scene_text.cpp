@@ -227,6 +227,7 @@ class SceneText {
          scene_string(load.name), femur ? "femur" : "tibia", load.moment ? "moment" : "force",
          point(vector));
     if (load.follows_body) line("follows = \"body\"");
+    if (load.scale != 1) line("scale = {}", load.scale);
     if (load.moment) return;
     const Vector3d c = from.components(load.at - from.origin).cwiseProduct(size);
     line("at = {}", point(to.origin + to.vector(c)));

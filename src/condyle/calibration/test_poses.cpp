@@ -102,7 +102,7 @@ TestPoses test_poses(const Scene& scene,
 
 double nominal_scale(const TestPose& pose, const Scene& scene, std::size_t load) {
   if (pose.load == static_cast<int>(load)) return pose.level / scene.loads[load].vector.norm();
-  return is_of_tests(*scene.calibration, load) ? 0 : 1;
+  return is_of_tests(*scene.calibration, load) ? 0 : scene.loads[load].scale;
 }
 
 Drive drive_of(const TestPose& pose,

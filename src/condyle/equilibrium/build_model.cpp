@@ -67,6 +67,7 @@ Model build_model(const Scene& scene, const std::vector<FittedSurface>& surfaces
     load.follows_body = description.follows_body;
     load.vector = description.vector;
     load.at = description.at;
+    load.scale = description.scale;
     model.loads.push_back(load);
     model.load_names.push_back(description.name);
   }

@@ -32,7 +32,10 @@ double factor_at(const DriveDescription& drive, double t) {
 
 }  // namespace
 
-double load_scale_at(const std::vector<DriveDescription>& drives, int load, double t) {
+double load_scale_at(const std::vector<DriveDescription>& drives,
+                     int load,
+                     double t,
+                     double otherwise) {
   bool driven = false;
   double scale = 0;
   for (const DriveDescription& drive : drives) {
@@ -40,7 +43,7 @@ double load_scale_at(const std::vector<DriveDescription>& drives, int load, doub
     driven = true;
     scale += factor_at(drive, t);
   }
-  return driven ? scale : 1;
+  return driven ? scale : otherwise;
 }
 
 std::vector<double> drive_breaks(const std::vector<DriveDescription>& drives) {

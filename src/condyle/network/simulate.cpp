@@ -46,7 +46,8 @@ int hold_for_start(const Scene& scene, const MassProperties& mass, Model& model)
   model.loads.push_back(weight);
   model.load_names.emplace_back("weight");
   for (std::size_t i = 0; i < scene.loads.size(); ++i)
-    model.loads[i].scale = load_scale_at(simulation.drives, static_cast<int>(i), 0);
+    model.loads[i].scale =
+        load_scale_at(simulation.drives, static_cast<int>(i), 0, scene.loads[i].scale);
   if (!simulation.flexion) return -1;
   for (std::size_t i = 0; i < model.conditions.size(); ++i)
     if (model.conditions[i].kind == ConditionKind::kFlexion) return static_cast<int>(i);
@@ -89,8 +90,10 @@ void complete(const Scene& scene, const BodyOrigins& origins, KneeNetwork& knee)
   }
   network.conditions = std::move(held);
   for (std::size_t i = 0; i < network.forces.size(); ++i)
-    network.forces[i].scale = [drives = simulation.drives, i](double t) {
-      return load_scale_at(drives, static_cast<int>(i), t);
+    network.forces[i].scale = [drives = simulation.drives, i,
+                               otherwise =
+                                   i < scene.loads.size() ? scene.loads[i].scale : 1](double t) {
+      return load_scale_at(drives, static_cast<int>(i), t, otherwise);
     };
   for (LineComponent& line : network.lines) line.viscous_time = simulation.viscous_time;
   for (const DamperDescription& damper : simulation.dampers) {

@@ -49,6 +49,7 @@ Load load_of(const LoadDescription& description) {
   load.follows_body = description.follows_body;
   load.vector = description.vector;
   load.at = description.at;
+  load.scale = description.scale;
   return load;
 }
 

@@ -179,6 +179,7 @@ struct LoadDescription {
   Eigen::Vector3d at =
       Eigen::Vector3d::Zero();  ///< point of application, body frame [mm]; forces only
   bool follows_body = false;
+  double scale = 1;  ///< factor on the vector wherever nothing varies it; 0: of tests alone
 };
 
 struct SweepDescription {

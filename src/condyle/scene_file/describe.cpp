@@ -190,10 +190,11 @@ void describe_motion(const Scene& scene, Out out) {
                    condition.value / (angle ? kDegree : 1), angle ? "deg" : "mm");
   }
   for (const LoadDescription& load : scene.loads) {
-    fmt::format_to(out, "load       {}: {} on {}, ({:.6g}, {:.6g}, {:.6g}) {}, {}\n", load.name,
+    fmt::format_to(out, "load       {}: {} on {}, ({:.6g}, {:.6g}, {:.6g}) {}, {}{}\n", load.name,
                    load.moment ? "moment" : "force", body_name(scene, load.body), load.vector.x(),
                    load.vector.y(), load.vector.z(), load.moment ? "N mm" : "N",
-                   load.follows_body ? "follows the body" : "keeps its direction");
+                   load.follows_body ? "follows the body" : "keeps its direction",
+                   load.scale == 1 ? "" : fmt::format(", {:.6g} times", load.scale));
   }
   if (scene.sweep) {
     const SweptQuantity swept = quantity_of_sweep(scene);

@@ -73,6 +73,7 @@ LoadDescription read_load(const Section& section, const Scene& scene) {
     load.at = scene.length_to_mm * section.vector("at", "a point in the frame of the body");
   }
   if (section.has("follows")) load.follows_body = section.choice("follows", frames);
+  load.scale = section.number_or("scale", 1, "a factor on the vector");
   section.finish();
   return load;
 }

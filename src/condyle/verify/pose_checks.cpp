@@ -65,7 +65,8 @@ double prescribed(const Subject& subject, std::size_t condition, const PoseResul
 }
 
 double load_scale(const Subject& subject, std::size_t load, const PoseResult& pose) {
-  return subject.swept.load == static_cast<int>(load) ? pose.value : 1;
+  return subject.swept.load == static_cast<int>(load) ? pose.value
+                                                      : subject.run.scene.loads[load].scale;
 }
 
 void check_slack_lengths(const Run& run, Ledger& ledger, std::vector<std::string>& not_checked) {
