@@ -3,7 +3,6 @@
 #include <ceres/ceres.h>
 #include <ceres/normal_prior.h>
 #include <glog/logging.h>
-#include <Eigen/QR>
 
 #include <cassert>
 #include <chrono>
@@ -12,87 +11,14 @@
 #include <memory>
 #include <utility>
 
+#include "condyle/calibration/kinked_least.h"
+
 namespace condyle {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// f with f² = ρ(r²) and the sign of r, and df/dr: ½ Σ f² is the cost, its gradient exact. Huber's
-/// ρ(r²) = r² within δ, 2 δ |r| - δ² beyond.
-struct RobustResidual {
-  double f, slope;
-};
-RobustResidual robust_residual(double r, const std::optional<double>& huber) {
-  if (!huber || std::abs(r) <= *huber) return {r, 1};
-  const double f = std::sqrt(*huber * (2 * std::abs(r) - *huber));
-  return {std::copysign(f, r), *huber / f};
-}
-
-/// y, J and the cost at one θ.
-struct Trial {
-  VectorXd theta, y;
-  MatrixXd J;
-  double cost = std::numeric_limits<double>::infinity();
-  bool exists = false;
-};
-
-/// The last θ that was asked for and the best: value and derivatives come with one solution of the
-/// poses, however often Ceres asks.
-class Trials {
- public:
-  explicit Trials(const LeastSquaresProblem& problem) : problem_(problem) {}
-
-  /// Holds until the next one.
-  const Trial& at(const VectorXd& theta) {
-    if (best_.exists && best_.theta == theta) return best_;
-    if (last_.theta.size() > 0 && last_.theta == theta) return last_;
-    last_.theta = theta;
-    last_is_newest_ = true;
-    last_.exists =
-        problem_.evaluate(theta, last_.y, &last_.J) && last_.y.allFinite() && last_.J.allFinite();
-    if (!last_.exists) {
-      ++refused_;
-      return last_;
-    }
-    last_.cost = cost(last_);
-    if (best_.exists && !(last_.cost < best_.cost)) return last_;
-    std::swap(best_, last_);
-    last_is_newest_ = false;
-    return best_;
-  }
-  [[nodiscard]] const Trial& best() const { return best_; }
-  /// The last step led to predictions that are no better.
-  [[nodiscard]] bool ended_above() const { return last_.exists && last_is_newest_; }
-  [[nodiscard]] int refused() const { return refused_; }
-
- private:
-  [[nodiscard]] double cost(const Trial& trial) const {
-    double sum = 0;
-    for (Eigen::Index i = 0; i < trial.y.size(); ++i) {
-      const double r = (trial.y[i] - problem_.d[i]) / problem_.sd[i];
-      sum += std::pow(robust_residual(r, problem_.huber).f, 2);
-    }
-    const VectorXd from_prior = trial.theta - problem_.prior_mean;
-    return 0.5 * (sum + from_prior.cwiseQuotient(problem_.prior_sd).squaredNorm());
-  }
-
-  const LeastSquaresProblem& problem_;
-  Trial last_, best_;
-  bool last_is_newest_ = false;
-  int refused_ = 0;
-};
-
-/// θ = scale z, scale a power of 2 next to the inverse of the column's norm at the start: the units of
-/// the parameters drop out, and no bit is lost on the way.
-VectorXd scale_of(const LeastSquaresProblem& problem, const MatrixXd& J) {
-  const VectorXd squares =
-      (problem.sd.cwiseInverse().asDiagonal() * J).colwise().squaredNorm().transpose() +
-      problem.prior_sd.cwiseInverse().cwiseAbs2();
-  return squares.unaryExpr(
-      [](double s) { return s > 0 ? std::exp2(-std::round(0.5 * std::log2(s))) : 1; });
-}
 
 /// All rows of the table as one block over z.
 class DataBlock : public ceres::CostFunction {
@@ -147,10 +73,14 @@ class Steps : public ceres::IterationCallback {
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& at) override {
     if (at.iteration == 0 || !at.step_is_successful) return ceres::SOLVER_CONTINUE;
+    return fell() ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+  }
+
+  /// A step was accepted; false: stop.
+  bool fell() {
     ++accepted;
-    const bool goes_on =
-        !options_.on_step || options_.on_step(accepted, trials_.best().cost, trials_.best().theta);
-    return goes_on ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    return !options_.on_step ||
+           options_.on_step(accepted, trials_.best().cost, trials_.best().theta);
   }
 
   int accepted = 0;
@@ -177,50 +107,6 @@ ceres::Solver::Options ceres_options(const LeastSquaresOptions& options,
   return how;
 }
 
-/// All rows over z at a trial, those of the prior last.
-struct WeightedRows {
-  VectorXd f;
-  MatrixXd J;
-};
-WeightedRows weighted_rows(const LeastSquaresProblem& problem,
-                           const Trial& at,
-                           const VectorXd& scale) {
-  const Eigen::Index m = at.y.size(), n = scale.size();
-  WeightedRows rows{VectorXd(m + n), MatrixXd::Zero(m + n, n)};
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const double sd = problem.sd[i];
-    const RobustResidual r = robust_residual((at.y[i] - problem.d[i]) / sd, problem.huber);
-    rows.f[i] = r.f;
-    rows.J.row(i) = (r.slope / sd) * at.J.row(i).cwiseProduct(scale.transpose());
-  }
-  rows.f.tail(n) = (at.theta - problem.prior_mean).cwiseQuotient(problem.prior_sd);
-  rows.J.bottomRows(n).diagonal() = scale.cwiseQuotient(problem.prior_sd);
-  return rows;
-}
-
-/// What a whole step of Gauss and Newton would take off the cost, were the rows linear: 0 at a least. A
-/// parameter that its gradient holds at a bound stays there.
-double cost_left(const LeastSquaresProblem& problem, const Trial& at, const VectorXd& scale) {
-  WeightedRows rows = weighted_rows(problem, at, scale);
-  const VectorXd gradient = rows.J.transpose() * rows.f;
-  for (Eigen::Index j = 0; j < gradient.size(); ++j)
-    if ((at.theta[j] <= problem.lower[j] && gradient[j] > 0) ||
-        (at.theta[j] >= problem.upper[j] && gradient[j] < 0))
-      rows.J.col(j).setZero();
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(rows.J);
-  const VectorXd along = qr.householderQ().adjoint() * rows.f;
-  return 0.5 * along.head(qr.rank()).squaredNorm();
-}
-
-/// Steps that were cut short for want of predictions end in small changes of the cost, too.
-bool is_least(const LeastSquaresProblem& problem,
-              const LeastSquaresOptions& options,
-              const Trial& at,
-              const VectorXd& scale) {
-  constexpr double kNothing = 1e-8;  // of ½ χ²: θ is within 1.4e-4 posterior sd
-  return cost_left(problem, at, scale) <= kNothing + 100 * options.tolerance * at.cost;
-}
-
 void set_bounds(const LeastSquaresProblem& problem,
                 const VectorXd& scale,
                 double* z,
@@ -243,34 +129,55 @@ void silence_the_logger() {
   static_cast<void>(done);
 }
 
-/// From the best trial so far; the result gets all but the numbers at the least.
-void minimise(const LeastSquaresProblem& problem,
-              const LeastSquaresOptions& options,
-              Trials& trials,
-              LeastSquaresResult& result) {
-  const VectorXd scale = scale_of(problem, trials.best().J);
+/// From the best trial so far, by Ceres.
+ceres::Solver::Summary go_down(const LeastSquaresProblem& problem,
+                               const LeastSquaresOptions& options,
+                               const VectorXd& scale,
+                               Steps& steps,
+                               Trials& trials) {
   VectorXd z = trials.best().theta.cwiseQuotient(scale);
   ceres::Problem sum;
   sum.AddResidualBlock(new DataBlock(problem, scale, trials), nullptr, z.data());
   if (auto prior = prior_block(problem, scale))
     sum.AddResidualBlock(prior.release(), nullptr, z.data());
   set_bounds(problem, scale, z.data(), sum);
-
-  Steps steps(options, trials);
   ceres::Solver::Summary summary;
   const WeightedRows start = weighted_rows(problem, trials.best(), scale);
   const double gradient = (start.J.transpose() * start.f).lpNorm<Eigen::Infinity>();
   ceres::Solve(ceres_options(options, gradient, steps), &sum, &summary);
+  return summary;
+}
+
+/// Steps that are cut short for want of predictions, or by kinks, end in small changes of the cost, too.
+/// Where kinks are in the way, that is along them, and goes on from there.
+void minimise(const LeastSquaresProblem& problem,
+              const LeastSquaresOptions& options,
+              Trials& trials,
+              LeastSquaresResult& result) {
+  constexpr int kRounds = 3;
+  const VectorXd scale = scale_of(problem, trials.best().J);
+  Steps steps(options, trials);
+  for (int round = 0; round < kRounds && !result.converged; ++round) {
+    const ceres::Solver::Summary summary = go_down(problem, options, scale, steps, trials);
+    result.message = summary.message;
+    result.stopped = summary.termination_type == ceres::USER_SUCCESS;
+    if (result.stopped || summary.termination_type == ceres::FAILURE) break;
+    const Trial& best = trials.best();
+    const double cost = best.cost;
+    result.converged = cost_left(problem, best, scale) <= negligible_cost(options, cost);
+    if (result.converged) break;
+    result.message = trials.refused() > 0 ? "the cost falls on, where there are no predictions"
+                                          : "the cost falls on, by less than it is known";
+    const KinkedLeast kinked =
+        descend_along_kinks(problem, options, scale, trials, [&steps] { return steps.fell(); });
+    result.stopped = kinked.stopped;
+    result.converged = kinked.found && !kinked.rows.empty();
+    result.one_sided = kinked.rows;
+    if (result.converged)
+      result.message = "least at a kink: in some pose a contact is about to open or close";
+    if (result.stopped || !(trials.best().cost < cost)) break;
+  }
   result.iterations = steps.accepted;
-  result.stopped = summary.termination_type == ceres::USER_SUCCESS;
-  result.message = summary.message;
-  if (summary.termination_type != ceres::CONVERGENCE) return;
-  result.converged = is_least(problem, options, trials.best(), scale);
-  if (result.converged) return;
-  result.converged = trials.refused() == 0 || trials.ended_above();
-  result.message = result.converged
-                       ? "least at a kink: in some pose a contact is about to open or close"
-                       : "the cost falls on, where there are no predictions";
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 ///     ½ Σ_i ρ(((y_i(θ) - d_i)/sd_i)²) + ½ Σ_j (θ_j/prior_j)²
 /// within bounds, ρ(s) = s or Huber's. By Ceres (trust region of Levenberg and Marquardt) with the
 /// derivatives of the predictions. A θ at which y does not exist shortens the step. Where the slope of y
-/// jumps, as where a contact opens, the least may lie at the kink: no step leads further down.
+/// jumps, as where a contact opens, the least may lie at the kink (kinked_least.h).
 
 #include <Eigen/Core>
 
@@ -31,7 +31,7 @@ struct LeastSquaresProblem {
 struct LeastSquaresOptions {
   int most_iterations = 100;
   double tolerance =
-      1e-10;  ///< relative change of the cost, of θ; of the gradient 1e-14 of its start
+      1e-12;  ///< relative change of the cost, of θ; of the gradient 1e-14 of its start
   /// Told of every accepted step, with cost; false: stop with the best so far.
   std::function<bool(int iteration, double cost, const Eigen::VectorXd& theta)> on_step;
 };
@@ -44,6 +44,9 @@ struct LeastSquaresResult {
   double chi_square = 0;                    ///< Σ ((y - d)/sd)², without robust loss and prior
   int iterations = 0, refused = 0;          ///< accepted steps; trial θ at which y did not exist
   bool converged = false, stopped = false;  ///< stopped: by on_step
+  /// Rows whose derivatives jump at the least, where a contact opens or closes, rising: J, and what
+  /// follows from it, hold on one side.
+  std::vector<Eigen::Index> one_sided;
   std::string message;
   double seconds = 0;
 };
