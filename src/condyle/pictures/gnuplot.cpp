@@ -169,18 +169,6 @@ std::string panel_script(const Chart& chart, std::size_t index, int height) {
 
 }  // namespace
 
-const char* ending(PlotFormat format) {
-  switch (format) {
-    case PlotFormat::kPng:
-      return "png";
-    case PlotFormat::kSvg:
-      return "svg";
-    case PlotFormat::kPdf:
-      return "pdf";
-  }
-  return "";
-}
-
 std::string gnuplot_script(const Chart& chart, PlotFormat format) {
   const int height = head_height(title_of(chart)) + kFootHeight - kPanelGap +
                      (kPanelHeight + kPanelGap) * static_cast<int>(chart.panels.size());

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "condyle/pictures/plot_format.h"
+
 namespace condyle {
 
 /// NaN where there is no value: a gap in the line.
@@ -34,9 +36,6 @@ struct Chart {
   std::vector<Panel> panels;
   std::vector<std::string> runs = {};  ///< names of the line styles; none where there is one run
 };
-
-enum class PlotFormat { kPng, kSvg, kPdf };
-[[nodiscard]] const char* ending(PlotFormat format);
 
 /// The script that draws `chart` into `file`.
 [[nodiscard]] std::string gnuplot_script(const Chart& chart, PlotFormat format);

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "condyle/pictures/gnuplot.h"
+#include "condyle/pictures/plot_format.h"
 
 namespace condyle {
 
@@ -50,7 +50,8 @@ struct Title {
                                        PlotFormat format,
                                        int height);
 
-/// Gives the script to gnuplot and writes what it draws. Throws as `plot` does.
+/// Gives the script to gnuplot and writes what it draws. Throws as `plot` of a chart does
+/// (gnuplot.h).
 void draw_script(const std::string& script, const std::filesystem::path& file);
 
 }  // namespace condyle

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "condyle/pictures/gnuplot.h"
+#include "condyle/pictures/plot_format.h"
 
 namespace condyle {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "condyle/pictures/chart_page.h"
+#include "condyle/pictures/mark.h"
 
 namespace condyle {
 
