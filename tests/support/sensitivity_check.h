@@ -2,6 +2,8 @@
 
 /// Derivatives of solved poses against differences of poses that are solved anew.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -237,6 +239,70 @@ inline std::pair<double, std::string> worst_of_column(const std::vector<double>&
                            ", by differences " + std::to_string(expected[i])};
   }
   return worst;
+}
+
+/// The solved pose and its derivatives.
+struct Solved {
+  explicit Solved(const Studied& knee)
+      : solver(std::make_shared<const Model>(knee.model), for_differences()),
+        pose(solver.solve(knee.drive)),
+        sensitivity(solver.model()) {
+    EXPECT_TRUE(pose.converged()) << pose.reason;
+    EXPECT_TRUE(sensitivity.set(at()));
+  }
+  [[nodiscard]] Linearization at() const { return solver.linearized_solution(); }
+  [[nodiscard]] std::vector<PoseOutput> outputs() const { return all_outputs(at(), pose); }
+
+  EquilibriumSolver solver;
+  PoseResult pose;
+  Sensitivity sensitivity;
+};
+
+inline std::vector<double> column_of(const Eigen::MatrixXd& J, std::size_t j) {
+  const Eigen::VectorXd column = J.col(static_cast<Eigen::Index>(j));
+  return {column.begin(), column.end()};
+}
+
+/// Every column against differences. `h`: a part of the usual steps.
+inline void expect_exact(const Studied& knee,
+                         std::size_t each = 1,
+                         double tolerance = 1e-6,
+                         double h = 1) {
+  Solved solved(knee);
+  const std::vector<PoseOutput> outputs = solved.outputs();
+  const std::vector<ModelParameter> parameters = all_parameters(knee, each);
+  Eigen::MatrixXd J;
+  solved.sensitivity.derivatives(outputs, parameters, J);
+  Perturbed perturbed(knee, solved.solver.covers(), solved.solver.solution());
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    const std::string name = name_of(parameters[j], knee.model);
+    const double step = h * step_of(parameters[j], knee);
+    std::string failed;
+    const std::vector<double> expected =
+        column_by_differences(perturbed, outputs, parameters[j], step, failed);
+    ASSERT_EQ(failed, "") << name;
+    const auto [off, where] =
+        worst_of_column(column_of(J, j), expected, outputs, solved.pose, step);
+    EXPECT_LT(off, tolerance) << name << ": " << where;
+  }
+}
+
+/// Every column of two matrices by groups of outputs, where round-off in what the model's numbers are
+/// `larger` times is none.
+inline void expect_same(const Eigen::MatrixXd& A,
+                        const Eigen::MatrixXd& B,
+                        const Studied& knee,
+                        const std::vector<PoseOutput>& outputs,
+                        const std::vector<ModelParameter>& parameters,
+                        const PoseResult& pose,
+                        double larger,
+                        double tolerance) {
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    const double step = step_of(parameters[j], knee) / (3e-3 * larger);
+    const auto [off, where] =
+        worst_of_column(column_of(A, j), column_of(B, j), outputs, pose, step);
+    EXPECT_LT(off, tolerance) << name_of(parameters[j], knee.model) << ": " << where;
+  }
 }
 
 }  // namespace condyle::test
