@@ -79,6 +79,19 @@ TEST(Calibrate, IntervalsHoldTheTruthAsOftenAsTheySay) {
   EXPECT_NEAR(chi_squares, 325. * kDraws - effective, 4 * std::sqrt(2 * 325. * kDraws));
 }
 
+// The zero of a curve is as uncertain where none of its rows is fitted; only there it is no parameter.
+TEST(Calibrate, AnUnseenCurveHasAZeroOfItsOwn) {
+  WismansCase knee(fresh_folder("zeros"), 0.03, 0);
+  knee.scene.calibration->curve_sd = {2, 0};
+  const CalibrationResult result = calibrated(knee, plain());
+  EXPECT_GT(result.parameters.size(), 12U);
+  for (std::size_t i = 0; i < result.rows.size(); ++i) {
+    const Measurement& row = result.table.rows[i];
+    const bool uncertain = row.use == MeasuredUse::kTest && !kJointCoordinates[row.index].angle;
+    EXPECT_NEAR(result.rows[i].sd, uncertain ? std::hypot(0.5, 2) : row.sd, 1e-12) << row.line;
+  }
+}
+
 /// Everything at once.
 class WholeCalibration : public ::testing::Test {
  protected:

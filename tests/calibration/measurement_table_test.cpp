@@ -119,6 +119,27 @@ TEST(MeasurementTable, RelativeCurvesAreToldFromTheirUnloadedRowWhichIsThenLeftO
   EXPECT_EQ(table.rows[2].value, 3);  // another coordinate, without an unloaded row
   EXPECT_EQ(table.rows[3].value, 4);  // another flexion
   EXPECT_EQ(table.rows[4].value, 1);  // another curve
+  // Both readings have errors.
+  EXPECT_DOUBLE_EQ(table.rows[0].sd, std::hypot(0.5, 0.5));
+  EXPECT_EQ(table.rows[2].sd, 0.5);
+  EXPECT_FALSE(table.rows[2].zero_flexion.has_value());
+}
+
+// A robot does not hold a flexion to the last digit: what is taken off stands at the nearest one.
+TEST(MeasurementTable, TheUnloadedRowOfARelativeCurveMayStandBesideItsFlexion) {
+  Scene scene = scene_beside(table_folder(),
+                             "test,flexion,load,level,coordinate,value,sd\n"
+                             "a,30.5,none,0,anterior_drawer,2,0.3\n"
+                             "a,29,none,0,anterior_drawer,1,0.3\n"
+                             "a,30,anterior,88,anterior_drawer,7,0.4\n"
+                             "a,33,anterior,88,anterior_drawer,8,0.4\n");
+  scene.calibration->relative = {"a"};
+  const MeasurementTable table = read_measurements(scene);
+  ASSERT_EQ(table.rows.size(), 2u);
+  EXPECT_EQ(table.rows[0].value, 5);
+  EXPECT_DOUBLE_EQ(table.rows[0].sd, 0.5);
+  EXPECT_DOUBLE_EQ(table.rows[0].zero_flexion.value(), 30.5 * kDeg);
+  EXPECT_EQ(table.rows[1].value, 8);  // more than two degrees away
 }
 
 TEST(MeasurementTable, ALaxityIsOfACoordinate) {

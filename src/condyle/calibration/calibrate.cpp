@@ -14,6 +14,7 @@
 #include "condyle/calibration/predicted_table.h"
 #include "condyle/calibration/profiles.h"
 #include "condyle/calibration/suggest_tests.h"
+#include "condyle/elements/joint_table.h"
 #include "condyle/input_error.h"
 
 namespace condyle {
@@ -147,6 +148,20 @@ void find_fitted_rows(KneeFit& knee, CalibrationResult& result) {
   put_rows(before, {result.fit.y, result.fit.J}, knee.problem().rows.sd, knee.places(), result);
 }
 
+/// Variance of the zero of a curve of which no row is fitted, so that its offset is no parameter.
+double zero_variance(const Measurement& row,
+                     const CalibrationDescription& asked,
+                     const std::vector<FreeParameter>& parameters) {
+  if (!asked.curve_sd || row.kind != MeasuredKind::kJointCoordinate || row.laxity) return 0;
+  const bool is_parameter =
+      std::any_of(parameters.begin(), parameters.end(), [&](const FreeParameter& p) {
+        return p.kind == FreeParameter::Kind::kCurveOffset && p.test == row.test &&
+               p.coordinate == row.index;
+      });
+  if (is_parameter) return 0;
+  return std::pow((*asked.curve_sd)[kJointCoordinates[row.index].angle ? 1 : 0], 2);
+}
+
 void find_unseen_rows(const Scene& scene,
                       const std::vector<FittedSurface>& surfaces,
                       CalibrationResult& result) {
@@ -156,8 +171,11 @@ void find_unseen_rows(const Scene& scene,
   const PredictedTable predicted = predict_table(predictions, result.fit.theta);
   count_poses(predictions.counts(), result);
   VectorXd sd = predicted.input_variance;
-  for (Eigen::Index i = 0; i < sd.size(); ++i)
-    sd[i] = std::sqrt(sd[i] + std::pow(unseen.table.rows[static_cast<std::size_t>(i)].sd, 2));
+  for (Eigen::Index i = 0; i < sd.size(); ++i) {
+    const Measurement& row = unseen.table.rows[static_cast<std::size_t>(i)];
+    sd[i] = std::sqrt(sd[i] + row.sd * row.sd +
+                      zero_variance(row, *scene.calibration, result.parameters));
+  }
   put_rows(predicted.before, predicted.after, sd, unseen.places, result);
 }
 

@@ -24,7 +24,8 @@ struct CalibratedRow {
          after = 0;  ///< predictions at the scene's numbers and at the fitted ones; NaN: no pose
   double prior_sd = 0,
          after_sd = 0;  ///< of those predictions, by prior and posterior of θ (delta method)
-  double sd = 0;        ///< of the measurement, with what flexion and level add
+  double sd = 0;        ///< of the measurement, with what flexion and level add, and of an unseen
+                        ///< curve the zero of its own
 };
 
 /// How well a set of rows is met.

@@ -17,6 +17,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct Measurement {
   bool laxity = false;
   std::size_t index = 0;  ///< joint coordinate (joint_table.h), ligament or contact
   double value = 0, sd = 1;
+  /// Of a relative curve: of the unloaded pose that the value is told from [rad]; empty: at `flexion`.
+  std::optional<double> zero_flexion;
   MeasuredUse use = MeasuredUse::kFit;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -86,19 +87,37 @@ bool is_told(const Measurement& row, const Scene& scene) {
   return is_relative(scene, row.test) && row.kind == MeasuredKind::kJointCoordinate && !row.laxity;
 }
 
-/// Coordinates of relative curves less what their unloaded rows say, 0 where there is none; these rows
-/// then say nothing more and are left out.
+/// The unloaded row of the same curve and coordinate whose flexion is nearest to that of a row; null
+/// where none is near: a robot holds a flexion to a degree or so.
+const Measurement* unloaded_of(const Measurement& row, const std::vector<Measurement>& unloaded) {
+  constexpr double kNear = 2 * M_PI / 180;
+  const Measurement* nearest = nullptr;
+  double least = kNear;
+  for (const Measurement& other : unloaded) {
+    const double away = std::abs(other.flexion - row.flexion);
+    if (other.test != row.test || other.index != row.index || away > least) continue;
+    if (nearest != nullptr && away == least) continue;
+    nearest = &other;
+    least = away;
+  }
+  return nearest;
+}
+
+/// Coordinates of relative curves less what their unloaded rows say, whose variance adds to theirs; as
+/// they are where there is none. Unloaded rows then say nothing more and are left out.
 void tell_from_unloaded(const Scene& scene, MeasurementTable& table) {
-  std::map<std::tuple<std::string, double, std::size_t>, double> unloaded;
-  for (const Measurement& row : table.rows)
-    if (is_told(row, scene) && is_unloaded(row, scene))
-      unloaded[{row.test, row.flexion, row.index}] = row.value;
+  std::vector<Measurement> unloaded;
   std::erase_if(table.rows, [&](const Measurement& row) {
-    return is_told(row, scene) && is_unloaded(row, scene);
+    if (!is_told(row, scene) || !is_unloaded(row, scene)) return false;
+    unloaded.push_back(row);
+    return true;
   });
   for (Measurement& row : table.rows) {
-    const auto zero = unloaded.find({row.test, row.flexion, row.index});
-    if (is_told(row, scene) && zero != unloaded.end()) row.value -= zero->second;
+    const Measurement* zero = is_told(row, scene) ? unloaded_of(row, unloaded) : nullptr;
+    if (zero == nullptr) continue;
+    row.value -= zero->value;
+    row.sd = std::hypot(row.sd, zero->sd);
+    row.zero_flexion = zero->flexion;
   }
 }
 

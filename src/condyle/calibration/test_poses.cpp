@@ -41,7 +41,8 @@ std::optional<TestPose> told_from(const Measurement& row,
     opposite.level = -row.level;
     return pose_of(opposite, scene, models);
   }
-  if (is_relative(row, *scene.calibration)) return unloaded_pose(row.flexion);
+  if (is_relative(row, *scene.calibration))
+    return unloaded_pose(row.zero_flexion.value_or(row.flexion));
   return std::nullopt;
 }
 

@@ -21,7 +21,7 @@ struct ToldRows {
   };
   struct Row {
     Number number;
-    double sign = 1;             ///< -1: the reaction is what the multiplier is not (pose_result.h)
+    double sign = 1;  ///< -1: a reaction is the multiplier with the other sign (pose_result.h)
     bool is_difference = false;  ///< less another one:
     Number from;
     std::vector<std::size_t> offsets;  ///< θ that are added to it
