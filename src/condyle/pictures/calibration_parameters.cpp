@@ -5,6 +5,7 @@
 
 #include "condyle/calibration/calibration.h"
 #include "condyle/calibration/shown_numbers.h"
+#include "condyle/calibration/told_parameter.h"
 #include "condyle/pictures/color_map.h"
 #include "condyle/pictures/plot_calibration.h"
 
@@ -14,10 +15,9 @@ namespace {
 constexpr double kSpread = 560, kTallestRow = 40, kLeastRow = 12;  // of the matrix [pixel]
 constexpr double kNamesEnd = 24, kGap = 64, kBarsWidth = 260;      // [pixel]
 constexpr Eigen::Index kMostNumbers = 13;  // of a row whose cells have their number in them
-constexpr double kTitlePoints = 12.5;  // as wide as the bold title of a panel
+constexpr double kTitlePoints = 12.5;      // as wide as the bold title of a panel
 constexpr int kScaleSteps = 10;
 constexpr double kNothing = 0.02;  // a correlation that is left white
-constexpr double kParted = 0.1;    // samples and delta method differ by more: say so
 
 double correlation(const CalibrationResult& result, Eigen::Index i, Eigen::Index j) {
   const Eigen::MatrixXd& C = result.known.covariance;
@@ -76,13 +76,6 @@ PagePanel matrix_panel(const CalibrationResult& result) {
   return panel;
 }
 
-/// The samples' deviation where it parts from that of the delta method; else none.
-double parted_sd(const CalibrationResult& result, Eigen::Index j) {
-  if (j >= result.sample_sd.size()) return std::nan("");
-  const double sd = result.known.sd[j], of_samples = result.sample_sd[j];
-  return std::abs(of_samples - sd) > kParted * sd ? of_samples : std::nan("");
-}
-
 PagePanel shrinkage_panel(const CalibrationResult& result) {
   PagePanel panel;
   panel.title = "Deviation of the posterior";
@@ -93,6 +86,7 @@ PagePanel shrinkage_panel(const CalibrationResult& result) {
   Mark prior{Mark::Kind::kBars, {}, {}, {}, {}, "#dfe2e5", false, false, 0.66};
   Mark posterior{Mark::Kind::kBars, {}, {}, {}, {}, kAfterInk, false, false, 0.66};
   Mark samples{Mark::Kind::kDots, {}, {}, {}, {}, kUnseenInk, false, true, 0.9};
+  const std::vector<ToldParameter> told = told_parameters(result);
   for (std::size_t j = 0; j < result.parameters.size(); ++j) {
     const auto at = static_cast<Eigen::Index>(j);
     const double y = static_cast<double>(j), before = result.prior_sd[at];
@@ -102,7 +96,7 @@ PagePanel shrinkage_panel(const CalibrationResult& result) {
     prior.high.push_back(1);
     posterior.low.push_back(0);
     posterior.high.push_back(held ? result.known.sd[at] / before : std::nan(""));
-    samples.x.push_back(held ? parted_sd(result, at) / before : std::nan(""));
+    samples.x.push_back(held && told[j].parts ? result.sample_sd[at] / before : std::nan(""));
     if (std::isfinite(samples.x.back()) && samples.x.back() > panel.x_range[1])
       panel.x_range[1] = samples.x.back() * 1.05;
     const bool bound = j < result.at_bound.size() && result.at_bound[j];
