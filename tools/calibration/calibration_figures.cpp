@@ -133,6 +133,7 @@ void print_exact(const std::string& name,
   plan.noise = 0;
   plan.truth = truth;
   plan.prior = 1e6;
+  plan.starts = 8;
   const Draws draws = draw_and_fit(knee, knee, plan);
   double in_known = 0, all = 0;
   double determined = 0;

@@ -21,6 +21,8 @@ struct DrawPlan {
   double truth = 1;  ///< of the prior's, from which the truth is drawn
   double prior = 1;  ///< of the prior's sds, in the fit; great: none
   unsigned seed = 1;
+  int starts =
+      1;  ///< the scene's numbers, then draws from the prior, until one explains what has no noise
   bool by_differences = false;  ///< central differences of knees built anew, as from outside
 };
 
