@@ -188,6 +188,8 @@ TEST(MeasurementTable, WhatIsNoTableIsRefused) {
   std::filesystem::create_directory(folder / "folder");
   scene.calibration->measurements = folder / "folder";
   EXPECT_EQ(told_of(scene), "folder: is a folder" + expected);
+  scene.calibration->measurements = "/dev/null";
+  EXPECT_EQ(told_of(scene), "/dev/null: is no plain file" + expected);
   scene.calibration.reset();
   EXPECT_EQ(told_of(scene),
             "knee.toml: no table [calibrate], expected one that names measurements");
@@ -243,6 +245,9 @@ const BadTable kBadTables[] = {
      "9: sd = 0, expected a standard deviation > 0"},
     {"NegativeDeviation", with_row("k1,ap30,30,anterior,88,adduction,1,-1,fit"),
      "9: sd = -1, expected a standard deviation > 0"},
+    {"DeviationOfNothing", with_row("k1,ap30,30,anterior,88,adduction,1,1e-300,fit"),
+     "9: sd = 1e-300, expected a standard deviation of at least 5.73e-08 deg, as exact as poses "
+     "are"},
     {"EmptyDeviation", with_row("k1,ap30,30,anterior,88,adduction,1,,fit"),
      "9: sd is empty, expected a standard deviation > 0, a finite number"},
     {"NoNumber", with_row("k1,ap30,30,anterior,88,adduction,nan,1,fit"),

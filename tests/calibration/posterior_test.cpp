@@ -226,6 +226,7 @@ TEST(Agreement, LimitOfChiSquareIsThatOfTables) {
   EXPECT_NEAR(reduced_chi_square_limit(10), 2.04832, 0.001 * 2.05);
   EXPECT_NEAR(reduced_chi_square_limit(100), 129.561 / 100, 0.0003);
   EXPECT_TRUE(std::isnan(reduced_chi_square_limit(0)));
+  EXPECT_TRUE(std::isnan(reduced_chi_square_limit(0.3)));  // less than one row is left over
 }
 
 }  // namespace

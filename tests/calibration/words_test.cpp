@@ -80,6 +80,9 @@ TEST(CalibrationWords, ChiSquareHasAVerdict) {
   const std::string text = told(result);
   EXPECT_TRUE(says(text, "does not explain the data within their deviations"));
   EXPECT_TRUE(says(text, "2 times as large"));  // root of 4
+  result.reduced_chi_square_limit = std::nan("");
+  EXPECT_TRUE(says(told(result), "No degree of freedom is left"));
+  EXPECT_FALSE(says(told(result), "nan"));
 }
 
 TEST(CalibrationWords, SayWhatIsSilentAtABoundLostOrElsewhere) {

@@ -111,7 +111,7 @@ std::vector<Agreement> agreement_by_test(const MeasurementTable& table,
 }
 
 double reduced_chi_square_limit(double degrees_of_freedom) {
-  if (!(degrees_of_freedom > 0)) return kNaN;
+  if (!(degrees_of_freedom >= 1)) return kNaN;
   const double v = 2 / (9 * degrees_of_freedom);
   return std::pow(1 - v + kNormal975 * std::sqrt(v), 3);
 }

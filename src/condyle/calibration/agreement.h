@@ -35,7 +35,7 @@ struct PredictedRows {
 [[nodiscard]] std::vector<Agreement> agreement_by_test(const MeasurementTable& table,
                                                        const std::vector<CalibratedRow>& rows);
 
-/// 97.5 % quantile of χ²/ν [Wilson 1931]: to 2 % at ν = 1, to 0.1 % from ν = 10 on. NaN where ν <= 0.
+/// 97.5 % quantile of χ²/ν [Wilson 1931]: to 2 % at ν = 1, to 0.1 % from ν = 10 on. NaN where ν < 1.
 [[nodiscard]] double reduced_chi_square_limit(double degrees_of_freedom);
 
 }  // namespace condyle

@@ -21,6 +21,8 @@ std::string csv_text(const std::filesystem::path& file, const std::string& expec
     throw InputError(fmt::format("{}: no such file, expected {}", name, expected));
   if (std::filesystem::is_directory(status))
     throw InputError(fmt::format("{}: is a folder, expected {}", name, expected));
+  if (!std::filesystem::is_regular_file(status))  // one that is read twice, its digest being kept
+    throw InputError(fmt::format("{}: is no plain file, expected {}", name, expected));
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();

@@ -16,6 +16,7 @@ namespace {
 /// Beyond these no knee was measured: other units are meant.
 constexpr double kMostAngle = M_PI * (1 + 1e-12), kMostLength = 200;  // [rad], [mm]
 constexpr double kMostForce = 2e4, kMostMoment = 1e6;                 // [N], [N mm]
+constexpr double kLeastSd = 1e-9;  // nearer poses are not solved [mm, rad, N, N mm]
 
 const std::vector<std::string>& known_columns() {
   static const std::vector<std::string> names = {"specimen",   "test",  "flexion", "load", "level",
@@ -263,6 +264,10 @@ Measurement read_measurement(const CsvRow& row,
   measured.value = sized(row, columns, "value", "what was measured", scale);
   measured.sd = sized(row, columns, "sd", "a standard deviation > 0", scale);
   if (!(measured.sd > 0)) columns.fail(row, "sd", "a standard deviation > 0");
+  if (measured.sd < kLeastSd)
+    columns.fail(row, "sd",
+                 fmt::format("a standard deviation of at least {:.3g} {}, as exact as poses are",
+                             kLeastSd / scale.inside, scale.unit));
   return measured;
 }
 

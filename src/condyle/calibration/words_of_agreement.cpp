@@ -78,13 +78,15 @@ Lines agreement_lines(const CalibrationResult& result) {
 
 Lines chi_square_lines(const CalibrationResult& result) {
   const double reduced = result.reduced_chi_square, limit = result.reduced_chi_square_limit;
-  Lines lines = {fmt::format(
-      "chi square {:.4g} of {} rows with {:.1f} numbers determined: {:.3g} per degree of freedom, "
-      "below {:.3g} where the model is right",
-      result.fit.chi_square, result.fitted.rows, result.known.effective, reduced, limit)};
-  if (std::isnan(reduced)) {
-    lines.emplace_back("As many numbers as rows are determined: chi square says nothing");
-  } else if (reduced > limit) {
+  const std::string chi_square =
+      fmt::format("chi square {:.4g} of {} rows with {:.1f} numbers determined",
+                  result.fit.chi_square, result.fitted.rows, result.known.effective);
+  if (std::isnan(limit))
+    return {chi_square, "No degree of freedom is left: chi square says nothing of the model"};
+  Lines lines = {
+      fmt::format("{}: {:.3g} per degree of freedom, below {:.3g} where the model is right",
+                  chi_square, reduced, limit)};
+  if (reduced > limit) {
     lines.emplace_back(
         "The model does not explain the data within their deviations: it lacks something that the "
         "knee has, or the deviations are too small");
