@@ -70,7 +70,7 @@ void Predictions::Parts::differentiate(std::size_t pose,
     D.col(static_cast<Eigen::Index>(link.parameter)) +=
         by * by_numbers.col(static_cast<Eigen::Index>(link.number));
   }
-  if (rows.frames && D.rows() >= 6) add_frame_derivatives(rows, offsets, at, D);
+  add_frame_derivatives(rows, outputs, offsets, at, D);
 }
 
 bool Predictions::Parts::solve_all(const VectorXd& theta, bool derivatives) {

@@ -146,9 +146,11 @@ void tell_derivatives(const ToldRows& told,
 }
 
 void add_frame_derivatives(const ToldRows& told,
+                           const std::vector<PoseOutput>& outputs,
                            const FrameOffsets& offsets,
                            const Linearization& at,
                            Eigen::MatrixXd& by_theta) {
+  if (!has_coordinates(told, outputs)) return;
   const Eigen::Matrix<double, 6, 12> by_frames =
       derivatives_by_frames(*at.model.joint, offsets, at.state.X);
   for (std::size_t i = 0; i < told.frame_parameters.size(); ++i)

@@ -59,8 +59,10 @@ void tell_derivatives(const ToldRows& told,
                       Sensitivity& sensitivity,
                       Eigen::MatrixXd& derivatives);
 
-/// Adds what six joint coordinates change with the frames themselves: columns by θ.
+/// Adds what six joint coordinates change with the frames themselves, where `outputs` has them: columns
+/// by θ.
 void add_frame_derivatives(const ToldRows& told,
+                           const std::vector<PoseOutput>& outputs,
                            const FrameOffsets& offsets,
                            const Linearization& at,
                            Eigen::MatrixXd& by_theta);
