@@ -12,7 +12,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Where no fitted pose is missing, all that were found are what the numbers of the scene stand for.
-void Predictions::Parts::walk() {
+void PredictionParts::walk() {
   const std::vector<ReachedPose> reached =
       walk_to_tests(study->scene, study->models, study->tests, bench);
   check_nominal(reached);
@@ -24,14 +24,14 @@ void Predictions::Parts::walk() {
   bench.reset();
 }
 
-void Predictions::Parts::check_nominal(const std::vector<ReachedPose>& reached) const {
+void PredictionParts::check_nominal(const std::vector<ReachedPose>& reached) const {
   for (std::size_t p = 0; p < reached.size(); ++p)
     if (!reached[p].standing && study->tests.poses[p].fitted)
       throw InputError(study->name_of_pose(p) +
                        ": no pose of equilibrium at the scene's numbers: " + reached[p].reason);
 }
 
-bool Predictions::Parts::fail(std::size_t pose, const char* words) {
+bool PredictionParts::fail(std::size_t pose, const char* words) {
   if (!study->tests.poses[pose].fitted) {
     told_next[pose].lost = true;
     next[pose] = standing[pose];
@@ -42,7 +42,7 @@ bool Predictions::Parts::fail(std::size_t pose, const char* words) {
   return false;
 }
 
-bool Predictions::Parts::solve(std::size_t pose) {
+bool PredictionParts::solve(std::size_t pose) {
   told_next[pose].lost = false;
   if (!exists[pose]) {
     told_next[pose].lost = true;
@@ -51,9 +51,9 @@ bool Predictions::Parts::solve(std::size_t pose) {
   return bench.solve(pose, standing[pose], &nominal[pose], next[pose]);
 }
 
-void Predictions::Parts::differentiate(std::size_t pose,
-                                       Sensitivity& sensitivity,
-                                       const FrameOffsets& offsets) {
+void PredictionParts::differentiate(std::size_t pose,
+                                    Sensitivity& sensitivity,
+                                    const FrameOffsets& offsets) {
   const ToldRows& rows = study->told;
   const std::vector<PoseOutput>& outputs = rows.outputs[pose];
   const Linearization at = bench.at(pose);
@@ -73,7 +73,7 @@ void Predictions::Parts::differentiate(std::size_t pose,
   add_frame_derivatives(rows, outputs, offsets, at, D);
 }
 
-bool Predictions::Parts::solve_all(const VectorXd& theta, bool derivatives) {
+bool PredictionParts::solve_all(const VectorXd& theta, bool derivatives) {
   failure.clear();
   if (!bench.set(theta)) {
     failure = bench.knee().objection();
@@ -100,10 +100,10 @@ bool Predictions::Parts::solve_all(const VectorXd& theta, bool derivatives) {
   return true;
 }
 
-void Predictions::Parts::tell_rows(const std::vector<ToldPose>& of,
-                                   const VectorXd& theta,
-                                   VectorXd& y,
-                                   MatrixXd* J) const {
+void PredictionParts::tell_rows(const std::vector<ToldPose>& of,
+                                const VectorXd& theta,
+                                VectorXd& y,
+                                MatrixXd* J) const {
   const std::vector<ToldRows::Row>& rows = study->told.rows;
   const auto count = static_cast<Eigen::Index>(rows.size());
   y.resize(count);
@@ -128,7 +128,7 @@ void Predictions::Parts::tell_rows(const std::vector<ToldPose>& of,
   }
 }
 
-void Predictions::Parts::note_forces() {
+void PredictionParts::note_forces() {
   std::fill(greatest.begin(), greatest.end(), 0.0);
   for (std::size_t p = 0; p < told.size(); ++p) {
     if (told[p].lost || !study->tests.poses[p].fitted) continue;
@@ -137,7 +137,7 @@ void Predictions::Parts::note_forces() {
   }
 }
 
-bool Predictions::Parts::evaluate(const VectorXd& theta, VectorXd& y, MatrixXd* J) {
+bool PredictionParts::evaluate(const VectorXd& theta, VectorXd& y, MatrixXd* J) {
   if (!solve_all(theta, J != nullptr)) return false;
   standing.swap(next);
   told.swap(told_next);
@@ -146,7 +146,7 @@ bool Predictions::Parts::evaluate(const VectorXd& theta, VectorXd& y, MatrixXd* 
   return true;
 }
 
-void Predictions::Parts::differentiate_by_inputs(std::size_t p) {
+void PredictionParts::differentiate_by_inputs(std::size_t p) {
   const CalibrationDescription& calibration = *study->scene.calibration;
   const TestPose& pose = study->tests.poses[p];
   const MeasuredModel& model = study->models.models[pose.model];

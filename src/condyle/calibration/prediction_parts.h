@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "condyle/calibration/predictions.h"
 #include "condyle/calibration/test_walk.h"
 #include "condyle/calibration/told_rows.h"
 
@@ -51,7 +50,7 @@ struct ToldPose {
   std::vector<double> forces;  ///< of ligaments [N]
 };
 
-struct Predictions::Parts {
+struct PredictionParts {
   std::shared_ptr<const MeasuredStudy> study;
   TestBench bench;
   using Standing = EquilibriumSolver::Standing;
@@ -62,7 +61,7 @@ struct Predictions::Parts {
   Eigen::MatrixXd by_numbers;
   std::string failure;
 
-  explicit Parts(std::shared_ptr<const MeasuredStudy> shared)
+  explicit PredictionParts(std::shared_ptr<const MeasuredStudy> shared)
       : study(std::move(shared)),
         bench(study->scene, study->models, study->tests, study->parameters),
         told(study->tests.poses.size()),

@@ -15,13 +15,13 @@ Predictions::Predictions(const Scene& scene,
                          const std::vector<FittedSurface>& surfaces,
                          const MeasurementTable& table,
                          const std::vector<FreeParameter>& parameters)
-    : parts_(std::make_unique<Parts>(
+    : parts_(std::make_unique<PredictionParts>(
           std::make_shared<const MeasuredStudy>(scene, surfaces, table, parameters))) {
   parts_->walk();
 }
 
 Predictions::Predictions(const Predictions& other)
-    : parts_(std::make_unique<Parts>(other.parts_->study)) {
+    : parts_(std::make_unique<PredictionParts>(other.parts_->study)) {
   parts_->nominal = other.parts_->nominal;
   parts_->standing = other.parts_->standing;
   parts_->next = other.parts_->next;
@@ -73,7 +73,7 @@ double Predictions::difference_of_cold_path(const VectorXd& theta) {
 }
 
 VectorXd Predictions::input_variance(const VectorXd& theta) {
-  Parts& parts = *parts_;
+  PredictionParts& parts = *parts_;
   VectorXd y;
   if (!parts.evaluate(theta, y, nullptr))
     return VectorXd::Constant(static_cast<Eigen::Index>(rows()), kNoPrediction);
@@ -97,7 +97,7 @@ VectorXd Predictions::input_variance(const VectorXd& theta) {
 }
 
 void Predictions::reset() {
-  Parts& parts = *parts_;
+  PredictionParts& parts = *parts_;
   parts.standing = parts.next = parts.nominal;
   parts.bench.reset();
   (void)parts.bench.set(VectorXd::Zero(static_cast<Eigen::Index>(parameters())));

@@ -17,6 +17,8 @@
 
 namespace condyle {
 
+struct PredictionParts;
+
 /// Workspace of one thread; those of one knee share its model.
 class Predictions {
  public:
@@ -60,8 +62,7 @@ class Predictions {
   [[nodiscard]] std::vector<double> largest_ligament_forces() const;
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<PredictionParts> parts_;
 };
 
 }  // namespace condyle

@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "condyle/calibration/least_squares.h"
+#include "condyle/calibration/least_squares_problem.h"
 
 namespace condyle {
 
