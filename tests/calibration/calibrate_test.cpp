@@ -161,7 +161,7 @@ TEST_F(WholeCalibration, ProfilesOpenUpwardsWithinThreeSds) {
 }
 
 TEST_F(WholeCalibration, BandsShrinkFromPriorToPosterior) {
-  ASSERT_EQ(result_->band_flexions.size(), 19U);  // [sweep] from 0 to 90 by 5 deg
+  ASSERT_EQ(result_->band_flexions.size(), 19U);    // [sweep] from 0 to 90 by 5 deg
   ASSERT_EQ(result_->bands.size(), 5U + 12U + 2U);  // flexion is prescribed
   EXPECT_EQ(result_->bands[0].units, "deg");
   EXPECT_EQ(result_->bands[1].quantity, "internal_rotation");

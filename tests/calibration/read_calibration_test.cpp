@@ -158,12 +158,13 @@ const Refused kMistakes[] = {
     {"prior_sd = 0.03\n", "prior_sd = 0\n", "prior_sd = 0\n",
      "[[calibrate.parameter]] number 1: prior_sd = 0, expected a standard deviation of the prior "
      "> 0"},
-    {"prior_sd = 0.03\n", "prior_sd = 3\n", "prior_sd = 3\n",
-     "[[calibrate.parameter]] number 1: prior_sd = 3, expected a standard deviation of the prior "
-     "from 1e-09 to 1 (a strain: 0.03 is 3 %)"},
+    {"prior_sd = 0.03\n", "prior_sd = 1e10\n", "prior_sd = 1e10\n",
+     "[[calibrate.parameter]] number 1: prior_sd = 10000000000, expected a standard deviation of the "
+     "prior "
+     "from 1e-09 to 1e+09"},
     {"prior_sd = 0.3\n", "prior_sd = 1e-300\n", "prior_sd = 1e-300\n",
      "[[calibrate.parameter]] number 2: prior_sd = 1e-300, expected a standard deviation of the "
-     "prior from 1e-09 to 10"},
+     "prior from 1e-09 to 1e+09"},
     {"prior_sd = 0.3\n", "prior_sd = 0.3\nnormal_sd = 1\n", "normal_sd = 1\n",
      "[[calibrate.parameter]] number 2: normal_sd = 1, expected what = \"insertion.BODY\" beside "
      "it"},

@@ -97,6 +97,9 @@ TEST(CalibrationWords, SayWhatIsSilentAtABoundLostOrElsewhere) {
   EXPECT_TRUE(says(text, "unseen: 1 of 3 rows have no pose"));
   EXPECT_TRUE(says(text, "1 of 41 samples were lost"));
   EXPECT_FALSE(says(text, "another equilibrium"));
+  EXPECT_FALSE(says(text, "a contact opens"));
+  result.fit.one_sided = {1};
+  EXPECT_TRUE(says(line_with(told(result), "where a contact opens or closes"), ".csv:"));
   result.cold_difference = 0.7;
   EXPECT_TRUE(says(told(result), "another equilibrium"));
 }

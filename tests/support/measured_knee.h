@@ -90,7 +90,7 @@ inline FreeParameter free_number(const std::string& name,
                                  bool logarithmic = false) {
   FreeParameter parameter;
   parameter.name = name;
-  parameter.units = "1";
+  parameter.units.assign(1, '1');
   parameter.moves = {{number, 1.0}};
   parameter.logarithmic = logarithmic;
   parameter.prior_sd = prior_sd;

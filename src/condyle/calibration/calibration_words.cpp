@@ -84,6 +84,25 @@ Lines bound_and_silence_lines(const CalibrationResult& result) {
   return lines;
 }
 
+/// Tests of fitted rows whose derivatives jump at the least, each once.
+Lines kink_lines(const Scene& scene, const CalibrationResult& result) {
+  if (result.fit.one_sided.empty()) return {};
+  std::vector<const Measurement*> fitted;
+  for (const Measurement& row : result.table.rows)
+    if (row.use == MeasuredUse::kFit) fitted.push_back(&row);
+  std::vector<std::string> tests;
+  for (const Eigen::Index i : result.fit.one_sided) {
+    const std::string name = name_of(*fitted.at(static_cast<std::size_t>(i)), result.table, scene);
+    if (std::find(tests.begin(), tests.end(), name) == tests.end()) tests.push_back(name);
+  }
+  constexpr std::size_t kMost = 3;
+  const std::size_t more = tests.size() > kMost ? tests.size() - kMost : 0;
+  tests.resize(tests.size() - more);
+  return {fmt::format(
+      "The least lies where a contact opens or closes: deviations hold on one side of it ({}{})",
+      fmt::join(tests, "; "), more > 0 ? fmt::format(" and {} more", more) : "")};
+}
+
 }  // namespace
 
 std::vector<std::string> weak_directions(const CalibrationResult& result, int most) {
@@ -115,6 +134,7 @@ std::vector<std::string> calibration_lines(const Scene& scene, const Calibration
   add(lines, fit_lines(result));
   add(lines, start_lines(result));
   add(lines, caution_lines(result));
+  add(lines, kink_lines(scene, result));
   const auto part = [&](const Lines& more) {
     if (more.empty()) return;
     lines.emplace_back();

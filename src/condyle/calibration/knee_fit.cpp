@@ -43,13 +43,16 @@ LeastSquaresProblem rows_of(const MeasurementTable& table,
   return rows;
 }
 
+/// A deviation of the prior that holds nothing: of strains, of logarithms, in mm.
+constexpr double kNoPrior = 1e6;
+
 void check_enough(const MeasurementTable& table, const std::vector<FreeParameter>& parameters) {
   const auto unheld = std::count_if(parameters.begin(), parameters.end(),
-                                    [](const auto& p) { return !std::isfinite(p.prior_sd); });
+                                    [](const auto& p) { return !(p.prior_sd < kNoPrior); });
   if (static_cast<std::size_t>(unheld) <= table.rows.size()) return;
   throw InputError(
       fmt::format("{}: {} rows to fit, expected as many as the {} parameters that have "
-                  "no prior_sd, or a prior_sd for each",
+                  "no prior (prior_sd of 1e6 and more), or a prior for each",
                   table.file.string(), table.rows.size(), unheld));
 }
 

@@ -25,7 +25,7 @@ struct LeastSquaresProblem {
 };
 
 struct LeastSquaresOptions {
-  int most_iterations = 100;
+  int most_iterations = 300;
   double tolerance =
       1e-12;  ///< relative change of the cost, of θ; of the gradient 1e-14 of its start
   /// Told of every accepted step, with cost; false: stop with the best so far.

@@ -20,10 +20,19 @@ std::string change(double before, double after) {
              : fmt::format("{} -> {}", decimals(before), decimals(after));
 }
 
-std::string agreement_line(const Agreement& a) {
+/// Width of the names of tests; longer ones are cut.
+int name_width(const CalibrationResult& result) {
+  constexpr std::size_t kLeast = 24, kMost = 60;
+  std::size_t width = kLeast;
+  for (const Agreement& test : result.tests) width = std::max(width, test.name.size());
+  return static_cast<int>(std::min(width, kMost));
+}
+
+/// `indent` of the name within its column.
+std::string agreement_line(const Agreement& a, int width, const char* indent = "") {
   return fmt::format(
-      "{:<24.24}{:>6}{:>18}{:>18}{:>18}{:>11}", a.name, a.rows, change(a.before, a.after),
-      change(a.length_before, a.length_after),
+      "{:<{}.{}}{:>6}{:>18}{:>18}{:>18}{:>11}", indent + a.name, width + 2, width + 2, a.rows,
+      change(a.before, a.after), change(a.length_before, a.length_after),
       change(a.angle_before / kDegree, a.angle_after / kDegree),
       std::isnan(a.covered) || a.rows == a.lost ? "-" : fmt::format("{:.1f} %", 100 * a.covered));
 }
@@ -57,11 +66,12 @@ std::string load_words(const Scene& scene, const SuggestedTest& test) {
 }  // namespace
 
 Lines agreement_lines(const CalibrationResult& result) {
-  Lines lines = {fmt::format("{:<24}{:>6}{:>18}{:>18}{:>18}{:>11}", "rms error before -> after",
-                             "rows", "deviations", "mm", "deg", "in 95 %"),
-                 agreement_line(result.fitted)};
-  if (result.unseen.rows > 0) lines.push_back(agreement_line(result.unseen));
-  for (const Agreement& test : result.tests) lines.push_back("  " + agreement_line(test));
+  const int width = name_width(result);
+  Lines lines = {fmt::format("{:<{}}{:>6}{:>18}{:>18}{:>18}{:>11}", "rms error before -> after",
+                             width + 2, "rows", "deviations", "mm", "deg", "in 95 %"),
+                 agreement_line(result.fitted, width)};
+  if (result.unseen.rows > 0) lines.push_back(agreement_line(result.unseen, width));
+  for (const Agreement& test : result.tests) lines.push_back(agreement_line(test, width, "  "));
   if (result.unseen.rows == 0)
     lines.emplace_back(
         "No row is unseen (use = test): nothing says how well other tests are predicted");

@@ -33,8 +33,8 @@ struct CalibrationParameter {
   double prior_sd = 0;
   std::optional<double>
       normal_sd;  ///< of insertions along the bone's normal [mm]; absent: prior_sd/4
-  std::optional<std::array<double, 2>>
-      bounds;  ///< of the number itself; of an insertion, of its move [mm]
+  /// Of the number itself; of a stiffness or load of the factor on it; of an insertion of its move [mm].
+  std::optional<std::array<double, 2>> bounds;
   bool together =
       false;  ///< one change for all: a factor on stiffnesses and loads, else an addition
 };

@@ -113,45 +113,25 @@ double length_unit(const Scene& scene, const CalibrationParameter& parameter) {
   return length ? scene.length_to_mm : 1;
 }
 
-/// Beyond it no prior is meant: of strains 1, not per cent; of logarithms 10, a factor of 22,000; of
-/// lengths 200 mm.
-double most_sd(const CalibrationParameter& parameter) {
-  switch (parameter.what) {
-    case ParameterKind::kReferenceStrain:
-    case ParameterKind::kTransitionStrain:
-      return 1;
-    case ParameterKind::kSlackLength:
-    case ParameterKind::kInsertion:
-      return 200;
-    default:
-      return 10;
-  }
-}
-
 /// A standard deviation of the prior, in mm or 1.
-double prior_sd(const Section& section,
-                const std::string& key,
-                double unit,
-                const CalibrationParameter& parameter) {
-  constexpr double kLeast = 1e-9;
-  const double most = most_sd(parameter);
+double prior_sd(const Section& section, const std::string& key, double unit) {
+  constexpr double kLeast = 1e-9, kMost = 1e9;
   const double sd =
       unit * section.number(key, "a standard deviation of the prior", Range::kPositive);
-  if (sd < kLeast || sd > most)
-    section.fail(
-        key, fmt::format("a standard deviation of the prior from {:.3g} to {:.4g}{}", kLeast / unit,
-                         most / unit, most == 1 ? " (a strain: 0.03 is 3 %)" : ""));
+  if (sd < kLeast || sd > kMost)
+    section.fail(key, fmt::format("a standard deviation of the prior from {:.3g} to {:.3g}",
+                                  kLeast / unit, kMost / unit));
   return sd;
 }
 
 void read_prior(const Section& section, const Scene& scene, CalibrationParameter& parameter) {
   const double unit = length_unit(scene, parameter);
-  parameter.prior_sd = prior_sd(section, "prior_sd", unit, parameter);
+  parameter.prior_sd = prior_sd(section, "prior_sd", unit);
   if (section.has("together")) parameter.together = section.boolean("together");
   if (!section.has("normal_sd")) return;
   if (parameter.what != ParameterKind::kInsertion)
     section.fail("normal_sd", "what = \"insertion.BODY\" beside it");
-  parameter.normal_sd = prior_sd(section, "normal_sd", unit, parameter);
+  parameter.normal_sd = prior_sd(section, "normal_sd", unit);
 }
 
 /// Of the scene's own value of a number, as bounds are told: 1 of a factor, 0 of a move.
