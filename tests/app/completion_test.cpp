@@ -105,7 +105,7 @@ TEST_F(CommandLine, GivesAnExampleOfEveryCommandThatRuns) {
     ASSERT_TRUE(example != std::string::npos || sourced != std::string::npos) << help;
     const std::string line = help.substr(std::min(example, sourced) + 9);
     if (name == "manual" && !installed("man")) continue;
-    if (name == "import") continue;  // of a model that is not ours to ship
+    if (name == "import") continue;     // of a model that is not ours to ship
     if (name == "calibrate") continue;  // tests/calibration runs it
     said(folder_, "bash -e", "PATH='" + path + "':$PATH\n" + line);
   }

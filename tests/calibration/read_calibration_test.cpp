@@ -159,7 +159,8 @@ const Refused kMistakes[] = {
      "[[calibrate.parameter]] number 1: prior_sd = 0, expected a standard deviation of the prior "
      "> 0"},
     {"prior_sd = 0.03\n", "prior_sd = 1e10\n", "prior_sd = 1e10\n",
-     "[[calibrate.parameter]] number 1: prior_sd = 10000000000, expected a standard deviation of the "
+     "[[calibrate.parameter]] number 1: prior_sd = 10000000000, expected a standard deviation of "
+     "the "
      "prior "
      "from 1e-09 to 1e+09"},
     {"prior_sd = 0.3\n", "prior_sd = 1e-300\n", "prior_sd = 1e-300\n",

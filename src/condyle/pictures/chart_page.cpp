@@ -165,7 +165,8 @@ std::string axes(const PagePanel& panel, const ChartPage& page, PlotFormat forma
       panel.left / page.width, (panel.left + panel.width) / page.width, 1 - panel.top / page.height,
       1 - (panel.top + panel.height) / page.height);
   script += "set xrange " + range(panel.x_range) + "\nset yrange " + range(panel.y_range) + "\n";
-  script += panel.log_y ? "set logscale y\nset format y '%g'\n" : "unset logscale y\nset format y '% h'\n";
+  script += panel.log_y ? "set logscale y\nset format y '%g'\n"
+                        : "unset logscale y\nset format y '% h'\n";
   script += panel.frame ? "set border 3\n" : "set border 0\n";
   const std::string small = fmt::format("font 'DejaVu Sans,{:g}'", size(kTicSize));
   const std::string named = fmt::format("scale 0 font 'DejaVu Sans,{:g}'", size(panel.name_size));

@@ -63,8 +63,8 @@ struct Run {
   std::vector<RunPatch> patches;
   std::vector<BodyMesh> bodies;
   RunStudy study = SweepStudy{};
-  std::vector<std::string> start = {};     ///< what start_warnings found
-  std::vector<InputFile> inputs = {};      ///< the meshes; none in files of version 0.1.0
+  std::vector<std::string> start = {};  ///< what start_warnings found
+  std::vector<InputFile> inputs = {};   ///< the meshes; none in files of version 0.1.0
   /// Where the sweep asks for them; else null.
   std::shared_ptr<const SweepSensitivities> sensitivities = {};
   std::string program = {}, created = {};  ///< read back only: who wrote the file, and when (UTC)

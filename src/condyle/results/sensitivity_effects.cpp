@@ -120,10 +120,9 @@ TypicalChange typical_change(const Scene& scene, const SceneParameter& p) {
   const auto index = static_cast<std::size_t>(p.number.index);
   switch (p.number.kind) {
     case ParameterKind::kInsertion:
-      return {
-          kLength, "+1 mm",
-          fmt::format("{} insertion on the {} 1 mm along {}", scene.ligaments[index].name,
-                      scene.bodies[static_cast<std::size_t>(p.number.body)].name, axis)};
+      return {kLength, "+1 mm",
+              fmt::format("{} insertion on the {} 1 mm along {}", scene.ligaments[index].name,
+                          scene.bodies[static_cast<std::size_t>(p.number.body)].name, axis)};
     case ParameterKind::kSurfaceShift:
       return {kLength, "+1 mm", fmt::format("{} 1 mm along {}", scene.surfaces[index].name, axis)};
     case ParameterKind::kLayerModulus:
