@@ -50,10 +50,10 @@ Lines parameter_lines(const CalibrationResult& result) {
   std::size_t width = 10;
   const std::vector<ToldParameter> all = told_parameters(result);
   for (const ToldParameter& told : all) width = std::max(width, told.name.size() + 2);
-  Lines lines = {fmt::format("{:<{}}{:<8}{:>10}{:>10}{:>10}{:>10}{:>11}", "number", width, "unit",
+  Lines lines = {fmt::format("{:<{}}{:<8}{:>10}{:>10}{:>12}{:>10}{:>11}", "number", width, "unit",
                              "scene", "prior sd", "fitted", "sd", "sd/prior")};
   for (const ToldParameter& told : all)
-    lines.push_back(fmt::format("{:<{}}{:<8}{:>10}{:>10}{:>10}{:>10}{:>11}{}", told.name, width,
+    lines.push_back(fmt::format("{:<{}}{:<8}{:>10}{:>10}{:>12}{:>10}{:>11}{}", told.name, width,
                                 told.unit, number(told.scene), number(told.prior_sd),
                                 number(told.mean), told.at_bound ? "-" : number(told.best_sd()),
                                 told.at_bound ? "-" : number(told.shrinkage), remark_on(told)));

@@ -42,9 +42,26 @@ const std::string& owner_of(const Scene& scene, ParameterKind kind, std::size_t 
   return kind == ParameterKind::kLoadScale ? scene.loads[index].name : scene.ligaments[index].name;
 }
 
-/// Names of ligaments in one: "aACL+pACL", of many the first and how many.
+/// "MCLs*" where these are all ligaments whose names begin so; else empty.
+std::string bundle_of(const Scene& scene, const CalibrationParameter& asked) {
+  if (asked.what == ParameterKind::kLoadScale) return {};
+  std::string begin = scene.ligaments[static_cast<std::size_t>(asked.of.front())].name;
+  const auto begins = [&](const std::string& name) {
+    return name.compare(0, begin.size(), begin) == 0;
+  };
+  for (const int i : asked.of)
+    while (!begins(scene.ligaments[static_cast<std::size_t>(i)].name)) begin.pop_back();
+  const auto count =
+      std::count_if(scene.ligaments.begin(), scene.ligaments.end(),
+                    [&](const LigamentDescription& ligament) { return begins(ligament.name); });
+  return count == static_cast<std::ptrdiff_t>(asked.of.size()) ? begin + "*" : "";
+}
+
+/// Names of ligaments in one: "aACL+pACL", "MCLs*", or the first and how many more.
 std::string owners(const Scene& scene, const CalibrationParameter& asked) {
   constexpr std::size_t kMost = 3;
+  if (asked.of.size() > kMost)
+    if (const std::string bundle = bundle_of(scene, asked); !bundle.empty()) return bundle;
   std::string name;
   for (std::size_t i = 0; i < std::min(asked.of.size(), kMost); ++i)
     name += (i > 0 ? "+" : "") + owner_of(scene, asked.what, static_cast<std::size_t>(asked.of[i]));
