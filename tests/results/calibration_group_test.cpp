@@ -224,5 +224,20 @@ TEST_F(CalibrationGroup, TurnsAreWrittenInDegrees) {
   expect_close(group.open("rows").read("flexion").values.at(0), 30);
 }
 
+TEST_F(CalibrationGroup, WhatNoProgramWritesIsRefused) {
+  const auto expect_refused = [&](const CalibrationResult& result) {
+    EXPECT_THROW((void)through_the_disk(result), InputError);
+  };
+  CalibrationResult result = made_up_calibration();
+  result.parameters[0].kind = static_cast<FreeParameter::Kind>(9);
+  expect_refused(result);
+  result = made_up_calibration();
+  result.parameters[0].moves[0].first.kind = static_cast<ParameterKind>(99);
+  expect_refused(result);
+  result = made_up_calibration();
+  result.table.rows[0].use = static_cast<MeasuredUse>(7);
+  expect_refused(result);
+}
+
 }  // namespace
 }  // namespace condyle::test

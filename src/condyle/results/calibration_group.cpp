@@ -275,7 +275,7 @@ void write_calibration(const Hdf5Group& root, const Scene& scene, const Calibrat
   if (result.samples.rows() > 0) write_samples(root.create("posterior"), result);
 }
 
-CalibrationResult read_calibration(const Hdf5Group& root) {
+CalibrationResult read_calibration(const Hdf5Group& root, const Scene& scene) {
   const Hdf5Group group = root.open("calibrate");
   CalibrationResult result;
   result.table.file = group.read_attribute("table");
@@ -283,7 +283,7 @@ CalibrationResult read_calibration(const Hdf5Group& root) {
   read_figures(group.open("figures"), result);
   read_parameters(group.open("parameters"), result);
   read_known(group, result);
-  read_rows(group.open("rows"), result);
+  read_rows(group.open("rows"), scene, result);
   result.fit.J = read_matrix(group, "jacobian");
   result.fit.y = fitted_predictions(result);
   read_agreements(group.open("agreements"), result);

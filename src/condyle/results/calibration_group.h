@@ -12,6 +12,6 @@ namespace condyle {
 void write_calibration(const Hdf5Group& root,
                        const Scene& scene,
                        const CalibrationResult& calibration);
-[[nodiscard]] CalibrationResult read_calibration(const Hdf5Group& root);
+[[nodiscard]] CalibrationResult read_calibration(const Hdf5Group& root, const Scene& scene);
 
 }  // namespace condyle

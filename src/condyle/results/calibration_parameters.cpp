@@ -1,5 +1,6 @@
 #include "condyle/results/calibration_parts.h"
 #include "condyle/results/record_columns.h"
+#include "condyle/results/run_layout.h"
 
 namespace condyle {
 namespace {
@@ -81,6 +82,12 @@ std::vector<Move> moves_of(const std::vector<FreeParameter>& parameters) {
   return moves;
 }
 
+void check_parameter(const ParameterRow& row, const Hdf5Group& group) {
+  const bool known = row.kind >= 0 && row.kind < 4 && row.component >= 0 && row.component < 6 &&
+                     row.coordinate >= 0 && row.coordinate < static_cast<int>(kJointColumns.size());
+  if (!known) group.fail("holds a parameter of an unknown kind");
+}
+
 FreeParameter parameter_of(const ParameterRow& row) {
   const double unit = inside(row.units);
   FreeParameter p;
@@ -103,6 +110,11 @@ void read_moves(const Hdf5Group& group, std::vector<FreeParameter>& parameters) 
   for (const Move& move : moves) {
     if (move.parameter < 0 || move.parameter >= static_cast<int>(parameters.size()))
       group.fail("names a parameter that is none");
+    const bool known = move.what >= 0 &&
+                       move.what <= static_cast<int>(ParameterKind::kLayerModulus) &&
+                       move.index >= 0 && move.body >= 0 && move.body < 3 && move.component >= 0 &&
+                       move.component < 3 && (move.held == 0 || move.held == 1);
+    if (!known) group.fail("holds a number of an unknown kind");
     parameters[static_cast<std::size_t>(move.parameter)].moves.push_back(
         {{static_cast<ParameterKind>(move.what), static_cast<std::size_t>(move.index),
           static_cast<OfBody>(move.body), move.component, static_cast<Held>(move.held)},
@@ -132,6 +144,7 @@ void read_parameters(const Hdf5Group& group, CalibrationResult& result) {
   result.sample_sd.resize(n);
   for (Eigen::Index j = 0; j < n; ++j) {
     const ParameterRow& row = rows[static_cast<std::size_t>(j)];
+    check_parameter(row, group);
     result.parameters.push_back(parameter_of(row));
     const double unit = inside(row.units);
     result.prior_sd[j] = row.prior_sd * unit;

@@ -42,6 +42,6 @@ void read_parameters(const Hdf5Group& group, CalibrationResult& result);
 
 void write_rows(const Hdf5Group& group, const Scene& scene, const CalibrationResult& result);
 /// Fills table.rows and rows.
-void read_rows(const Hdf5Group& group, CalibrationResult& result);
+void read_rows(const Hdf5Group& group, const Scene& scene, CalibrationResult& result);
 
 }  // namespace condyle

@@ -1,3 +1,5 @@
+#include <array>
+
 #include "condyle/elements/joint_table.h"
 #include "condyle/results/calibration_parts.h"
 #include "condyle/results/record_columns.h"
@@ -113,10 +115,27 @@ void write_rows(const Hdf5Group& group, const Scene& scene, const CalibrationRes
                         {"joint coordinate", "reaction", "ligament force", "contact force"});
 }
 
-void read_rows(const Hdf5Group& group, CalibrationResult& result) {
+namespace {
+
+/// Throws for a row about what the scene does not have.
+void check_row(const RowRecord& row, const Scene& scene, const Hdf5Group& group) {
+  const std::array<std::size_t, 4> counts = {kJointColumns.size(), scene.conditions.size(),
+                                             scene.ligaments.size(), scene.contacts.size()};
+  const bool known =
+      row.kind >= 0 && row.kind < 4 && row.index >= 0 &&
+      static_cast<std::size_t>(row.index) < counts.at(row.kind) && row.use >= 0 && row.use < 3 &&
+      row.load_index >= -1 &&
+      (!scene.calibration || row.load_index < static_cast<int>(scene.calibration->loads.size()));
+  if (!known) group.fail("holds a row about what the scene does not have");
+}
+
+}  // namespace
+
+void read_rows(const Hdf5Group& group, const Scene& scene, CalibrationResult& result) {
   std::vector<RowRecord> records(group.read_texts("test").size());
   tell_row(RecordReader<RowRecord>(group, records));
   for (const RowRecord& r : records) {
+    check_row(r, scene, group);
     const double unit = inside(r.units);
     Measurement& m = result.table.rows.emplace_back();
     m.line = r.line;

@@ -174,7 +174,7 @@ RunStudy read_study(const Hdf5Group& root, const Scene& scene) {
   if (root.has("simulate")) return held(read_simulation(root.open("simulate"), scene));
   if (root.has("reference")) return held(read_comparison(root, scene));
   if (root.has("laxity")) return held(read_laxity(root.open("laxity"), scene));
-  if (root.has("calibrate")) return held(read_calibration(root));
+  if (root.has("calibrate")) return held(read_calibration(root, scene));
   if (root.has("sweep")) return SweepStudy{};
   return FitStudy{};
 }
