@@ -64,7 +64,7 @@ class CalibrateCommand : public CommandLine {
     EXPECT_TRUE(predictions.evaluate(Eigen::Map<const Eigen::VectorXd>(kTruth, 3), y, nullptr));
     std::vector<double> told;
     for (std::size_t i = 0; i < rows.rows.size(); ++i)
-      told.push_back(y[static_cast<Eigen::Index>(i)] / unit_of(rows.rows[i], scene).inside);
+      told.push_back(y[static_cast<Eigen::Index>(i)] / unit_of(rows.rows[i], scene).factor);
     return told;
   }
 

@@ -5,21 +5,15 @@
 #include <Eigen/LU>
 
 #include <cmath>
-#include <random>
 
 #include "condyle/calibration/identifiability.h"
+#include "support/random_matrix.h"
 
 namespace condyle::test {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
-  std::mt19937 numbers(seed);
-  std::normal_distribution<double> normal;
-  return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(numbers); });
-}
 
 MatrixXd closed_covariance(const MatrixXd& J, const VectorXd& weight, const VectorXd& prior_sd) {
   const MatrixXd WJ = weight.asDiagonal() * J;

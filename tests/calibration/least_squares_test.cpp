@@ -7,9 +7,9 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "condyle/calibration/least_squares.h"
+#include "support/random_matrix.h"
 
 namespace condyle::test {
 namespace {
@@ -19,12 +19,6 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
-  std::mt19937 numbers(seed);
-  std::normal_distribution<double> normal;
-  return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(numbers); });
-}
 
 /// y = A θ, sd and prior of 1, no bounds, measured value d.
 LeastSquaresProblem linear_problem(const MatrixXd& A, const VectorXd& d) {

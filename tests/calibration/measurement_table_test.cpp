@@ -171,9 +171,9 @@ TEST(MeasurementTable, RowsAreCalledByTheirUnits) {
   EXPECT_EQ(quantity_of(table.rows[1], scene), "internal rotation");
   EXPECT_EQ(quantity_of(table.rows[4], scene), "reaction");
   EXPECT_EQ(quantity_of(table.rows[5], scene), "force of aACL");
-  EXPECT_STREQ(unit_of(table.rows[1], scene).name, "deg");
-  EXPECT_DOUBLE_EQ(unit_of(table.rows[1], scene).inside, kDeg);
-  EXPECT_STREQ(unit_of(table.rows[4], scene).name, "N");
+  EXPECT_EQ(unit_of(table.rows[1], scene).name, "deg");
+  EXPECT_DOUBLE_EQ(unit_of(table.rows[1], scene).factor, kDeg);
+  EXPECT_EQ(unit_of(table.rows[4], scene).name, "N");
 }
 
 TEST(MeasurementTable, WhatIsNoTableIsRefused) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <stdexcept>
 
 #include "condyle/calibration/agreement.h"
@@ -12,18 +11,13 @@
 #include "condyle/calibration/normal_draws.h"
 #include "condyle/calibration/posterior_samples.h"
 #include "condyle/calibration/profiles.h"
+#include "support/random_matrix.h"
 
 namespace condyle::test {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
-  std::mt19937 numbers(seed);
-  std::normal_distribution<double> normal;
-  return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(numbers); });
-}
 
 /// Rows with that evaluation, sd 1, priors as given, no bounds.
 FitProblem problem_of(const Evaluate& evaluate, const VectorXd& d, const VectorXd& prior_sd) {

@@ -1,170 +1,22 @@
-/// Predictions of a table's rows and their derivatives: against sweeps, and against differences of
-/// evaluations, on rigid and layered contact, straight and wrapped lines, right and left.
+/// Predictions of a table's rows: against sweeps, work and each other; what is lost and what stays.
 
 #include "condyle/calibration/predictions.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
+#include "calibration/measured_predictions.h"
 #include "condyle/elements/joint_table.h"
 #include "condyle/equilibrium/build_model.h"
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/input_error.h"
-#include "condyle/specimen/fit_surfaces.h"
-#include "support/measured_knee.h"
-#include "support/random.h"
 
 namespace condyle::test {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// A knee with its table and the numbers that are free.
-struct Measured {
-  Scene scene = measured_knee();
-  MeasurementTable table;
-  std::vector<FreeParameter> parameters;
-
-  Measured() { table.file = "knee.csv"; }
-  [[nodiscard]] Predictions predictions() const {
-    return {scene, fit_surfaces(scene), table, parameters};
-  }
-  Measurement& add_row(
-      MeasuredKind kind, std::size_t index, int load, double level, double flexion) {
-    Measurement row;
-    row.line = static_cast<int>(table.rows.size()) + 2;
-    row.test = "forces";
-    row.flexion = flexion * kDegree;
-    row.load = load;
-    row.level = level;
-    row.kind = kind;
-    row.index = index;
-    return table.rows.emplace_back(row);
-  }
-};
-
-/// Coordinates, reaction and forces under both kinds of control, told absolutely and relatively.
-Measured all_kinds() {
-  Measured knee;
-  knee.scene.calibration->relative = {"varus", "drawn"};
-  add_coordinates("passive", 20 * kDegree, -1, 0, knee.table);
-  add_coordinates("anterior", 20 * kDegree, 0, 80, knee.table);
-  add_coordinates("varus", 20 * kDegree, 1, -6000, knee.table);
-  add_coordinates("drawn", 20 * kDegree, 3, -9, knee.table);
-  for (const int load : {0, 3}) {
-    const double level = load == 0 ? 80 : -9;
-    for (const std::size_t ligament : {0, 1, 3, 5, 8})
-      knee.add_row(MeasuredKind::kLigamentForce, ligament, load, level, 20);
-    for (const std::size_t contact : {0, 1})
-      knee.add_row(MeasuredKind::kContactForce, contact, load, level, 20);
-  }
-  knee.add_row(MeasuredKind::kReaction, 0, 3, -9, 20);
-  for (const std::size_t coordinate : {2, 4})
-    knee.add_row(MeasuredKind::kJointCoordinate, coordinate, 0, 80, 20).laxity = true;
-  return knee;
-}
-
-/// Rows that are compared with each other: of one kind, angles apart from lengths.
-int group_of(const Measurement& row) {
-  const bool angle = row.kind == MeasuredKind::kJointCoordinate && row.index < 3;
-  return angle ? -1 : static_cast<int>(row.kind);
-}
-
-double step_of(const FreeParameter& parameter) {
-  if (parameter.kind == FreeParameter::Kind::kCurveOffset) return 1e-2;
-  if (parameter.kind != FreeParameter::Kind::kNumber) return parameter.component < 3 ? 0.05 : 1e-3;
-  switch (parameter.moves[0].first.kind) {
-    case ParameterKind::kReferenceStrain:
-    case ParameterKind::kTransitionStrain:
-      return 1e-4;
-    case ParameterKind::kStiffness:
-    case ParameterKind::kLoadScale:
-      return 1e-3;
-    default:
-      return 3e-3;  // mm
-  }
-}
-
-/// Every column by differences of fourth order, relative to the greatest entry of the row's group.
-void expect_exact(const Measured& knee, const VectorXd& theta, double h = 1) {
-  Predictions predictions = knee.predictions();
-  VectorXd y;
-  MatrixXd J;
-  ASSERT_TRUE(predictions.evaluate(theta, y, &J)) << predictions.failure();
-  ASSERT_EQ(J.cols(), static_cast<Eigen::Index>(knee.parameters.size()));
-  ASSERT_TRUE(J.allFinite());
-  for (Eigen::Index j = 0; j < J.cols(); ++j) {
-    const FreeParameter& parameter = knee.parameters[static_cast<std::size_t>(j)];
-    const double step = h * step_of(parameter);
-    VectorXd expected = VectorXd::Zero(y.size()), there;
-    for (const auto& [steps, weight] :
-         {std::pair{1, 8.0}, std::pair{-1, -8.0}, std::pair{2, -1.0}, std::pair{-2, 1.0}}) {
-      VectorXd moved = theta;
-      moved[j] += steps * step;
-      ASSERT_TRUE(predictions.evaluate(moved, there, nullptr)) << predictions.failure();
-      expected += weight * there / (12 * step);
-    }
-    for (Eigen::Index i = 0; i < y.size(); ++i) {
-      const int group = group_of(knee.table.rows[static_cast<std::size_t>(i)]);
-      double greatest = 0, value = 1e-3;
-      for (Eigen::Index k = 0; k < y.size(); ++k) {
-        if (group_of(knee.table.rows[static_cast<std::size_t>(k)]) != group) continue;
-        greatest = std::max(greatest, std::abs(expected[k]));
-        value = std::max(value, std::abs(y[k]));
-      }
-      constexpr double kRoundOff = 1e-11;  // of what Newton leaves
-      EXPECT_NEAR(J(i, j), expected[i], 1e-6 * greatest + kRoundOff * value / step)
-          << parameter.name << ", row " << i;
-    }
-  }
-}
-
-VectorXd some_theta(const Measured& knee, double part, unsigned seed = 3) {
-  Random random(seed);
-  VectorXd theta(static_cast<Eigen::Index>(knee.parameters.size()));
-  for (Eigen::Index j = 0; j < theta.size(); ++j)
-    theta[j] = part * knee.parameters[static_cast<std::size_t>(j)].prior_sd * random.between(-1, 1);
-  return theta;
-}
-
-void free_all_of_ligaments(Measured& knee, const std::vector<std::size_t>& ligaments) {
-  for (const std::size_t i : ligaments) {
-    const std::string name = knee.scene.ligaments[i].name;
-    knee.parameters.push_back(
-        free_number(name + ".reference_strain", {ParameterKind::kReferenceStrain, i}, 0.03));
-    knee.parameters.push_back(
-        free_number(name + ".stiffness", {ParameterKind::kStiffness, i}, 0.3, true));
-    knee.parameters.push_back(
-        free_number(name + ".transition_strain", {ParameterKind::kTransitionStrain, i}, 0.01));
-    for (const OfBody body : {OfBody::kFixed, OfBody::kMoving}) {
-      // In a tangent plane that is none of the axes, and along its normal.
-      const Eigen::Matrix3d axes = exp_rotation({0.4, -0.7, 0.2});
-      for (int k = 0; k < 3; ++k) {
-        FreeParameter parameter = free_number(name + ".insertion", {}, k < 2 ? 2 : 0.5);
-        parameter.moves.clear();
-        for (const int c : {0, 1, 2})
-          parameter.moves.push_back(
-              {{ParameterKind::kInsertion, i, body, c, Held::kReferenceStrain}, axes(c, k)});
-        knee.parameters.push_back(parameter);
-      }
-    }
-  }
-}
-
-void free_frames(Measured& knee) {
-  for (const auto kind : {FreeParameter::Kind::kFemurFrame, FreeParameter::Kind::kTibiaFrame})
-    for (int component = 0; component < 6; ++component) {
-      FreeParameter parameter;
-      parameter.name = "frame " + std::to_string(component);
-      parameter.kind = kind;
-      parameter.component = component;
-      parameter.prior_sd = component < 3 ? 2 : 2 * kDegree;
-      knee.parameters.push_back(parameter);
-    }
-}
 
 TEST(Predictions, ALaxityIsTheDifferenceOfOppositeLevels) {
   Measured knee;
@@ -248,123 +100,6 @@ TEST(Predictions, TheReactionIsTheWorkOfWhatIsHeld) {
   const double work = (drawn[2] - drawn[0]) / 6 * (y[0] + 4 * y[13] + y[26]);
   EXPECT_GT(std::abs(work), 1);
   EXPECT_NEAR(work, energy(2) - energy(0), 1e-3 * std::abs(work));
-}
-
-TEST(Predictions, DerivativesByStrainStiffnessAndInsertions) {
-  Measured knee = all_kinds();
-  free_all_of_ligaments(knee, {0, 1, 3, 8});
-  expect_exact(knee, some_theta(knee, 0.3));
-}
-
-TEST(Predictions, DerivativesBySlackLengthsAndWhatGoesTogether) {
-  Measured knee = all_kinds();
-  for (const std::size_t i : {0, 4}) {
-    knee.parameters.push_back(free_number("slack", {ParameterKind::kSlackLength, i}, 1));
-    // An insertion whose strain is held takes the slack length with it.
-    for (const OfBody body : {OfBody::kFixed, OfBody::kMoving})
-      knee.parameters.push_back(free_number(
-          "insertion", {ParameterKind::kInsertion, i, body, 1, Held::kReferenceStrain}, 2));
-  }
-  FreeParameter together =
-      free_number("all stiffnesses", {ParameterKind::kStiffness, 0}, 0.3, true);
-  for (std::size_t i = 1; i < 12; ++i)
-    together.moves.push_back({{ParameterKind::kStiffness, i}, 1.0});
-  knee.parameters.push_back(together);
-  knee.parameters.push_back(free_number("anterior", {ParameterKind::kLoadScale, 0}, 0.05, true));
-  expect_exact(knee, some_theta(knee, 0.5));
-}
-
-TEST(Predictions, DerivativesByFramesAndOffsetsOfCurves) {
-  Measured knee = all_kinds();
-  knee.parameters = {
-      free_number("aACL.reference_strain", {ParameterKind::kReferenceStrain, 0}, 0.03)};
-  free_frames(knee);
-  FreeParameter offset;
-  offset.name = "offset";
-  offset.kind = FreeParameter::Kind::kCurveOffset;
-  offset.test = "anterior";
-  offset.coordinate = 4;
-  knee.parameters.push_back(offset);
-  for (const double part : {0.0, 5.0}) expect_exact(knee, some_theta(knee, part));
-}
-
-/// The same knee of the other side.
-Scene mirrored(Scene scene) {
-  const auto mirror = [](Eigen::Vector3d& v) { v.x() = -v.x(); };
-  scene.joint->side = Side::kLeft;
-  mirror(scene.joint->femur.lateral);
-  mirror(scene.joint->tibia.lateral);
-  mirror(scene.joint->femur.origin);
-  mirror(scene.joint->tibia.origin);
-  for (BodyDescription& body : scene.bodies) mirror(body.start_translation);
-  for (SurfaceDescription& surface : scene.surfaces) {
-    mirror(surface.point);
-    mirror(surface.direction);
-  }
-  for (LigamentDescription& ligament : scene.ligaments)
-    for (Attachment& end : ligament.ends) mirror(end.at);
-  for (LoadDescription& load : scene.loads) {
-    mirror(load.at);
-    // Forces are mirrored, moments are the other way about.
-    if (load.moment)
-      load.vector = Eigen::Vector3d(load.vector.x(), -load.vector.y(), -load.vector.z());
-    else
-      mirror(load.vector);
-  }
-  return scene;
-}
-
-TEST(Predictions, OfALeftKneeAreThoseOfTheRightOne) {
-  Measured right = all_kinds(), left = all_kinds();
-  left.scene = mirrored(left.scene);
-  for (Measured* knee : {&right, &left}) {
-    knee->parameters = free_strains(knee->scene);
-    free_frames(*knee);
-  }
-  expect_exact(left, some_theta(left, 0.5));
-  Predictions of_right = right.predictions(), of_left = left.predictions();
-  VectorXd y, y_left;
-  MatrixXd J, J_left;
-  VectorXd theta = some_theta(right, 0.5);
-  theta.tail(12).setZero();
-  ASSERT_TRUE(of_right.evaluate(theta, y, &J)) << of_right.failure();
-  ASSERT_TRUE(of_left.evaluate(theta, y_left, &J_left)) << of_left.failure();
-  EXPECT_LT((y - y_left).lpNorm<Eigen::Infinity>(), 1e-8);
-  EXPECT_LT((J.leftCols(12) - J_left.leftCols(12)).norm(), 1e-8 * J.norm());
-}
-
-TEST(Predictions, OnLayersOfCartilage) {
-  Measured knee = all_kinds();
-  for (SurfaceDescription& surface : knee.scene.surfaces)
-    surface.elastic = ElasticSurface{10, 0.45, 3};
-  for (ContactDescription& contact : knee.scene.contacts) contact.layer = LayerOptions{};
-  free_all_of_ligaments(knee, {1, 8});
-  expect_exact(knee, some_theta(knee, 0.3), 0.1);
-}
-
-TEST(Predictions, WithALigamentThatWraps) {
-  Measured knee = all_kinds();
-  WrapDescription ball;
-  ball.name = "ball";
-  ball.body = 0;
-  ball.shape = WrapSphere{9};
-  ball.placement.p = {22, -8, 60};
-  knee.scene.wraps.push_back(ball);
-  LigamentDescription strand;
-  strand.name = "strand";
-  strand.ends = {Attachment{0, {30, 20, 65}}, Attachment{1, {23.7, -53, 227.1}}};
-  strand.law = ToeLinearLaw{600, 0.06, 82};
-  strand.path.wraps = {0};
-  knee.scene.ligaments.push_back(strand);
-  free_all_of_ligaments(knee, {8, 12});
-  // A strand that is slack would show nothing.
-  knee.add_row(MeasuredKind::kLigamentForce, 12, -1, 0, 20);
-  Predictions predictions = knee.predictions();
-  VectorXd y;
-  const VectorXd theta = some_theta(knee, 0.3);
-  ASSERT_TRUE(predictions.evaluate(theta, y, nullptr)) << predictions.failure();
-  EXPECT_GT(y[y.size() - 1], 1);
-  expect_exact(knee, theta);
 }
 
 TEST(Predictions, WithoutAPoseAreNoneAndLeaveEverythingAsItWas) {

@@ -144,6 +144,57 @@ LeastSquaresResult best_of_starts(const LeastSquaresProblem& problem,
   return best;
 }
 
+/// The knee that is measured: tests of it, anew where each draw disturbs its scene.
+class TrueKnee {
+ public:
+  TrueKnee(const StudyKnee& knee,
+           const DrawPlan& plan,
+           const std::vector<FreeParameter>& parameters,
+           const std::function<void(Scene&, unsigned draw)>& disturb)
+      : knee_(knee), plan_(plan), parameters_(parameters), disturb_(disturb) {
+    build(knee.scene);
+  }
+
+  /// Nothing where some test has no pose.
+  std::optional<Truth> at(const VectorXd& theta, unsigned draw) {
+    try {
+      if (disturb_) {
+        Scene scene = knee_.scene;
+        disturb_(scene, draw);
+        build(scene);
+      }
+      return find_truth(*fitted_, *unseen_, theta);
+    } catch (const InputError&) {
+      return std::nullopt;
+    }
+  }
+
+ private:
+  void build(const Scene& scene) {
+    fitted_ = std::make_unique<Tests>(knee_, scene, plan_.fitted, parameters_);
+    unseen_ = std::make_unique<Tests>(knee_, scene, plan_.unseen, parameters_);
+  }
+  const StudyKnee& knee_;
+  const DrawPlan& plan_;
+  const std::vector<FreeParameter>& parameters_;
+  const std::function<void(Scene&, unsigned draw)>& disturb_;
+  std::unique_ptr<Tests> fitted_, unseen_;
+};
+
+LeastSquaresProblem problem_of(const VectorXd& d, const VectorXd& sd, const VectorXd& prior) {
+  LeastSquaresProblem problem;
+  problem.d = d;
+  problem.sd = sd;
+  problem.prior_sd = prior;
+  problem.prior_mean = VectorXd::Zero(prior.size());
+  problem.lower = VectorXd::Constant(prior.size(), -1e300);
+  problem.upper = -problem.lower;
+  return problem;
+}
+
+/// Truths that may be drawn again before a plan is given up.
+int most_skipped(const DrawPlan& plan) { return 3 * plan.draws + 20; }
+
 }  // namespace
 
 Draws draw_and_fit(const StudyKnee& model,
@@ -153,42 +204,22 @@ Draws draw_and_fit(const StudyKnee& model,
   Draws draws;
   const MeasurementTable table = planned_table(model, plan.fitted);
   draws.parameters = free_parameters(model.scene, model.meshes, table);
+  draws.rows = table.rows.size();
   const VectorXd prior = prior_sds(draws.parameters), sd = deviations(table);
   Tests fitted(model, plan.fitted, draws.parameters), unseen(model, plan.unseen, draws.parameters);
-  std::unique_ptr<Tests> true_fitted, true_unseen;
-  const auto build_truth = [&](const Scene& scene) {
-    true_fitted = std::make_unique<Tests>(truth_knee, scene, plan.fitted, draws.parameters);
-    true_unseen = std::make_unique<Tests>(truth_knee, scene, plan.unseen, draws.parameters);
-  };
-  build_truth(truth_knee.scene);
-  draws.rows = table.rows.size();
+  TrueKnee measured(truth_knee, plan, draws.parameters, disturb);
   std::mt19937_64 engine(plan.seed);
-  for (unsigned draw = 0; static_cast<int>(draws.outcomes.size()) < plan.draws; ++draw) {
-    if (draws.skipped > 3 * plan.draws + 20) break;
+  for (unsigned draw = 0;
+       static_cast<int>(draws.outcomes.size()) < plan.draws && draws.skipped <= most_skipped(plan);
+       ++draw) {
     const VectorXd theta = plan.truth * prior.cwiseProduct(normal_numbers(engine, prior.size()));
     const VectorXd noise = plan.noise * sd.cwiseProduct(normal_numbers(engine, sd.size()));
-    std::optional<Truth> truth;
-    try {
-      if (disturb) {
-        Scene scene = truth_knee.scene;
-        disturb(scene, draw);
-        build_truth(scene);
-      }
-      truth = find_truth(*true_fitted, *true_unseen, theta);
-    } catch (const InputError&) {
-      truth.reset();
-    }
+    const std::optional<Truth> truth = measured.at(theta, draw);
     if (!truth) {
       ++draws.skipped;
       continue;
     }
-    LeastSquaresProblem problem;
-    problem.d = truth->fitted + noise;
-    problem.sd = sd;
-    problem.prior_sd = plan.prior * prior;
-    problem.prior_mean = VectorXd::Zero(prior.size());
-    problem.lower = VectorXd::Constant(prior.size(), -1e300);
-    problem.upper = -problem.lower;
+    LeastSquaresProblem problem = problem_of(truth->fitted + noise, sd, plan.prior * prior);
     if (plan.by_differences) {
       problem.evaluate = FromOutside(model, plan.fitted, draws.parameters);
     } else {
@@ -200,9 +231,7 @@ Draws draw_and_fit(const StudyKnee& model,
     DrawOutcome outcome;
     outcome.truth = theta;
     outcome.fit = best_of_starts(problem, prior, plan, engine);
-    if (!outcome.fit.converged) {
-      ++draws.failed;
-    }
+    draws.failed += outcome.fit.converged ? 0 : 1;
     outcome.known = identifiability(outcome.fit.J, sd.cwiseInverse(), problem.prior_sd,
                                     std::vector<bool>(draws.parameters.size(), false));
     outcome.reduced_chi_square =
@@ -220,8 +249,10 @@ Starts fit_from_starts(const StudyKnee& knee, const DrawPlan& plan, int starts) 
   Tests truth(knee, plan.fitted, parameters);
   std::mt19937_64 engine(plan.seed);
   VectorXd y;
-  while (!truth.at(plan.truth * prior.cwiseProduct(normal_numbers(engine, prior.size())), y)) {
-  }
+  for (int skipped = 0;
+       !truth.at(plan.truth * prior.cwiseProduct(normal_numbers(engine, prior.size())), y);
+       ++skipped)
+    if (skipped > most_skipped(plan)) return {};
   y += plan.noise * sd.cwiseProduct(normal_numbers(engine, sd.size()));
   for (Eigen::Index i = 0; i < y.size(); ++i) table.rows[static_cast<std::size_t>(i)].value = y[i];
   KneeFit fit(knee.scene, knee.surfaces, table, parameters, 0);

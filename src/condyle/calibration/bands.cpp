@@ -57,13 +57,13 @@ Band band_of(const Quantity& quantity,
              const std::vector<CalibratedRow>& rows,
              std::size_t first,
              std::size_t count,
-             const MeasuredUnit& unit) {
+             const Unit& unit) {
   Band band{quantity.name, unit.name, {}, {}, {}, {}};
   for (std::size_t i = first; i < first + count; ++i) {
-    band.before.push_back(rows[i].before / unit.inside);
-    band.before_sd.push_back(rows[i].prior_sd / unit.inside);
-    band.after.push_back(rows[i].after / unit.inside);
-    band.after_sd.push_back(rows[i].after_sd / unit.inside);
+    band.before.push_back(rows[i].before / unit.factor);
+    band.before_sd.push_back(rows[i].prior_sd / unit.factor);
+    band.after.push_back(rows[i].after / unit.factor);
+    band.after_sd.push_back(rows[i].after_sd / unit.factor);
   }
   return band;
 }

@@ -6,6 +6,7 @@
 
 #include "condyle/calibration/calibration_words.h"
 #include "condyle/calibration/told_parameter.h"
+#include "condyle/calibration/told_units.h"
 
 namespace condyle {
 namespace {
@@ -79,12 +80,14 @@ std::string parameter_latex(const CalibrationResult& result) {
 
 std::string samples_csv(const CalibrationResult& result) {
   std::string csv;
-  for (std::size_t j = 0; j < result.parameters.size(); ++j)
-    csv += (j > 0 ? "," : "") + csv_text(result.parameters[j].name);
+  for (std::size_t j = 0; j < result.parameters.size(); ++j) {
+    if (j > 0) csv += ',';
+    csv += csv_text(result.parameters[j].name);
+  }
   csv += '\n';
   for (Eigen::Index i = 0; i < result.samples.rows(); ++i) {
     for (Eigen::Index j = 0; j < result.samples.cols(); ++j) {
-      const double unit = theta_unit(result.parameters[static_cast<std::size_t>(j)]).inside;
+      const double unit = unit_of_theta(result.parameters[static_cast<std::size_t>(j)]).factor;
       csv += fmt::format("{}{}", j > 0 ? "," : "", result.samples(i, j) / unit);
     }
     csv += '\n';

@@ -17,23 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-const char* word_of(ParameterKind kind) {
-  switch (kind) {
-    case ParameterKind::kReferenceStrain:
-      return "reference_strain";
-    case ParameterKind::kSlackLength:
-      return "slack_length";
-    case ParameterKind::kStiffness:
-      return "stiffness";
-    case ParameterKind::kTransitionStrain:
-      return "transition_strain";
-    case ParameterKind::kInsertion:
-      return "insertion";
-    default:
-      return "scale";
-  }
-}
-
 bool is_factor(ParameterKind kind) {
   return kind == ParameterKind::kStiffness || kind == ParameterKind::kLoadScale;
 }

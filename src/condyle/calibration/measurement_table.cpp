@@ -37,15 +37,15 @@ std::string quantity_of(const Measurement& row, const Scene& scene) {
   return "force of " + scene.contacts[row.index].name;
 }
 
-MeasuredUnit unit_of(const Measurement& row, const Scene& scene) {
+Unit unit_of(const Measurement& row, const Scene& scene) {
   const double to_nmm = scene.calibration ? scene.calibration->moment_to_nmm : 1;
-  const MeasuredUnit degrees = {"deg", M_PI / 180};
+  const Unit degrees = {"deg", M_PI / 180};
   if (row.kind == MeasuredKind::kJointCoordinate)
-    return kJointCoordinates[row.index].angle ? degrees : MeasuredUnit{"mm", 1};
+    return kJointCoordinates[row.index].angle ? degrees : Unit{"mm", 1};
   const bool moment =
       row.kind == MeasuredKind::kReaction && is_angle(scene.conditions[row.index].kind);
   if (!moment) return {"N", 1};
-  return to_nmm == 1 ? MeasuredUnit{"N mm", 1} : MeasuredUnit{"N m", 1000};
+  return to_nmm == 1 ? Unit{"N mm", 1} : Unit{"N m", 1000};
 }
 
 }  // namespace condyle

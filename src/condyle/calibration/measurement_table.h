@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "condyle/scene/scene.h"
+#include "condyle/scene/sweep_range.h"
 
 namespace condyle {
 
@@ -64,11 +65,7 @@ struct MeasurementTable {
                                   const Scene& scene);
 /// "anterior drawer", "reaction", "force of aACL".
 [[nodiscard]] std::string quantity_of(const Measurement& row, const Scene& scene);
-/// Unit in which a row is told, "deg", "mm", "N", "N m" or "N mm", and how much of the unit used inside it is.
-struct MeasuredUnit {
-  const char* name;
-  double inside;
-};
-[[nodiscard]] MeasuredUnit unit_of(const Measurement& row, const Scene& scene);
+/// In which a row is told: "deg", "mm", "N", "N m" or "N mm".
+[[nodiscard]] Unit unit_of(const Measurement& row, const Scene& scene);
 
 }  // namespace condyle

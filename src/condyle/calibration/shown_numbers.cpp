@@ -5,38 +5,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "condyle/calibration/told_units.h"
+
 namespace condyle {
 namespace {
 
 constexpr double kOneDegree = std::numbers::pi / 180;
-constexpr double kNewtonMetre = 1000;  // [N mm]
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
     text.replace(at, from.size(), to);
-}
-
-const CalibrationLoad* load_of(const Scene& scene, int load) {
-  if (!scene.calibration || load < 0) return nullptr;
-  const std::vector<CalibrationLoad>& loads = scene.calibration->loads;
-  const auto i = static_cast<std::size_t>(load);
-  return i < loads.size() ? &loads[i] : nullptr;
-}
-
-/// How much of θ is one of what it is shown in.
-struct ShownUnit {
-  std::string name;
-  double inside;
-};
-
-ShownUnit unit_of_theta(const FreeParameter& parameter) {
-  const auto strain = [](const auto& move) {
-    return move.first.kind == ParameterKind::kReferenceStrain ||
-           move.first.kind == ParameterKind::kTransitionStrain;
-  };
-  if (parameter.units == "rad") return {"°", kOneDegree};
-  if (!parameter.moves.empty() && strain(parameter.moves.front())) return {"%", 0.01};
-  return {shown_unit(parameter.units), 1};
 }
 
 }  // namespace
@@ -54,20 +32,8 @@ std::vector<std::string> shown_names(const CalibrationResult& result) {
   return names;
 }
 
-LevelUnit level_unit(const Scene& scene, int load) {
-  const CalibrationLoad* of = load_of(scene, load);
-  if (of == nullptr || of->index < 0) return {"", 1};
-  const auto i = static_cast<std::size_t>(of->index);
-  if (of->displacement_control) {
-    const bool angle = i < scene.conditions.size() && is_angle(scene.conditions[i].kind);
-    return angle ? LevelUnit{"°", kOneDegree} : LevelUnit{"mm", 1};
-  }
-  const bool moment = i < scene.loads.size() && scene.loads[i].moment;
-  return moment ? LevelUnit{"N m", kNewtonMetre} : LevelUnit{"N", 1};
-}
-
 std::string load_name(const Scene& scene, int load) {
-  const CalibrationLoad* of = load_of(scene, load);
+  const CalibrationLoad* of = find_load(scene, load);
   return of == nullptr ? "no load" : of->name;
 }
 
@@ -90,20 +56,20 @@ std::string shown_degrees(double angle) {
 
 double shown_value(const FreeParameter& parameter, double theta) {
   if (parameter.logarithmic) return std::exp(theta);
-  return (parameter.start + theta) / unit_of_theta(parameter).inside;
+  return (parameter.start + theta) / unit_for_people(parameter).factor;
 }
 
 std::string shown_axis(const FreeParameter& parameter) {
   if (parameter.logarithmic) return "factor [-]";
-  return fmt::format("[{}]", unit_of_theta(parameter).name);
+  return fmt::format("[{}]", shown_unit(unit_for_people(parameter).name));
 }
 
 std::string shown_deviation(const FreeParameter& parameter, double sd) {
   if (!std::isfinite(sd)) return "none";
   if (parameter.logarithmic) return fmt::format("{:.2g} of ln", sd);
-  const ShownUnit unit = unit_of_theta(parameter);
-  const std::string number = fmt::format("{:.2g}", sd / unit.inside);
-  return unit.name == "-" ? number : number + " " + unit.name;
+  const Unit unit = unit_for_people(parameter);
+  const std::string number = fmt::format("{:.2g}", sd / unit.factor);
+  return unit.name == "1" ? number : number + " " + shown_unit(unit.name);
 }
 
 }  // namespace condyle

@@ -14,12 +14,6 @@ namespace condyle {
 [[nodiscard]] std::string shown_name(const FreeParameter& parameter);
 [[nodiscard]] std::vector<std::string> shown_names(const CalibrationResult& result);
 
-/// What a level of a test is told in: "N", "N m", "mm", "°", and how much of it is one inside.
-struct LevelUnit {
-  std::string name;
-  double inside = 1;
-};
-[[nodiscard]] LevelUnit level_unit(const Scene& scene, int load);
 [[nodiscard]] std::string load_name(const Scene& scene, int load);
 
 /// Of numbers: a minus sign in place of the hyphen before a digit.

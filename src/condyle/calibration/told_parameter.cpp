@@ -4,26 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "condyle/calibration/told_units.h"
+
 namespace condyle {
 namespace {
-
-bool is_strain(const FreeParameter& parameter) {
-  if (parameter.moves.empty()) return false;
-  const ParameterKind kind = parameter.moves.front().first.kind;
-  return kind == ParameterKind::kReferenceStrain || kind == ParameterKind::kTransitionStrain;
-}
-
-struct Scale {
-  const char* unit;
-  double inside;
-};
-
-Scale scale_of(const FreeParameter& parameter) {
-  if (parameter.logarithmic) return {"factor", 1};
-  if (is_strain(parameter)) return {"%", 0.01};
-  const ThetaUnit unit = theta_unit(parameter);
-  return {unit.name, unit.inside};
-}
 
 double entry(const Eigen::VectorXd& v, Eigen::Index at) {
   return at < v.size() ? v[at] : std::numeric_limits<double>::quiet_NaN();
@@ -40,16 +24,16 @@ double parting(Eigen::Index samples) {
 ToldParameter told_of(const CalibrationResult& result, std::size_t j) {
   const FreeParameter& parameter = result.parameters[j];
   const auto at = static_cast<Eigen::Index>(j);
-  const Scale scale = scale_of(parameter);
+  const Unit unit = unit_for_people(parameter);
   ToldParameter told;
   told.name = parameter.name;
-  told.unit = scale.unit;
+  told.unit = parameter.logarithmic ? "factor" : unit.name;
   const double theta = result.fit.theta[at];
-  told.scene = parameter.logarithmic ? 1 : parameter.start / scale.inside;
-  told.mean = parameter.logarithmic ? std::exp(theta) : (parameter.start + theta) / scale.inside;
-  told.prior_sd = parameter.prior_sd / scale.inside;
-  told.sd = entry(result.known.sd, at) / scale.inside;
-  told.sample_sd = entry(result.sample_sd, at) / scale.inside;
+  told.scene = parameter.logarithmic ? 1 : parameter.start / unit.factor;
+  told.mean = parameter.logarithmic ? std::exp(theta) : (parameter.start + theta) / unit.factor;
+  told.prior_sd = parameter.prior_sd / unit.factor;
+  told.sd = entry(result.known.sd, at) / unit.factor;
+  told.sample_sd = entry(result.sample_sd, at) / unit.factor;
   told.at_bound = j < result.at_bound.size() && result.at_bound[j];
   told.parts = !told.at_bound &&
                std::abs(told.sample_sd - told.sd) > parting(result.samples.rows()) * told.sd;
@@ -58,11 +42,6 @@ ToldParameter told_of(const CalibrationResult& result, std::size_t j) {
 }
 
 }  // namespace
-
-ThetaUnit theta_unit(const FreeParameter& parameter) {
-  if (parameter.units == "rad") return {"deg", M_PI / 180};
-  return {parameter.units == "mm" ? "mm" : "1", 1};
-}
 
 std::vector<ToldParameter> told_parameters(const CalibrationResult& result) {
   std::vector<ToldParameter> told;

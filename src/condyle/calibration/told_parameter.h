@@ -25,11 +25,4 @@ struct ToldParameter {
 
 [[nodiscard]] std::vector<ToldParameter> told_parameters(const CalibrationResult& result);
 
-/// Units of θ for files: rad becomes deg, all else stays; [inside per told].
-struct ThetaUnit {
-  const char* name;
-  double inside;
-};
-[[nodiscard]] ThetaUnit theta_unit(const FreeParameter& parameter);
-
 }  // namespace condyle

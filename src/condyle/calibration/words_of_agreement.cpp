@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/calibration/told_units.h"
+
 namespace condyle {
 namespace {
 
@@ -51,16 +53,10 @@ bool same_least(const CalibrationStart& start, double best) {
 }
 
 std::string load_words(const Scene& scene, const SuggestedTest& test) {
-  if (test.load < 0 || !scene.calibration) return "unloaded";
-  const CalibrationLoad& load = scene.calibration->loads.at(static_cast<std::size_t>(test.load));
-  const auto index = static_cast<std::size_t>(load.index);
-  if (load.displacement_control) {
-    const bool angle = is_angle(scene.conditions.at(index).kind);
-    return fmt::format("{} {:.4g} {}", load.name, angle ? test.level / kDegree : test.level,
-                       angle ? "deg" : "mm");
-  }
-  if (!scene.loads.at(index).moment) return fmt::format("{} {:.4g} N", load.name, test.level);
-  return fmt::format("{} {:.4g} N m", load.name, test.level / 1000);
+  const CalibrationLoad* load = find_load(scene, test.load);
+  if (load == nullptr) return "unloaded";
+  const Unit unit = unit_of_level(scene, test.load);
+  return fmt::format("{} {:.4g} {}", load->name, test.level / unit.factor, unit.name);
 }
 
 }  // namespace

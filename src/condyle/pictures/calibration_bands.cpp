@@ -93,12 +93,8 @@ std::vector<NamedPage> band_pages(const Scene& scene, const CalibrationResult& r
     else if (carries(band))
       ligaments.panels.push_back(band_panel(scene, result, band));
   }
-  std::vector<NamedPage> pages =
-      divided("calibration_bands", joint, kMostPanels, kPanelColumns, kBandHeight);
-  for (NamedPage& page :
-       divided("calibration_ligament_bands", ligaments, kMostPanels, kPanelColumns, kBandHeight))
-    pages.push_back(std::move(page));
-  return pages;
+  return divided({{"calibration_bands", joint}, {"calibration_ligament_bands", ligaments}},
+                 kMostPanels, kPanelColumns, kBandHeight);
 }
 
 }  // namespace condyle

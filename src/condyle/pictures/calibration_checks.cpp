@@ -5,6 +5,7 @@
 
 #include "condyle/calibration/calibration.h"
 #include "condyle/calibration/shown_numbers.h"
+#include "condyle/calibration/told_units.h"
 #include "condyle/pictures/plot_calibration.h"
 
 namespace condyle {
@@ -127,9 +128,10 @@ std::vector<std::string> thinned(std::vector<std::string> names, double width) {
 }
 
 std::string suggestion_name(const Scene& scene, const SuggestedTest& test) {
-  const LevelUnit unit = level_unit(scene, test.load);
+  const Unit unit = unit_of_level(scene, test.load);
   const std::string level =
-      test.load < 0 ? "" : fmt::format(", {:g} {}", test.level / unit.inside, unit.name);
+      test.load < 0 ? ""
+                    : fmt::format(", {:g} {}", test.level / unit.factor, shown_unit(unit.name));
   return with_minus(
       fmt::format("{}, {}{}", shown_degrees(test.flexion), load_name(scene, test.load), level));
 }
@@ -144,7 +146,7 @@ std::vector<NamedPage> profile_pages(const Scene& scene, const CalibrationResult
       {"95 %", {Mark{Mark::Kind::kLine, {}, {}, {}, {}, kUnseenInk, false, false, 1.4}}}};
   for (const Profile& profile : result.profiles)
     if (drawable(result, profile)) page.panels.push_back(profile_panel(result, profile));
-  return divided("calibration_profiles", page, kMostProfiles, 4, kProfileHeight);
+  return divided({{"calibration_profiles", page}}, kMostProfiles, 4, kProfileHeight);
 }
 
 std::vector<NamedPage> residual_pages(const Scene& scene, const CalibrationResult& result) {

@@ -9,6 +9,7 @@
 
 #include "condyle/calibration/calibration.h"
 #include "condyle/calibration/shown_numbers.h"
+#include "condyle/calibration/told_units.h"
 #include "condyle/pictures/plot_calibration.h"
 
 namespace condyle {
@@ -69,7 +70,8 @@ RowCurve named_curve(const Scene& scene, const MeasurementTable& table, const Gr
     curve.x_label = "Flexion [°]";
   } else {
     curve.title = test + " at " + shown_degrees(flexion);
-    curve.x_label = fmt::format("{} [{}]", load_name(scene, load), level_unit(scene, load).name);
+    curve.x_label =
+        fmt::format("{} [{}]", load_name(scene, load), shown_unit(unit_of_level(scene, load).name));
   }
   return curve;
 }
@@ -89,7 +91,8 @@ std::vector<std::pair<Group, RowCurve>> row_curves(const Scene& scene,
                                 [&](const auto& known) { return known.first == group; });
       if (found == curves.end())
         found = curves.insert(curves.end(), {group, named_curve(scene, table, group)});
-      const double x = flexed ? row.flexion * kAngle : row.level / level_unit(scene, load).inside;
+      const double x =
+          flexed ? row.flexion * kAngle : row.level / unit_of_level(scene, load).factor;
       found->second.points.emplace_back(x, i);
     }
   }
@@ -169,7 +172,7 @@ Mark measured(const CalibrationResult& result, const RowCurve& curve, double uni
 
 PagePanel curve_panel(const Scene& scene, const CalibrationResult& result, const RowCurve& curve) {
   const Measurement& row = result.table.rows[curve.points.front().second];
-  const MeasuredUnit unit = unit_of(row, scene);
+  const Unit unit = unit_of(row, scene);
   const std::vector<std::string>& relative = scene.calibration->relative;
   const bool change = row.kind == MeasuredKind::kJointCoordinate && !row.laxity &&
                       std::find(relative.begin(), relative.end(), row.test) != relative.end();
@@ -178,9 +181,9 @@ PagePanel curve_panel(const Scene& scene, const CalibrationResult& result, const
   panel.x_label = curve.x_label;
   panel.y_label =
       fmt::format("{}{} [{}]", change ? "Δ " : "", quantity_of(row, scene), shown_unit(unit.name));
-  Predicted made = predictions(result, curve, unit.inside);
-  panel.marks = {made.band, made.before, made.after, measured(result, curve, unit.inside, false),
-                 measured(result, curve, unit.inside, true)};
+  Predicted made = predictions(result, curve, unit.factor);
+  panel.marks = {made.band, made.before, made.after, measured(result, curve, unit.factor, false),
+                 measured(result, curve, unit.factor, true)};
   const double low = curve.points.front().first, high = curve.points.back().first;
   const double room = std::max(0.06 * (high - low), 2 * half_width(curve));
   panel.x_range = {low - room, high + room};
@@ -210,12 +213,8 @@ std::vector<NamedPage> measured_pages(const Scene& scene, const CalibrationResul
   const std::vector<bool> is_main = main_curves(result, curves);
   for (std::size_t k = 0; k < curves.size(); ++k)
     (is_main[k] ? first : others).panels.push_back(curve_panel(scene, result, curves[k].second));
-  std::vector<NamedPage> pages =
-      divided("calibration_curves", first, kMostPanels, kPanelColumns, kCurveHeight);
-  for (NamedPage& page :
-       divided("calibration_other_curves", others, kMostPanels, kPanelColumns, kCurveHeight))
-    pages.push_back(std::move(page));
-  return pages;
+  return divided({{"calibration_curves", first}, {"calibration_other_curves", others}}, kMostPanels,
+                 kPanelColumns, kCurveHeight);
 }
 
 }  // namespace condyle

@@ -234,24 +234,26 @@ void lay_in_grid(ChartPage& page, int columns, double panel_height) {
   page.height = static_cast<int>(std::ceil(top + row * static_cast<double>(rows) + 6));
 }
 
-std::vector<NamedPage> divided(const std::string& name,
-                               const ChartPage& page,
+std::vector<NamedPage> divided(const std::vector<NamedPage>& pages,
                                std::size_t most,
                                int columns,
                                double panel_height) {
-  std::vector<NamedPage> pages;
-  const std::size_t count = (page.panels.size() + most - 1) / most;
-  for (std::size_t k = 0; k < count; ++k) {
-    ChartPage part = page;
-    const auto at = [&](std::size_t i) {
-      return page.panels.begin() + static_cast<std::ptrdiff_t>(std::min(i, page.panels.size()));
-    };
-    part.panels.assign(at(k * most), at((k + 1) * most));
-    if (count > 1) part.what += fmt::format(" ({} of {})", k + 1, count);
-    lay_in_grid(part, columns, panel_height);
-    pages.push_back({count > 1 ? fmt::format("{}_{}", name, k + 1) : name, std::move(part)});
+  std::vector<NamedPage> parts;
+  for (const auto& [name, page] : pages) {
+    const std::vector<PagePanel>& panels = page.panels;
+    const std::size_t count = (panels.size() + most - 1) / most;
+    for (std::size_t k = 0; k < count; ++k) {
+      ChartPage part = page;
+      const auto at = [&](std::size_t i) {
+        return panels.begin() + static_cast<std::ptrdiff_t>(std::min(i, panels.size()));
+      };
+      part.panels.assign(at(k * most), at((k + 1) * most));
+      if (count > 1) part.what += fmt::format(" ({} of {})", k + 1, count);
+      lay_in_grid(part, columns, panel_height);
+      parts.push_back({count > 1 ? fmt::format("{}_{}", name, k + 1) : name, std::move(part)});
+    }
   }
-  return pages;
+  return parts;
 }
 
 std::string gnuplot_script(const ChartPage& page, PlotFormat format) {

@@ -61,9 +61,8 @@ inline constexpr int kPanelColumns = 3;
 /// Puts all panels side by side in rows of `columns`, and gives the page its height.
 void lay_in_grid(ChartPage& page, int columns, double panel_height);
 
-/// Panels over as many pages as they need, `most` on each; "name", or "name_1", "name_2", ...
-[[nodiscard]] std::vector<NamedPage> divided(const std::string& name,
-                                             const ChartPage& page,
+/// The panels of each over as many pages as they need, `most` on one; "name", or "name_1", "name_2", ...
+[[nodiscard]] std::vector<NamedPage> divided(const std::vector<NamedPage>& pages,
                                              std::size_t most,
                                              int columns,
                                              double panel_height);

@@ -8,6 +8,7 @@
 #include "condyle/calibration/calibration_words.h"
 #include "condyle/calibration/shown_numbers.h"
 #include "condyle/calibration/told_parameter.h"
+#include "condyle/calibration/told_units.h"
 #include "condyle/report/html.h"
 #include "condyle/report/sections.h"
 
@@ -101,14 +102,14 @@ std::string residual_table(const Scene& scene, const CalibrationResult& result) 
   for (const std::size_t i : worst_rows(result)) {
     const Measurement& row = result.table.rows[i];
     const CalibratedRow& answer = result.rows[i];
-    const MeasuredUnit unit = unit_of(row, scene);
+    const Unit unit = unit_of(row, scene);
     const double r = residual(result, i);
     table.rows.push_back(
         {name_of(row, result.table, scene),
          fmt::format("{} [{}]", quantity_of(row, scene), shown_unit(unit.name)),
-         row.use == MeasuredUse::kTest ? "unseen" : "fitted", short_number(row.value / unit.inside),
-         short_number(answer.before / unit.inside), short_number(answer.after / unit.inside),
-         short_number(answer.sd / unit.inside), std::isfinite(r) ? number(r, 2) : "no pose"});
+         row.use == MeasuredUse::kTest ? "unseen" : "fitted", short_number(row.value / unit.factor),
+         short_number(answer.before / unit.factor), short_number(answer.after / unit.factor),
+         short_number(answer.sd / unit.factor), std::isfinite(r) ? number(r, 2) : "no pose"});
   }
   return table.rows.empty() ? "" : html(table);
 }
@@ -119,9 +120,9 @@ std::string suggestion_table(const Scene& scene, const CalibrationResult& result
                   {},
                   {1, 5}};
   for (const SuggestedTest& test : result.suggested) {
-    const LevelUnit unit = level_unit(scene, test.load);
+    const Unit unit = unit_of_level(scene, test.load);
     table.rows.push_back({shown_degrees(test.flexion), load_name(scene, test.load),
-                          fmt::format("{:g} {}", test.level / unit.inside, unit.name),
+                          fmt::format("{:g} {}", test.level / unit.factor, shown_unit(unit.name)),
                           short_number(test.information), number(100 * test.shrinkage, 0),
                           test.reason});
   }

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "condyle/calibration/calibration_words.h"
-#include "condyle/calibration/shown_numbers.h"
 #include "condyle/calibration/told_parameter.h"
+#include "condyle/calibration/told_units.h"
 #include "condyle/compare/laxity.h"
 #include "condyle/results/motion_view.h"
 #include "condyle/results/run_layout.h"
@@ -194,13 +194,13 @@ Json suggested_of(const CalibrationResult& result, const Scene& scene) {
   Json tests = Json::array();
   for (const SuggestedTest& test : result.suggested) {
     const bool loaded = test.load >= 0 && scene.calibration;
-    const LevelUnit unit = level_unit(scene, test.load);
+    const Unit unit = unit_of_level(scene, test.load);
     tests.push_back(
         {{"flexion_deg", in_unit(test.flexion, {"deg", kDegree})},
          {"load", loaded ? scene.calibration->loads.at(static_cast<std::size_t>(test.load)).name
                          : std::string("none")},
-         {"level", test.level / unit.inside},
-         {"level_unit", unit.name == "°" ? "deg" : unit.name},
+         {"level", test.level / unit.factor},
+         {"level_unit", unit.name},
          {"information", test.information},
          {"shrinkage", test.shrinkage},
          {"reason", test.reason}});

@@ -1,5 +1,6 @@
 #include "condyle/scene/ligament_number.h"
 
+#include <array>
 #include <limits>
 #include <variant>
 
@@ -21,6 +22,22 @@ double reference_strain_of(const Scene& scene, const LigamentDescription& ligame
 }
 
 }  // namespace
+
+const char* word_of(ParameterKind kind) {
+  constexpr std::array<const char*, 11> kWords = {"reference_strain",
+                                                  "slack_length",
+                                                  "stiffness",
+                                                  "transition_strain",
+                                                  "insertion",
+                                                  "scale",
+                                                  "vector",
+                                                  "point",
+                                                  "value",
+                                                  "shift",
+                                                  "modulus"};
+  static_assert(static_cast<std::size_t>(ParameterKind::kLayerModulus) + 1 == kWords.size());
+  return kWords.at(static_cast<std::size_t>(kind));
+}
 
 bool has_number(const ForceLaw& law, ParameterKind kind) {
   if (kind == ParameterKind::kInsertion) return true;

@@ -2,11 +2,20 @@
 
 /// The numbers of a described ligament, by their kinds.
 
+#include <array>
 #include <string>
 
 #include "condyle/scene/scene.h"
 
 namespace condyle {
+
+/// The kinds of numbers that laws have.
+inline constexpr std::array<ParameterKind, 4> kNumbersOfLaws = {
+    ParameterKind::kReferenceStrain, ParameterKind::kSlackLength, ParameterKind::kStiffness,
+    ParameterKind::kTransitionStrain};
+
+/// "reference_strain", ...: what a scene calls a number of that kind; of an insertion without its body.
+[[nodiscard]] const char* word_of(ParameterKind kind);
 
 /// Whether a law has a number of that kind; of an insertion always.
 [[nodiscard]] bool has_number(const ForceLaw& law, ParameterKind kind);

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
+#include "condyle/scene/ligament_number.h"
 #include "condyle/scene/ligament_path.h"
 #include "condyle/scene/start_pose.h"
 #include "condyle/scene/swept_quantity.h"
@@ -220,21 +222,12 @@ void describe_motion(const Scene& scene, Out out) {
   fmt::format_to(out, "\n");
 }
 
-const char* word(ParameterKind what) {
-  switch (what) {
-    case ParameterKind::kReferenceStrain:
-      return "reference strain";
-    case ParameterKind::kSlackLength:
-      return "slack length";
-    case ParameterKind::kStiffness:
-      return "stiffness";
-    case ParameterKind::kTransitionStrain:
-      return "transition strain";
-    case ParameterKind::kInsertion:
-      return "insertion";
-    default:
-      return "size";
-  }
+/// "reference strain"; of a load its size.
+std::string words(ParameterKind what) {
+  if (what == ParameterKind::kLoadScale) return "size";
+  std::string words = word_of(what);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
 }
 
 void describe_calibration(const Scene& scene, Out out) {
@@ -242,7 +235,7 @@ void describe_calibration(const Scene& scene, Out out) {
   fmt::format_to(out, "calibrate  to {}\n", scene.calibration->measurements.filename().string());
   for (const CalibrationParameter& parameter : scene.calibration->parameters) {
     const bool load = parameter.what == ParameterKind::kLoadScale;
-    fmt::format_to(out, "free       {} of {} {}{}{}, prior within {:.4g}\n", word(parameter.what),
+    fmt::format_to(out, "free       {} of {} {}{}{}, prior within {:.4g}\n", words(parameter.what),
                    parameter.of.size(), load ? "loads" : "ligaments",
                    parameter.body < 0 ? "" : " on " + body_name(scene, parameter.body),
                    parameter.together ? ", together" : "", parameter.prior_sd);

@@ -20,11 +20,8 @@ using FreeNumbers = std::map<std::tuple<ParameterKind, int, int>, int>;
 constexpr const char* kOf = "names [\"aACL\", ...], prefixes [\"ACL*\"], or \"*\" for all";
 
 void read_what(const Section& section, const Scene& scene, CalibrationParameter& parameter) {
-  Choices<std::pair<ParameterKind, int>> kinds = {
-      {"reference_strain", {ParameterKind::kReferenceStrain, -1}},
-      {"slack_length", {ParameterKind::kSlackLength, -1}},
-      {"stiffness", {ParameterKind::kStiffness, -1}},
-      {"transition_strain", {ParameterKind::kTransitionStrain, -1}}};
+  Choices<std::pair<ParameterKind, int>> kinds;
+  for (const ParameterKind kind : kNumbersOfLaws) kinds.push_back({word_of(kind), {kind, -1}});
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     kinds.push_back(
         {"insertion." + scene.bodies[i].name, {ParameterKind::kInsertion, static_cast<int>(i)}});

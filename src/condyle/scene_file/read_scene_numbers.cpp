@@ -1,9 +1,7 @@
 #include "condyle/scene_file/read_scene_numbers.h"
 
 #include <algorithm>
-#include <array>
 #include <string_view>
-#include <utility>
 
 #include "condyle/scene/ligament_number.h"
 
@@ -11,12 +9,6 @@ namespace condyle {
 namespace {
 
 constexpr const char* kExpected = "names of numbers [\"aACL.reference_strain\", ...]";
-
-constexpr std::array<std::pair<ParameterKind, const char*>, 4> kWords = {
-    {{ParameterKind::kReferenceStrain, ".reference_strain"},
-     {ParameterKind::kSlackLength, ".slack_length"},
-     {ParameterKind::kStiffness, ".stiffness"},
-     {ParameterKind::kTransitionStrain, ".transition_strain"}}};
 
 /// A name that a scene may write, and what it stands for.
 struct NamedNumber {
@@ -47,8 +39,8 @@ class NumbersOf {
 
   void add_ligament(int i) {
     const LigamentDescription& ligament = scene_.ligaments[static_cast<std::size_t>(i)];
-    for (const auto& [kind, word] : kWords)
-      add(kind, i, ligament.name + word,
+    for (const ParameterKind kind : kNumbersOfLaws)
+      add(kind, i, ligament.name + "." + word_of(kind),
           has_number(ligament.law, kind) ? ""
                                          : "one of a ligament whose law is " + laws_with(kind));
     for (const Attachment& end : ligament.ends)
@@ -100,7 +92,8 @@ std::vector<SceneNumber> of_all_ligaments(const std::vector<NamedNumber>& all,
 
 std::vector<std::string> wild_names(const Scene& scene) {
   std::vector<std::string> names;
-  for (const auto& [kind, word] : kWords) names.push_back(std::string("*") + word);
+  for (const ParameterKind kind : kNumbersOfLaws)
+    names.push_back(std::string("*.") + word_of(kind));
   for (const BodyDescription& body : scene.bodies) names.push_back("*.insertion." + body.name);
   return names;
 }
