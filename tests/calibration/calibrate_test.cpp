@@ -16,7 +16,7 @@ namespace {
 using Eigen::VectorXd;
 
 CalibrationResult calibrated(const WismansCase& knee, const CalibrationOptions& options) {
-  return calibrate(knee.scene, knee.surfaces, knee.meshes, options);
+  return calibrate(knee.scene, knee.surfaces, knee.table, knee.meshes, options);
 }
 
 /// The fit alone.

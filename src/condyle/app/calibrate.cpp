@@ -73,11 +73,12 @@ std::vector<TriangleMesh> meshes_of(const Scene& scene,
 /// Before the long work: every number that may change has a place in the text.
 void check_text(const CalibrateCommand& command,
                 const Scene& scene,
+                const MeasurementTable& table,
                 const std::vector<TriangleMesh>& meshes) {
   if (command.fitted_scene.empty()) return;
   constexpr double kSomeChange = 1e-3;
   CalibrationResult changed;
-  changed.table = read_measurements(scene);
+  changed.table = table;
   changed.parameters = free_parameters(scene, meshes, changed.table);
   changed.fit.theta =
       Eigen::VectorXd::Constant(static_cast<Eigen::Index>(changed.parameters.size()), kSomeChange);
@@ -127,6 +128,7 @@ class Stages {
 CalibrationResult calibrate_aloud(const CalibrateCommand& command,
                                   const Scene& scene,
                                   const std::vector<FittedSurface>& surfaces,
+                                  const MeasurementTable& table,
                                   const std::vector<TriangleMesh>& meshes,
                                   const std::optional<Eigen::VectorXd>& from,
                                   CalibrationJournal& journal) {
@@ -145,7 +147,7 @@ CalibrationResult calibrate_aloud(const CalibrateCommand& command,
     journal.append(theta, cost);
   };
   try {
-    return calibrate(scene, surfaces, meshes, options);
+    return calibrate(scene, surfaces, table, meshes, options);
   } catch (const InputError&) {
     if (!journal.holds_numbers()) journal.remove();
     throw;
@@ -189,22 +191,23 @@ std::vector<fs::path> write_tables(const CalibrateCommand& command,
 int run_calibrate(const CalibrateCommand& command) {
   const Talk& talk = command.talk;
   CommandClock clock;
+  MeasurementTable table;
   auto [scene, surfaces, run] =
       begin_study(talk, command.scene, command.output, [&](const Scene& s) {
         if (!s.calibration)
           throw InputError(s.file.string() +
                            ": [calibrate] is missing, expected the table of measurements");
         check_files(command, s);
-        (void)read_measurements(s);  // before the surfaces are fitted
+        table = read_measurements(s);  // before the surfaces are fitted
       });
   if (command.seed) scene.calibration->seed = *command.seed;
   const std::vector<TriangleMesh> meshes = meshes_of(scene, surfaces);
-  check_text(command, scene, meshes);
+  check_text(command, scene, table, meshes);
   const CalibrationIdentity identity = calibration_identity(scene, surfaces);
   const std::optional<Eigen::VectorXd> from = earlier_numbers(command, identity, scene);
   CalibrationJournal journal(journal_path(command.output), identity, from);
   const auto result = std::make_shared<const CalibrationResult>(
-      calibrate_aloud(command, scene, surfaces, meshes, from, journal));
+      calibrate_aloud(command, scene, surfaces, table, meshes, from, journal));
   run.study = result;
   for (const std::string& line : calibration_lines(scene, *result)) say(talk, "{}\n", line);
   say(talk, "\n");

@@ -227,13 +227,14 @@ void find_studies(const Scene& scene,
 
 CalibrationResult calibrate(const Scene& scene,
                             const std::vector<FittedSurface>& surfaces,
+                            const MeasurementTable& table,
                             const std::vector<TriangleMesh>& meshes,
                             const CalibrationOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const CalibrationDescription& asked = *scene.calibration;
   StudyProgress progress(options.on_progress);
   CalibrationResult result;
-  result.table = read_measurements(scene);
+  result.table = table;
   result.parameters = free_parameters(scene, meshes, result.table);
   KneeFit knee(scene, surfaces, result.table, result.parameters, options.threads);
   result.prior_sd = knee.problem().rows.prior_sd;

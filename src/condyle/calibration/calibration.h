@@ -113,11 +113,12 @@ struct CalibrationOptions {
   std::function<void(const Eigen::VectorXd& theta, double cost)> on_better;
 };
 
-/// `surfaces` as from fit_surfaces, `meshes` as by Scene::bodies (body frame [mm], empty where none).
-/// Needs scene.calibration. Throws InputError as read_measurements, free_parameters and Predictions
+/// `surfaces` as from fit_surfaces, `table` as from read_measurements, `meshes` as by Scene::bodies (body frame [mm], empty where none).
+/// Needs scene.calibration. Throws InputError as free_parameters and Predictions
 /// do, and for more parameters than fitted rows without a prior that holds them.
 [[nodiscard]] CalibrationResult calibrate(const Scene& scene,
                                           const std::vector<FittedSurface>& surfaces,
+                                          const MeasurementTable& table,
                                           const std::vector<TriangleMesh>& meshes,
                                           const CalibrationOptions& options = {});
 

@@ -74,6 +74,9 @@ double Predictions::difference_of_cold_path(const VectorXd& theta) {
 
 VectorXd Predictions::input_variance(const VectorXd& theta) {
   PredictionParts& parts = *parts_;
+  const CalibrationDescription& inputs = *parts.study->scene.calibration;
+  if (inputs.flexion_sd == 0 && inputs.level_sd == 0)
+    return VectorXd::Zero(static_cast<Eigen::Index>(rows()));
   VectorXd y;
   if (!parts.evaluate(theta, y, nullptr))
     return VectorXd::Constant(static_cast<Eigen::Index>(rows()), kNoPrediction);
