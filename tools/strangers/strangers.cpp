@@ -414,7 +414,7 @@ int run(int argc, char** argv) {
       "by `condyle "
       "sweep`, every converged pose checked by `condyle verify` (docs/verify.md).");
   if (study.quick) study.write("\nA quick selection (`--quick`), not the whole study.");
-  if (app.count("--sweeps") > 0)
+  if (study.rough_sweeps != Study{}.rough_sweeps)
     study.write(fmt::format("\nOf rough bone a selection (`--sweeps {}`); the whole has 2000.",
                             study.rough_sweeps));
   for (const std::string& name : study.absent) {
