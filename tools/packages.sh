@@ -7,7 +7,7 @@ build_packages=(
   libeigen3-dev libassimp-dev libnanoflann-dev libhdf5-dev libtomlplusplus-dev libfmt-dev libcli11-dev
   libosmesa6-dev libpng-dev libfreetype-dev fonts-dejavu-core gnuplot-nox
   libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libpugixml-dev
-  libsundials-dev libceres-dev librandom123-dev libssl-dev libgtest-dev libbenchmark-dev hdf5-tools python3-h5py
+  libsundials-dev libceres-dev librandom123-dev libboost-dev libssl-dev libgtest-dev libbenchmark-dev hdf5-tools python3-h5py
 )
 
 missing_packages() {

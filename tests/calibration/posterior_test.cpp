@@ -8,7 +8,7 @@
 
 #include "condyle/calibration/agreement.h"
 #include "condyle/calibration/multi_start.h"
-#include "condyle/calibration/normal_draws.h"
+#include "condyle/design/normal_draws.h"
 #include "condyle/calibration/posterior_samples.h"
 #include "condyle/calibration/profiles.h"
 #include "support/random_matrix.h"

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "condyle/calibration/free_parameter.h"
-#include "condyle/calibration/normal_draws.h"
+#include "condyle/design/normal_draws.h"
 #include "condyle/calibration/predictions.h"
 #include "condyle/elements/joint_table.h"
 #include "condyle/scene_file/read_scene.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "condyle/calibration/normal_draws.h"
+#include "condyle/design/normal_draws.h"
 
 namespace condyle {
 namespace {

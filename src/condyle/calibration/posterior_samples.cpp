@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "condyle/calibration/normal_draws.h"
+#include "condyle/design/normal_draws.h"
 
 namespace condyle {
 namespace {

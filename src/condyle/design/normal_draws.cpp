@@ -1,4 +1,4 @@
-#include "condyle/calibration/normal_draws.h"
+#include "condyle/design/normal_draws.h"
 
 #include <Random123/philox.h>
 

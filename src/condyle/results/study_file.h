@@ -1,0 +1,67 @@
+#pragma once
+
+/// The result of a study (format "condyle study 1", docs/results.md): /samples, /outputs, /bands,
+/// /indices, /failures, written from chunks in the order of samples with no more than one output in
+/// memory, and what pictures and pages read of it.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "condyle/equilibrium/pose_result.h"
+#include "condyle/on_progress.h"
+#include "condyle/results/study_journal.h"
+#include "condyle/scene/swept_quantity.h"
+#include "condyle/study/study_plan.h"
+#include "condyle/study/study_summary.h"
+
+namespace condyle {
+
+/// Bytes that the result and the journals of a study take on disk.
+[[nodiscard]] std::uint64_t study_bytes(const StudyPlan& plan);
+
+/// Throws InputError ("needs 12.3 GB, the disk has 4.5 GB") where there is no room for what is not
+/// computed yet.
+void expect_room(const std::filesystem::path& result,
+                 const StudyPlan& plan,
+                 std::uint64_t done_chunks);
+
+/// Merges the chunks, which must be complete, reduces them, and writes the file: whole or not at all.
+/// `nominal` as by knees. The same bytes for the same chunks, but for /provenance.
+StudySummary write_study(const std::filesystem::path& path,
+                         const StudyPlan& plan,
+                         const StudyJournals& journals,
+                         const std::vector<const SweepResult*>& nominal,
+                         const OnProgress& on_output = {});
+
+/// What there is to show of a study: all but the samples.
+struct StudyView {
+  std::string title, text;  ///< of the study file
+  std::string program, created;
+  std::vector<std::string> knees;   ///< names
+  std::vector<std::string> scenes;  ///< texts
+  std::string design;               ///< "saltelli"
+  std::uint64_t seed = 0;
+  long samples = 0, points = 0;  ///< of all knees; of each
+  SweptQuantity swept;
+  std::vector<double> values;  ///< of the sweep, in the unit of result files
+  struct Parameter {
+    std::string name, units;
+    bool logarithmic = false;
+    std::string spread;  ///< in words: "normal, sd 0.02", "uniform, -0.02 to 0.02"
+    double typical = 0;  ///< sd of θ over the samples
+  };
+  std::vector<Parameter> parameters;
+  struct Output {
+    std::string name, units;
+  };
+  std::vector<Output> outputs;
+  StudySummary all;
+  std::vector<StudySummary> by_knee;  ///< of a population; else empty
+};
+
+[[nodiscard]] bool is_study_file(const std::filesystem::path& path);
+/// Throws InputError for a file that is missing or is no study.
+[[nodiscard]] StudyView read_study_file(const std::filesystem::path& path);
+
+}  // namespace condyle
