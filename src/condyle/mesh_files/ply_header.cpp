@@ -115,9 +115,10 @@ class HeaderReader {
     const string_view text = word();
     const char* last = text.data() + text.size();
     const auto [end, error] = std::from_chars(text.data(), last, element.count);
-    constexpr long kMost = std::numeric_limits<int>::max() / 3;
-    if (error != std::errc{} || end != last || element.count < 0 || element.count > kMost)
-      fail(fmt::format("element without a count: \"{}\", expected 0 to {}", quotable(text), kMost));
+    constexpr long kMostOfOne = std::numeric_limits<int>::max() / 3;
+    if (error != std::errc{} || end != last || element.count < 0 || element.count > kMostOfOne)
+      fail(fmt::format("element without a count: \"{}\", expected 0 to {}", quotable(text),
+                       kMostOfOne));
     for (const PlyElement& other : header_.elements)
       if (other.name == element.name)
         fail(fmt::format("a second element \"{}\", expected one", quotable(element.name)));
