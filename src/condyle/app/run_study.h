@@ -1,0 +1,51 @@
+#pragma once
+
+/// What `condyle study` does, for one process with threads and for the ranks of a network alike.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/app/talk.h"
+#include "condyle/results/study_journal.h"
+#include "condyle/study/study_chunk.h"
+
+namespace condyle {
+
+struct StudyCommand {
+  Talk talk;
+  std::string study, output;
+  std::string bands, indices, table;  ///< CSV files; empty: not asked for
+  std::optional<std::uint64_t> seed;
+  std::optional<long> samples;
+  int threads = 0;  ///< of each process; 0: as many as there are cores
+  StudyPart part;
+  bool merge = false, resume = false;
+};
+
+/// The processes that work on one study. Rank 0 takes the folder of journals, says things, merges and
+/// writes; the others compute, and append to journals of their own. A process of its own is a team of one.
+struct StudyTeam {
+  int rank = 0, size = 1;
+  /// Who computes which of the missing chunks. Called once by every process, at the same place; the
+  /// list of rank 0 counts.
+  std::function<NextChunk(std::vector<std::uint64_t> missing)> share = chunks_from_counter;
+  /// Messages of the network: called after each sample of the calling thread, and while rank 0 waits.
+  std::function<void()> between = [] {};
+  /// Waits until all have come here.
+  std::function<void()> barrier = [] {};
+  /// Whether any process says yes. Called by all at the same place.
+  std::function<bool(bool)> any = [](bool mine) { return mine; };
+  [[nodiscard]] bool first() const { return rank == 0; }
+};
+
+/// Arguments and options of `study` but those of Talk; each --option checks itself.
+void add_study_options(CLI::App& command, StudyCommand& options);
+
+/// Returns the exit code: 0, or 2 where it was stopped or a nominal sweep fails. Throws InputError; on
+/// a team the process that throws must end the others.
+int run_study(const StudyCommand& command, const StudyTeam& team = {});
+
+}  // namespace condyle
