@@ -55,6 +55,7 @@ struct StudyDescription {
   std::vector<std::string>
       outputs;                    ///< as written; empty: joint coordinates, forces of contacts and
                                   ///< ligaments
+  int outputs_line = 0;           ///< where they stand in the file, for messages
   bool single_precision = false;  ///< outputs are kept as float32
   std::optional<VariedRoughness> roughness;
 };

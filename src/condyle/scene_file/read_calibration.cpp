@@ -1,11 +1,12 @@
-/// [calibrate]: the table of measurements, what the names in it mean, and how far it is trusted. The
-/// numbers that are free: read_fitted_numbers.cpp.
+/// [calibrate]: the table of measurements, what the names in it mean, how far it is trusted, and which
+/// numbers of the knee are free.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/scene_file/read_numbers.h"
 #include "condyle/scene_file/read_sections.h"
 
 namespace condyle {
@@ -108,6 +109,22 @@ CalibrationLoad read_tested_load(const Section& section,
 }
 
 }  // namespace
+
+std::vector<CalibrationParameter> read_fitted_numbers(const Section& calibrate,
+                                                      const Scene& scene) {
+  std::vector<CalibrationParameter> parameters;
+  NamedNumbers named;
+  for (const Section& section : calibrate.sections("parameter")) {
+    CalibrationParameter parameter = read_named_numbers(section, scene, named);
+    read_deviation(section, scene, "prior_sd", "a standard deviation of the prior", parameter);
+    read_bounds(section, scene, parameter);
+    section.finish();
+    parameters.push_back(parameter);
+  }
+  if (parameters.empty())
+    calibrate.fail_with("has no [[calibrate.parameter]], expected one or more numbers to fit");
+  return parameters;
+}
 
 void read_calibration(const Section& root, Scene& scene) {
   if (!root.has("calibrate")) return;

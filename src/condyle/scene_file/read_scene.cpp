@@ -15,24 +15,6 @@
 namespace condyle {
 namespace {
 
-std::string contents(const std::filesystem::path& file) {
-  const std::string name = file.string();
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status))
-    throw InputError(name + ": no such file, expected a scene (TOML)");
-  if (std::filesystem::is_directory(status))
-    throw InputError(name + ": is a folder, expected a scene (TOML)");
-  if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_fifo(status))
-    throw InputError(name + ": is neither a file nor a pipe, expected a scene (TOML)");
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream)
-    throw InputError(name + ": cannot be read, expected a scene (TOML) that is not empty");
-  return text.str();
-}
-
 Scene parse(const std::string& text, const std::filesystem::path& file, bool meshes_must_exist) {
   const Source source{file.string(), file.parent_path(), meshes_must_exist};
   const Value document = parse_document(text, source.file);
@@ -60,7 +42,27 @@ Scene parse(const std::string& text, const std::filesystem::path& file, bool mes
 
 }  // namespace
 
-Scene read_scene(const std::filesystem::path& file) { return parse(contents(file), file, true); }
+std::string text_of(const std::filesystem::path& file, const std::string& expected) {
+  const std::string name = file.string();
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status))
+    throw InputError(name + ": no such file, expected " + expected);
+  if (std::filesystem::is_directory(status))
+    throw InputError(name + ": is a folder, expected " + expected);
+  if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_fifo(status))
+    throw InputError(name + ": is neither a file nor a pipe, expected " + expected);
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream)
+    throw InputError(name + ": cannot be read, expected " + expected + " that is not empty");
+  return text.str();
+}
+
+Scene read_scene(const std::filesystem::path& file) {
+  return parse(text_of(file, "a scene (TOML)"), file, true);
+}
 
 Scene parse_scene(const std::string& text, const std::filesystem::path& file) {
   return parse(text, file, false);

@@ -29,6 +29,9 @@ void read_calibration(const Section& root, Scene& scene);
 
 // Shared by them:
 
+/// The whole of a file. Throws InputError for what is none: `expected` "a scene (TOML)".
+[[nodiscard]] std::string text_of(const std::filesystem::path& file, const std::string& expected);
+
 /// The keys `law` and what belongs to it, of a contact whose surfaces and state are known; `root`
 /// for messages about its surfaces.
 void read_layers(const Section& root,
