@@ -117,8 +117,7 @@ TEST_F(ReadStudyTest, RoughnessIsInTheFirstScenesUnit) {
             "that are fitted to a mesh: knee.toml has none");
   std::string scene = with(kSmallScene, "length = \"mm\"", "length = \"cm\"");
   scene = with(scene, "kind = \"sphere\"\ncenter = [0, 20, 0]\nradius = 20",
-               "kind = \"patch\"\nmesh = \"ball.stl\"\nregion = { box = [[0, 0, 0], [1, 1, 1]], "
-               "direction = [0, 1, 0] }");
+               "kind = \"patch\"\nmesh = \"ball.stl\"\nregion = { box = [[0, 0, 0], [1, 1, 1]] }");
   scene = with(scene, "slack_length = 30", "slack_length = 3");
   write("ball.stl", "");
   write("knee.toml", scene);
