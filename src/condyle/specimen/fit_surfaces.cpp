@@ -312,13 +312,14 @@ void fit_source(const Scene& scene,
     if (!scene.surfaces[i].patch.mesh) surfaces[i].bone = bone;
 }
 
-/// Work for all sources on two threads, the first error rethrown: sources share nothing but their
+/// Work for all sources on one or two threads, the first error rethrown: sources share nothing but their
 /// own places in `surfaces`.
 void fit_sources(const Scene& scene,
                  const MeshReader& read,
                  std::vector<Source>& sources,
                  std::vector<FittedSurface>& surfaces,
-                 const OnProgress& on_patch) {
+                 const OnProgress& on_patch,
+                 int threads) {
   std::vector<std::exception_ptr> errors(sources.size());
   int done = 0, total = 0;
   for (const Source& source : sources) total += static_cast<int>(source.surfaces.size());
@@ -337,9 +338,13 @@ void fit_sources(const Scene& scene,
       }
     }
   };
-  std::thread other(work, 1, 2);
-  work(0, 2);
-  other.join();
+  if (threads < 2) {
+    work(0, 1);
+  } else {
+    std::thread other(work, 1, 2);
+    work(0, 2);
+    other.join();
+  }
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);
 }
@@ -369,13 +374,14 @@ std::unique_ptr<Surface> make_exact_surface(const SurfaceDescription& s) {
 
 std::vector<FittedSurface> fit_surfaces(const Scene& scene,
                                         const OnProgress& on_patch,
-                                        const MeshReader& read) {
+                                        const MeshReader& read,
+                                        int threads) {
   std::vector<Source> sources = collect_sources(scene);
   std::vector<FittedSurface> surfaces(scene.surfaces.size());
   const MeshReader from_file = [](const MeshFile& file) {
     return load_mesh(file.path, file.to_mm);
   };
-  fit_sources(scene, read ? read : from_file, sources, surfaces, on_patch);
+  fit_sources(scene, read ? read : from_file, sources, surfaces, on_patch, threads);
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     if (scene.surfaces[i].kind != SurfaceKind::kPatch)
       surfaces[i].surface = make_exact_surface(scene.surfaces[i]);

@@ -23,10 +23,12 @@ using MeshReader = std::function<TriangleMesh(const MeshFile&)>;
 
 /// One entry per Scene::surfaces, in the frames of the scene; where these have their origins does
 /// not matter. Throws InputError for meshes that cannot be used and layers that have no room. `on_patch` is told of each patch
-/// that is fitted, from either of two threads but never from both at once.
+/// that is fitted, from either of two threads but never from both at once. `threads`: 2, or 1 for
+/// callers that have threads of their own.
 [[nodiscard]] std::vector<FittedSurface> fit_surfaces(const Scene& scene,
                                                       const OnProgress& on_patch = {},
-                                                      const MeshReader& read = {});
+                                                      const MeshReader& read = {},
+                                                      int threads = 2);
 
 /// The mesh of a body, loaded and cleaned, in mm; empty where the scene names none.
 [[nodiscard]] TriangleMesh load_body_mesh(const BodyDescription& body);
