@@ -3,34 +3,23 @@
 /// Chunks of a study under way, on disk: a folder beside the result, STUDY.h5.journal/, with a file for
 /// each worker that ever wrote. Binary, little-endian, as the machine has it:
 ///
-///     "condyle study 1\n", identity as lines of text (WHAT HASH), a blank line
-///     then chunks: index, samples, bytes of payload (64 bits each), payload, checksum of all of it
+///     "condyle study 1\n", identity as lines of text (WHAT HASH), their checksum, a blank line
+///     then chunks (study_chunk_file.h)
 ///
 /// A chunk whose checksum does not fit, and what follows it in that file, is not read. The folder
-/// belongs to one run at a time; runs of parts (--part i/n) share it, each part once.
+/// belongs to one run at a time (locks by flock on files in it); runs of parts (--part i/n) share it,
+/// each part once.
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <string>
-#include <utility>
 #include <vector>
 
+#include "condyle/results/study_folder.h"
+#include "condyle/results/study_identity.h"
 #include "condyle/study/study_chunk.h"
 
 namespace condyle {
-
-/// What samples depend on: hashes by name, "study", "scene knee.toml", "surfaces knee.toml", "design
-/// table", "program".
-using StudyIdentity = std::vector<std::pair<std::string, std::uint64_t>>;
-[[nodiscard]] StudyIdentity study_identity(const StudyPlan& plan);
-
-/// Part i of n, 1 <= i <= n: the chunks c with c % n == i - 1.
-struct StudyPart {
-  int i = 1, n = 1;
-  [[nodiscard]] bool whole() const { return n == 1; }
-};
 
 class StudyJournals {
  public:
@@ -44,7 +33,12 @@ class StudyJournals {
                 const StudyPlan& plan,
                 StudyPart part,
                 bool resume);
+  /// For the other processes of a team whose first one has taken the folder: reads what is there and
+  /// appends to files of its own.
+  [[nodiscard]] static StudyJournals join(const std::filesystem::path& result,
+                                          const StudyPlan& plan);
   ~StudyJournals();
+  StudyJournals(StudyJournals&&) noexcept;
 
   /// Chunks that are there.
   [[nodiscard]] bool has(std::uint64_t chunk) const;
@@ -53,11 +47,13 @@ class StudyJournals {
   [[nodiscard]] std::vector<std::uint64_t> missing() const;
 
   /// A file of its own for each worker; numbers need not be in order. Each is one write. Throws
-  /// InputError (disk full). Several workers may append at the same time.
+  /// InputError (disk full); what was written before stays good. Several workers may append at the same
+  /// time.
   void append(int worker, const StudyChunk& chunk);
 
   /// Looks at what others wrote (ranks, parts).
   void read_again();
+  /// Throws InputError where it has been damaged since. To be asked from one thread.
   [[nodiscard]] StudyChunk read(std::uint64_t chunk) const;
 
   /// The study is complete: the folder is no longer needed.
@@ -65,6 +61,7 @@ class StudyJournals {
 
  private:
   struct Parts;
+  explicit StudyJournals(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;
 };
 
