@@ -2,6 +2,12 @@
 
 /// The points of a study: point k is a function of the seed and of k and of nothing else, so that
 /// anyone can compute it at any time; nothing is stored or sent.
+///
+/// kMonteCarlo: independent (uniform_draws.h). kLatinHypercube [McKay 1979]: coordinate j of point k is
+/// (π_j(k) + u)/n with a permutation π_j of its own (permutation.h). kSobol: sobol_points.h. kSaltelli
+/// [Saltelli 2010]: a Sobol point of 2d coordinates is a row of A and one of B; AB_j is A's row with
+/// coordinate j of B's. kGrid: midpoints (l + 1/2)/levels in all combinations, the last coordinate the
+/// fastest.
 
 #include <cstdint>
 #include <memory>
@@ -21,8 +27,8 @@ struct DesignOptions {
 
 class SampleDesign {
  public:
-  /// Throws InputError with one sentence for a design that cannot be: too many dimensions for Sobol's
-  /// sequence, more than 2^53 points.
+  /// Throws InputError with one sentence for a design that cannot be: no dimension, no point, too many
+  /// dimensions for Sobol's sequence, more than 2^53 points.
   explicit SampleDesign(const DesignOptions& options);
   ~SampleDesign();
   SampleDesign(SampleDesign&&) noexcept;
@@ -30,7 +36,7 @@ class SampleDesign {
   /// How many points there are; kSaltelli: points * (dimensions + 2), in the order A_0 B_0 AB_0,1 ...
   /// AB_0,d A_1 ...: what belongs together is computed together.
   [[nodiscard]] std::uint64_t size() const;
-  /// Point k, 0 < u < 1 each. Threads may ask at the same time.
+  /// Point k < size(), 0 < u < 1 each. Threads may ask at the same time.
   void point(std::uint64_t k, std::vector<double>& u) const;
 
  private:

@@ -13,11 +13,13 @@ struct Spread {
     kBits      ///< the point itself: a seed of something random
   };
   Kind kind = Kind::kNormal;
-  double sd = 1;
-  std::array<double, 2> bounds = {-1e300, 1e300};
+  double sd = 1;  ///< kNormal, > 0: of the normal distribution before it is cut
+  std::array<double, 2> bounds = {-1e300, 1e300};  ///< [0] <= [1]
 };
 
-/// The inverse of its distribution function at 0 < u < 1 (Boost.Math).
+/// The inverse of its distribution function at 0 < u < 1 (Boost.Math). Never beyond the bounds, and
+/// accurate in both tails. Where the bounds leave nothing but what lies beyond 37 sd, all of it stands
+/// at the bound next to the mean.
 [[nodiscard]] double quantile(const Spread& spread, double u);
 
 }  // namespace condyle
