@@ -60,16 +60,6 @@ void check_files(const CalibrateCommand& command, const Scene& scene) {
   }
 }
 
-/// The meshes by Scene::bodies, empty ones where there are none.
-std::vector<TriangleMesh> meshes_of(const Scene& scene,
-                                    const std::vector<FittedSurface>& surfaces) {
-  std::vector<TriangleMesh> meshes;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    meshes.push_back(scene.bodies[b].mesh ? body_mesh(scene, static_cast<int>(b), surfaces)
-                                          : TriangleMesh{});
-  return meshes;
-}
-
 /// Before the long work: every number that may change has a place in the text.
 void check_text(const CalibrateCommand& command,
                 const Scene& scene,
@@ -201,7 +191,7 @@ int run_calibrate(const CalibrateCommand& command) {
         table = read_measurements(s);  // before the surfaces are fitted
       });
   if (command.seed) scene.calibration->seed = *command.seed;
-  const std::vector<TriangleMesh> meshes = meshes_of(scene, surfaces);
+  const std::vector<TriangleMesh> meshes = body_meshes(scene, surfaces);
   check_text(command, scene, table, meshes);
   const CalibrationIdentity identity = calibration_identity(scene, surfaces);
   const std::optional<Eigen::VectorXd> from = earlier_numbers(command, identity, scene);

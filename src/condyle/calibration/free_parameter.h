@@ -26,6 +26,7 @@ struct FreeParameter {
       name;  ///< "aACL.reference_strain", "pPCL.insertion.tibia.normal", "ap30.anterior_drawer offset"
   std::string units;  ///< of θ: "1", "mm", "rad"
   Kind kind = Kind::kNumber;
+  std::size_t asked = 0;  ///< kNumber: which of those that were asked for it comes from
   /// kNumber: each moves by its factor times θ, or by exp(θ) where logarithmic.
   std::vector<std::pair<ModelParameter, double>> moves;
   bool logarithmic = false;    ///< θ = ln(number/number of the scene)
@@ -40,13 +41,22 @@ struct FreeParameter {
   [[nodiscard]] bool nuisance() const { return kind != Kind::kNumber; }
 };
 
-/// Those that [calibrate] asks for, in its order, nuisance last. Insertions move in the tangent plane
-/// and along the normal of the nearest point of their bone (meshes as by Scene::bodies, body frame
-/// [mm], empty ones have none: then along the axes of the body, all with prior_sd); what stays then is
-/// the slack length where that is free, else the reference strain where it is free or the scene gives
-/// one, so that the order of changes does not matter. A transition strain stays above a tenth of itself.
-/// Throws InputError
-/// for a number that the scene does not have: the strain of a table, a number twice free.
+/// Those that are asked for, in that order (FreeParameter::asked), all of kind kNumber. Insertions move in
+/// the tangent plane and along the normal of the nearest point of their bone (meshes as by
+/// Scene::bodies, body frame [mm], empty ones have none: then along the axes of the body, all with
+/// prior_sd); what stays then is the slack length where that is free, else the reference strain where it
+/// is free or the scene gives one, so that the order of changes does not matter. A transition strain
+/// stays above a tenth of itself. Throws InputError, which begins with `where` ("knee.toml:
+/// [[calibrate.parameter]]"), for a number that the scene does not have: the strain of a table, a number
+/// twice free.
+[[nodiscard]] std::vector<FreeParameter> free_numbers(
+    const Scene& scene,
+    const std::vector<CalibrationParameter>& asked,
+    const std::vector<TriangleMesh>& meshes,
+    const std::string& where);
+
+/// Those that [calibrate] asks for, in its order, nuisance last. Meshes as by
+/// Scene::bodies. Throws InputError for a number that the scene does not have, and for one twice free.
 [[nodiscard]] std::vector<FreeParameter> free_parameters(const Scene& scene,
                                                          const std::vector<TriangleMesh>& meshes,
                                                          const MeasurementTable& table);

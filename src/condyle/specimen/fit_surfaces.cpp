@@ -400,4 +400,13 @@ TriangleMesh body_mesh(const Scene& scene, int body, const std::vector<FittedSur
   return load_body_mesh(scene.bodies[body]);
 }
 
+std::vector<TriangleMesh> body_meshes(const Scene& scene,
+                                      const std::vector<FittedSurface>& surfaces) {
+  std::vector<TriangleMesh> meshes;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    meshes.push_back(scene.bodies[b].mesh ? body_mesh(scene, static_cast<int>(b), surfaces)
+                                          : TriangleMesh{});
+  return meshes;
+}
+
 }  // namespace condyle

@@ -37,5 +37,8 @@ using MeshReader = std::function<TriangleMesh(const MeshFile&)>;
 [[nodiscard]] TriangleMesh body_mesh(const Scene& scene,
                                      int body,
                                      const std::vector<FittedSurface>& surfaces);
+/// Of all bodies; empty ones where the scene names none.
+[[nodiscard]] std::vector<TriangleMesh> body_meshes(const Scene& scene,
+                                                    const std::vector<FittedSurface>& surfaces);
 
 }  // namespace condyle

@@ -55,7 +55,8 @@ struct StudyPlan {
   [[nodiscard]] std::size_t numbers() const { return values.size() * outputs.size(); }
 };
 
-/// Fits the surfaces of all knees. Throws InputError.
+/// Fits the surfaces of all knees, and reads the table where there is one (study_table.h). A range of a
+/// factor is one of its logarithm. Throws InputError.
 [[nodiscard]] StudyPlan study_plan(ReadStudy study, const OnProgress& on_knee = {});
 
 }  // namespace condyle

@@ -30,7 +30,8 @@ class StudyWorker {
   StudyWorker(const StudyPlan& plan, std::shared_ptr<const StudyModels> models);
   ~StudyWorker();
 
-  /// status: poses; values: poses times outputs, NaN where a pose is not solved.
+  /// status: poses; values: poses times outputs, NaN where a pose did not
+  /// converge (one beyond a known surface has a status too).
   void evaluate(std::uint64_t sample, std::uint8_t* status, double* values);
   /// The same at any θ of a knee.
   void evaluate(std::size_t knee,

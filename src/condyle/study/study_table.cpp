@@ -1,0 +1,63 @@
+#include "condyle/study/study_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/calibration/csv_file.h"
+#include "condyle/input_error.h"
+
+namespace condyle {
+namespace {
+
+std::size_t column_of(const std::string& name, const CsvFile& csv) {
+  const std::vector<std::string>& names = csv.header.fields;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw InputError(
+        fmt::format("{}:{}: no column \"{}\", expected one for each number that varies",
+                    csv.file.string(), csv.header.line, name));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+/// θ of a number that a table holds itself; NaN where there is none.
+double theta_of(double number, const FreeParameter& parameter) {
+  if (!parameter.logarithmic) return number - parameter.start;
+  const double nominal = parameter.start > 0 ? parameter.start : 1;  // 0: a factor on several
+  return number > 0 ? std::log(number / nominal) : std::nan("");
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> read_study_table(const StudyDescription& study,
+                                                  const std::vector<std::string>& names,
+                                                  const std::vector<FreeParameter>& numbers) {
+  const CsvFile csv = read_csv(study.table, "a table of points (CSV)");
+  const std::string file = study.table.string();
+  std::vector<std::size_t> columns;
+  for (const std::string& name : names) columns.push_back(column_of(name, csv));
+  std::vector<std::vector<double>> points;
+  for (const CsvRow& row : csv.rows) {
+    if (study.samples > 0 && points.size() == static_cast<std::size_t>(study.samples)) break;
+    std::vector<double>& theta = points.emplace_back();
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      const std::string& field = row.fields[columns[j]];
+      double value = csv_number(field);
+      const bool itself = study.table_holds_values && j < numbers.size();
+      if (itself && std::isfinite(value)) value = theta_of(value, numbers[j]);
+      if (!std::isfinite(value))
+        throw InputError(
+            fmt::format("{}:{}: {} = {}, expected {}", file, row.line, names[j], field,
+                        itself && numbers[j].logarithmic ? "a number > 0" : "a number"));
+      theta.push_back(value);
+    }
+  }
+  if (points.empty()) throw InputError(fmt::format("{}: no rows, expected a point in each", file));
+  if (study.samples > 0 && points.size() < static_cast<std::size_t>(study.samples))
+    throw InputError(fmt::format("{}: {} rows, expected {} (samples = {})", file, points.size(),
+                                 study.samples, study.samples));
+  return points;
+}
+
+}  // namespace condyle

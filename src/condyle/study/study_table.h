@@ -1,0 +1,22 @@
+#pragma once
+
+/// The points of a study from a table (CSV): a column for each number that varies, a row for each point;
+/// what `condyle calibrate --posterior` writes is one. Columns of other names are not read.
+
+#include <string>
+#include <vector>
+
+#include "condyle/calibration/free_parameter.h"
+#include "condyle/scene/study_description.h"
+
+namespace condyle {
+
+/// θ of each row, as many as `study` asks for (0: all), in the order of `names`: those of `numbers`, and
+/// what else varies. With table_holds_values the numbers themselves, of insertions and of numbers that
+/// move together their change or factor. Throws InputError: file, line, column and what was expected.
+[[nodiscard]] std::vector<std::vector<double>> read_study_table(
+    const StudyDescription& study,
+    const std::vector<std::string>& names,
+    const std::vector<FreeParameter>& numbers);
+
+}  // namespace condyle
