@@ -47,11 +47,13 @@ Shape shape_of(const Hdf5Handle& space) {
 }
 
 // Long data are compressed in pieces of about half a megabyte.
-Hdf5Handle creation_properties(const Shape& shape) {
+Hdf5Handle creation_properties(const Shape& shape, bool in_one_piece) {
   constexpr std::size_t kLong = 4096, kPiece = 65536;
   Hdf5Handle properties = property_list(H5P_DATASET_CREATE);
   H5Pset_obj_track_times(properties.id(), false);
-  if (count(shape) < kLong || H5Zfilter_avail(H5Z_FILTER_DEFLATE) <= 0) return properties;
+  if (in_one_piece) H5Pset_fill_time(properties.id(), H5D_FILL_TIME_NEVER);
+  if (in_one_piece || count(shape) < kLong || H5Zfilter_avail(H5Z_FILTER_DEFLATE) <= 0)
+    return properties;
   std::vector<hsize_t> piece(shape.begin(), shape.end());
   const std::size_t row = count(shape) / shape[0];
   piece[0] = std::clamp<hsize_t>(kPiece / row, 1, piece[0]);
@@ -133,9 +135,10 @@ std::vector<std::string> Hdf5Group::names() const {
 Hdf5Handle Hdf5Group::create_dataset(const std::string& name,
                                      std::int64_t type,
                                      const Shape& shape,
-                                     const std::string& units) const {
+                                     const std::string& units,
+                                     bool in_one_piece) const {
   const Hdf5Handle space = data_space(shape);
-  const Hdf5Handle properties = creation_properties(shape);
+  const Hdf5Handle properties = creation_properties(shape, in_one_piece);
   const hid_t id = H5Dcreate2(handle_.id(), name.c_str(), type, space.id(), H5P_DEFAULT,
                               properties.id(), H5P_DEFAULT);
   Hdf5Handle dataset = checked(id, H5Dclose, fmt::format("dataset {} cannot be made", name));
@@ -171,6 +174,33 @@ void Hdf5Group::write(const std::string& name, const std::vector<std::string>& v
   if (values.empty()) return;
   check(H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers(values).data()),
         name + " cannot be written");
+}
+
+Hdf5Rows Hdf5Group::create_rows(const std::string& name,
+                                StoredAs type,
+                                const Shape& shape,
+                                const std::string& units) const {
+  const hid_t types[] = {H5T_IEEE_F64LE, H5T_IEEE_F32LE, H5T_STD_I32LE, H5T_STD_U8LE};
+  return {create_dataset(name, types[static_cast<int>(type)], shape, units, true), shape,
+          place_ + name};
+}
+
+void Hdf5Rows::append(const std::vector<double>& values) {
+  const std::size_t width = count(shape_) / std::max<std::size_t>(shape_[0], 1);
+  const std::size_t rows = width == 0 ? 0 : values.size() / width;
+  if (rows == 0) return;
+  std::vector<hsize_t> start(shape_.size(), 0), size(shape_.begin(), shape_.end());
+  start[0] = row_;
+  size[0] = rows;
+  const Hdf5Handle space(H5Dget_space(dataset_.id()), H5Sclose);
+  const Hdf5Handle memory = data_space({values.size()});
+  if (row_ + rows > shape_[0] || values.size() != rows * width ||
+      H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr) <
+          0 ||
+      H5Dwrite(dataset_.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT,
+               values.data()) < 0)
+    throw InputError(place_ + ": cannot be written, expected room on the disk");
+  row_ += rows;
 }
 
 void Hdf5Group::attach(const Hdf5Handle& object,
@@ -292,6 +322,23 @@ std::string Hdf5Builder::bytes() const {
     throw InputError(name_ + ": cannot be built in memory");
   }
   return image;
+}
+
+Hdf5DiskFile::Hdf5DiskFile(const std::filesystem::path& file) : name_(file.string()) {
+  silence();
+  const Hdf5Handle creation = ordered_group_properties(H5P_FILE_CREATE);
+  file_ = Hdf5Handle(H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, creation.id(), H5P_DEFAULT), H5Fclose);
+  if (file_.id() < 0) throw InputError(name_ + ": cannot be written");
+}
+
+Hdf5Group Hdf5DiskFile::root() const {
+  return {Hdf5Handle(H5Gopen2(file_.id(), "/", H5P_DEFAULT), H5Gclose), name_ + ": /"};
+}
+
+void Hdf5DiskFile::close() {
+  const bool flushed = H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) >= 0;
+  if (!file_.close_now() || !flushed)
+    throw InputError(name_ + ": cannot be written, expected room on the disk");
 }
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : name_(file.string()) {

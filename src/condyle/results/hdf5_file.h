@@ -4,7 +4,7 @@
 /// InputError naming the file and the place in it; nothing of HDF5 is printed.
 ///
 /// Files are built in memory and handed out as bytes, so that a full disk is met by a plain write
-/// and never by HDF5 half-way through its own.
+/// and never by HDF5 half-way through its own; those that may be larger than memory, on disk.
 
 #include <cstdint>
 #include <filesystem>
@@ -21,6 +21,12 @@ class Hdf5Handle {
   Hdf5Handle() = default;
   Hdf5Handle(std::int64_t id, Close close) : id_(id), close_(close) {}
   Hdf5Handle(Hdf5Handle&& other) noexcept : id_(other.id_), close_(other.close_) { other.id_ = -1; }
+  /// Closes it now; false where that fails.
+  [[nodiscard]] bool close_now() {
+    const std::int64_t id = id_;
+    id_ = -1;
+    return id < 0 || close_(id) >= 0;
+  }
   Hdf5Handle& operator=(Hdf5Handle&& other) noexcept {
     std::swap(id_, other.id_);
     std::swap(close_, other.close_);
@@ -49,6 +55,22 @@ struct Hdf5Array {
   Shape shape;
 };
 
+/// A dataset that is filled by its rows (first index) from the first to the last.
+class Hdf5Rows {
+ public:
+  Hdf5Rows(Hdf5Handle dataset, Shape shape, std::string place)
+      : dataset_(std::move(dataset)), shape_(std::move(shape)), place_(std::move(place)) {}
+  /// As many whole rows as there are values.
+  void append(const std::vector<double>& values);
+
+ private:
+  Hdf5Handle dataset_;
+  Shape shape_;
+  std::size_t row_ = 0;
+  std::string place_;
+};
+enum class StoredAs { kFloat64, kFloat32, kInt32, kUint8 };
+
 class Hdf5Group {
  public:
   /// `place` names the group in messages: "run.h5: /sweep".
@@ -72,6 +94,11 @@ class Hdf5Group {
              const Shape& shape,
              const std::string& units) const;
   void write(const std::string& name, const std::vector<std::string>& values) const;
+  /// All of it lies in one piece of the file.
+  [[nodiscard]] Hdf5Rows create_rows(const std::string& name,
+                                     StoredAs type,
+                                     const Shape& shape,
+                                     const std::string& units) const;
   void write_attribute(const std::string& name, const std::string& text) const;
   /// An attribute of a dataset of this group.
   void write_attribute(const std::string& dataset,
@@ -97,7 +124,8 @@ class Hdf5Group {
   [[nodiscard]] Hdf5Handle create_dataset(const std::string& name,
                                           std::int64_t type,
                                           const Shape& shape,
-                                          const std::string& units) const;
+                                          const std::string& units,
+                                          bool in_one_piece = false) const;
   void attach(const Hdf5Handle& object,
               const std::string& name,
               const std::vector<std::string>& texts,
@@ -117,6 +145,19 @@ class Hdf5Builder {
   explicit Hdf5Builder(const std::string& file);
   [[nodiscard]] Hdf5Group root() const;
   [[nodiscard]] std::string bytes() const;
+
+ private:
+  Hdf5Handle file_;
+  std::string name_;
+};
+
+/// A new file on disk. Groups and datasets must be gone before `close`, which throws InputError where
+/// not all of it could be written.
+class Hdf5DiskFile {
+ public:
+  explicit Hdf5DiskFile(const std::filesystem::path& file);
+  [[nodiscard]] Hdf5Group root() const;
+  void close();
 
  private:
   Hdf5Handle file_;

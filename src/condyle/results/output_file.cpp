@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include "condyle/input_error.h"
 
@@ -84,6 +85,24 @@ void write_output_file(const fs::path& path, const std::string& bytes) {
   if (code == 0) code = file.keep_as(path);
   if (code != 0)
     throw InputError(fmt::format("{}: cannot be written: {}", path.string(), reason(code)));
+}
+
+FileBeside::FileBeside(fs::path path)
+    : path_(std::move(path)), name_(path_.string() + fmt::format(".part{}", ::getpid())) {}
+
+FileBeside::~FileBeside() {
+  if (!kept_) ::unlink(name_.c_str());
+}
+
+void FileBeside::keep() {
+  const int descriptor = ::open(name_.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool stored = descriptor >= 0 && ::fsync(descriptor) == 0;
+  const int code = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  kept_ = stored && ::rename(name_.c_str(), path_.c_str()) == 0;
+  if (!kept_)
+    throw InputError(
+        fmt::format("{}: cannot be written: {}", path_.string(), reason(stored ? errno : code)));
 }
 
 }  // namespace condyle

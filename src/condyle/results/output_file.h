@@ -15,4 +15,21 @@ void check_output_file(const std::filesystem::path& path);
 /// such folder, disk full, ...) and then leaves nothing behind.
 void write_output_file(const std::filesystem::path& path, const std::string& bytes);
 
+/// The same for a file that something else writes by its name.
+class FileBeside {
+ public:
+  explicit FileBeside(std::filesystem::path path);
+  FileBeside(const FileBeside&) = delete;
+  FileBeside& operator=(const FileBeside&) = delete;
+  ~FileBeside();  ///< removes it where it was not kept
+
+  [[nodiscard]] const std::filesystem::path& name() const { return name_; }
+  /// To the disk, and in the place of `path`. Throws InputError.
+  void keep();
+
+ private:
+  std::filesystem::path path_, name_;
+  bool kept_ = false;
+};
+
 }  // namespace condyle

@@ -26,12 +26,20 @@ void expect_room(const std::filesystem::path& result,
                  const StudyPlan& plan,
                  std::uint64_t done_chunks);
 
+/// How a result came to be: all that may differ between runs of a study (/provenance).
+struct StudyProvenance {
+  double seconds = 0;  ///< of the computation
+  int threads = 1, processes = 1;
+};
+
 /// Merges the chunks, which must be complete, reduces them, and writes the file: whole or not at all.
-/// `nominal` as by knees. The same bytes for the same chunks, but for /provenance.
+/// `nominal` as by knees. The same bytes for the same chunks, but for /provenance. Of several knees the
+/// summary of all pools their samples; Sobol's indices are told of each knee by itself.
 StudySummary write_study(const std::filesystem::path& path,
                          const StudyPlan& plan,
                          const StudyJournals& journals,
                          const std::vector<const SweepResult*>& nominal,
+                         const StudyProvenance& provenance = {},
                          const OnProgress& on_output = {});
 
 /// What there is to show of a study: all but the samples.

@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "condyle/input_error.h"
+#include "condyle/results/study_chunk_file.h"
+#include "condyle/results/study_file.h"
+
+namespace condyle {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Heads, summaries and the like.
+constexpr std::uint64_t kAllElse = 1 << 20;
+
+std::uint64_t journal_bytes(const StudyPlan& plan, std::uint64_t chunks) {
+  const ChunkLayout layout = chunk_layout(plan);
+  return layout.samples == 0 ? 0 : chunks * layout.record_bytes(0);
+}
+
+std::uint64_t result_bytes(const StudyPlan& plan) {
+  const std::uint64_t number = plan.study.single_precision ? sizeof(float) : sizeof(double);
+  const std::uint64_t sample = plan.parameters.size() * sizeof(double) + sizeof(std::int32_t) +
+                               plan.values.size() * (1 + plan.outputs.size() * number);
+  return plan.samples() * sample + kAllElse;
+}
+
+std::string in_words(std::uint64_t bytes) {
+  constexpr double kMega = 1e6, kGiga = 1e9;
+  const auto size = static_cast<double>(bytes);
+  return size < kGiga ? fmt::format("{:.1f} MB", size / kMega)
+                      : fmt::format("{:.1f} GB", size / kGiga);
+}
+
+}  // namespace
+
+std::uint64_t study_bytes(const StudyPlan& plan) {
+  return journal_bytes(plan, chunk_layout(plan).chunks()) + result_bytes(plan);
+}
+
+void expect_room(const fs::path& result, const StudyPlan& plan, std::uint64_t done_chunks) {
+  const std::uint64_t needed = study_bytes(plan) - journal_bytes(plan, done_chunks);
+  std::error_code error;
+  const fs::path folder = result.has_parent_path() ? result.parent_path() : fs::path(".");
+  const fs::space_info space = fs::space(folder, error);
+  if (error || needed <= space.available) return;
+  throw InputError(
+      fmt::format("{}: needs {}, the disk has {}, expected fewer samples or outputs, or float32",
+                  result.string(), in_words(needed), in_words(space.available)));
+}
+
+}  // namespace condyle
