@@ -2,9 +2,11 @@
 
 /// Sobol's first-order and total indices of one number from a design of Saltelli, each with an interval.
 ///
-/// First order: Janon, Monod et al. [2014], asymptotically efficient; total: Jansen [1999]; intervals
-/// of 95 % by the delta method over base points. A base point of which any of the d + 2 values is
-/// missing is left out.
+/// First order: Janon, Monod et al. [Janon 2014], asymptotically efficient; total: [Jansen 1999]. Both
+/// are ratios of means, so that the intervals of 95 % follow from the spread of the ratio's error over
+/// base points (delta method). They hold for independent base points; Sobol points are spread more
+/// evenly, and the intervals are then wider than need be. A base point of which any of the d + 2 values
+/// is missing is left out.
 
 #include <cstddef>
 #include <vector>
@@ -14,9 +16,10 @@
 namespace condyle {
 
 struct SobolIndices {
-  std::vector<IndexEstimate> first, total;  ///< by parameters
+  std::vector<IndexEstimate> first, total;  ///< by parameters; NaN: fewer than 4 base points, or a
+                                            ///< deviation below 1e-9 of the largest value
   long points = 0;                          ///< base points used
-  double mean = 0, variance = 0;
+  double mean = 0, variance = 0;            ///< over blocks A and B
 };
 
 /// y: by base points and blocks A, B, AB_1 ... AB_d; `stride` apart.

@@ -1,12 +1,12 @@
 #pragma once
 
 /// From samples to what they say (study_summary.h): one output after the other, so that memory holds
-/// no more than one.
+/// no more than one. Nothing depends on the number of threads; 0: as many as there are cores.
 
 #include <cstdint>
 #include <vector>
 
-#include "condyle/study/study_plan.h"
+#include "condyle/study/rank_correlation.h"
 #include "condyle/study/study_summary.h"
 
 namespace condyle {
@@ -18,10 +18,26 @@ struct OutputSamples {
 };
 
 [[nodiscard]] StudyBand study_band(const OutputSamples& samples,
-                                   const std::vector<double>& nominal);
+                                   const std::vector<double>& nominal,
+                                   int threads = 1);
+
+/// The parameters of all samples as study_effects needs them: made once for all outputs.
+struct RankedParameters {
+  bool saltelli = false;
+  std::vector<std::uint32_t> samples;  ///< whose ranks are told: all; kSaltelli: those of A and B
+  std::vector<Places> places;          ///< by parameters, of these samples
+};
 
 /// `theta`: by parameters, then samples. `saltelli`: whether samples stand in the order of
 /// SampleDesign's kSaltelli (then rank correlations are those of blocks A and B).
+[[nodiscard]] RankedParameters ranked_parameters(const std::vector<std::vector<double>>& theta,
+                                                 bool saltelli);
+
+/// Of several knees together first-order indices of a design of Saltelli are those of parameter and
+/// knee, since a base point's blocks share the knee.
+[[nodiscard]] StudyEffects study_effects(const OutputSamples& samples,
+                                         const RankedParameters& parameters,
+                                         int threads = 1);
 [[nodiscard]] StudyEffects study_effects(const OutputSamples& samples,
                                          const std::vector<std::vector<double>>& theta,
                                          bool saltelli);

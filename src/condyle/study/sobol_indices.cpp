@@ -1,0 +1,86 @@
+#include "condyle/study/sobol_indices.h"
+
+#include <Eigen/Core>
+#include <cmath>
+#include <limits>
+
+namespace condyle {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNormal95 = 1.959963984540054;
+constexpr double kLeastDeviation =
+    1e-9;  ///< of the largest value: what a solver's tolerance leaves
+
+/// Of the base points that are complete: a row each, columns A, B, AB_1 ... AB_d.
+Eigen::ArrayXXd complete_rows(const double* y,
+                              std::size_t points,
+                              std::size_t blocks,
+                              std::size_t stride) {
+  std::vector<std::size_t> complete;
+  for (std::size_t i = 0; i < points; ++i) {
+    const double* row = y + i * blocks * stride;
+    bool all = true;
+    for (std::size_t j = 0; j < blocks; ++j) all = all && std::isfinite(row[j * stride]);
+    if (all) complete.push_back(i);
+  }
+  Eigen::ArrayXXd rows(complete.size(), blocks);
+  for (std::size_t i = 0; i < complete.size(); ++i) {
+    const double* row = y + complete[i] * blocks * stride;
+    for (std::size_t j = 0; j < blocks; ++j)
+      rows(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = row[j * stride];
+  }
+  return rows;
+}
+
+/// mean(part)/mean(whole), and by the delta method its interval: the error of the ratio is the mean of
+/// (part - ratio whole)/mean(whole), whose terms are independent.
+IndexEstimate ratio_of_means(const Eigen::ArrayXd& part, const Eigen::ArrayXd& whole) {
+  const auto n = static_cast<double>(part.size());
+  const double of = whole.mean();
+  const double ratio = part.mean() / of;
+  const double squares = (part - ratio * whole).square().sum() / (of * of);
+  const double half = kNormal95 * std::sqrt(squares / (n - 1) / n);
+  return {ratio, ratio - half, ratio + half};
+}
+
+/// y and y' have parameter j in common and nothing else: cov(y, y')/var, both about the mean of all.
+/// The mean's own error is of second order.
+IndexEstimate first_order(const Eigen::ArrayXd& y, const Eigen::ArrayXd& y_j) {
+  const double mean = (y.mean() + y_j.mean()) / 2;
+  const Eigen::ArrayXd c = y - mean, c_j = y_j - mean;
+  return ratio_of_means(c * c_j, (c.square() + c_j.square()) / 2);
+}
+
+}  // namespace
+
+SobolIndices sobol_indices(const double* y,
+                           std::size_t points,
+                           std::size_t parameters,
+                           std::size_t stride) {
+  const Eigen::ArrayXXd rows = complete_rows(y, points, parameters + 2, stride);
+  const IndexEstimate none{kNaN, kNaN, kNaN};
+  SobolIndices indices;
+  indices.first.assign(parameters, none);
+  indices.total.assign(parameters, none);
+  indices.points = static_cast<long>(rows.rows());
+  indices.mean = indices.variance = kNaN;
+  if (rows.rows() == 0) return indices;
+
+  const auto a = rows.col(0), b = rows.col(1);
+  indices.mean = (a.mean() + b.mean()) / 2;
+  const Eigen::ArrayXd squares = ((a - indices.mean).square() + (b - indices.mean).square()) / 2;
+  indices.variance = squares.mean();
+  const double largest = rows.leftCols(2).abs().maxCoeff();
+  if (indices.points < 4 || !(std::sqrt(indices.variance) > kLeastDeviation * largest))
+    return indices;
+  for (std::size_t j = 0; j < parameters; ++j) {
+    const auto ab = rows.col(static_cast<Eigen::Index>(j) + 2);
+    indices.first[j] = first_order(b, ab);
+    indices.total[j] = ratio_of_means((a - ab).square() / 2, squares);
+  }
+  return indices;
+}
+
+}  // namespace condyle

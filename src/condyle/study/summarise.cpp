@@ -1,0 +1,129 @@
+#include "condyle/study/summarise.h"
+
+#include <cassert>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+
+#include "condyle/calibration/in_parallel.h"
+#include "condyle/study/quantiles.h"
+#include "condyle/study/sobol_indices.h"
+
+namespace condyle {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+void for_each_pose(std::size_t poses, int threads, const std::function<void(std::size_t)>& work) {
+  StudyProgress silent({});
+  in_parallel(
+      "", static_cast<int>(poses), threads,
+      [&] { return [&](int pose) { work(static_cast<std::size_t>(pose)); }; }, silent);
+}
+
+std::size_t sample_count(const OutputSamples& samples) {
+  return samples.poses == 0 ? 0 : samples.values.size() / samples.poses;
+}
+
+std::vector<double> known_values(const OutputSamples& samples, std::size_t pose) {
+  std::vector<double> known;
+  known.reserve(sample_count(samples));
+  for (std::size_t i = pose; i < samples.values.size(); i += samples.poses)
+    if (!std::isnan(samples.values[i])) known.push_back(samples.values[i]);
+  return known;
+}
+
+/// In two passes: about the mean. NaN of fewer than two.
+double deviation(const std::vector<double>& values, double mean) {
+  if (values.size() < 2) return kNaN;
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return std::sqrt(squares / static_cast<double>(values.size() - 1));
+}
+
+std::vector<double> correlations_at(const OutputSamples& samples,
+                                    const RankedParameters& parameters,
+                                    std::size_t pose) {
+  std::vector<std::uint32_t> known;
+  std::vector<double> y;
+  for (std::uint32_t i = 0; i < parameters.samples.size(); ++i) {
+    const double value = samples.values[parameters.samples[i] * samples.poses + pose];
+    if (std::isnan(value)) continue;
+    known.push_back(i);
+    y.push_back(value);
+  }
+  return rank_correlations(parameters.places, known, y);
+}
+
+}  // namespace
+
+StudyBand study_band(const OutputSamples& samples,
+                     const std::vector<double>& nominal,
+                     int threads) {
+  StudyBand band;
+  band.nominal = nominal;
+  band.mean.resize(samples.poses);
+  band.sd.resize(samples.poses);
+  band.samples.resize(samples.poses);
+  for (std::vector<double>& quantile : band.quantiles) quantile.resize(samples.poses);
+  for_each_pose(samples.poses, threads, [&](std::size_t pose) {
+    std::vector<double> known = known_values(samples, pose);
+    const auto n = static_cast<double>(known.size());
+    band.samples[pose] = static_cast<long>(known.size());
+    band.mean[pose] = std::accumulate(known.begin(), known.end(), 0.) / n;  // NaN of none
+    band.sd[pose] = deviation(known, band.mean[pose]);
+    const std::vector<double> quantiles = take_quantiles(known, kBandLevels);
+    for (std::size_t q = 0; q < quantiles.size(); ++q) band.quantiles[q][pose] = quantiles[q];
+  });
+  return band;
+}
+
+RankedParameters ranked_parameters(const std::vector<std::vector<double>>& theta, bool saltelli) {
+  RankedParameters ranked;
+  ranked.saltelli = saltelli;
+  const std::size_t samples = theta.empty() ? 0 : theta.front().size();
+  for (std::uint32_t k = 0; k < samples; ++k)
+    if (!saltelli || k % (theta.size() + 2) < 2) ranked.samples.push_back(k);
+  std::vector<double> values(ranked.samples.size());
+  for (const std::vector<double>& parameter : theta) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = parameter[ranked.samples[i]];
+    ranked.places.push_back(places(values));
+  }
+  return ranked;
+}
+
+StudyEffects study_effects(const OutputSamples& samples,
+                           const RankedParameters& parameters,
+                           int threads) {
+  const std::size_t count = parameters.places.size();
+  StudyEffects effects;
+  effects.rank.assign(count, std::vector<double>(samples.poses));
+  if (parameters.saltelli) {
+    assert(sample_count(samples) % (count + 2) == 0);
+    effects.first.assign(count, std::vector<IndexEstimate>(samples.poses));
+    effects.total = effects.first;
+  }
+  const std::size_t base_points = sample_count(samples) / (count + 2);
+  for_each_pose(samples.poses, threads, [&](std::size_t pose) {
+    const std::vector<double> rank = correlations_at(samples, parameters, pose);
+    for (std::size_t j = 0; j < count; ++j) effects.rank[j][pose] = rank[j];
+    if (!parameters.saltelli) return;
+    const SobolIndices indices =
+        sobol_indices(samples.values.data() + pose, base_points, count, samples.poses);
+    for (std::size_t j = 0; j < count; ++j) {
+      effects.first[j][pose] = indices.first[j];
+      effects.total[j][pose] = indices.total[j];
+    }
+  });
+  return effects;
+}
+
+StudyEffects study_effects(const OutputSamples& samples,
+                           const std::vector<std::vector<double>>& theta,
+                           bool saltelli) {
+  return study_effects(samples, ranked_parameters(theta, saltelli));
+}
+
+}  // namespace condyle
