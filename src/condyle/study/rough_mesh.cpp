@@ -131,7 +131,7 @@ TriangleMesh roughened(const FittedMesh& fitted,
       roughness_field(fitted.places, fitted.middle, roughness, number);
   TriangleMesh mesh = fitted.mesh;
   for (std::size_t i = 0; i < height.size(); ++i)
-    mesh.vertices[fitted.moved[i]] = fitted.places[i] + height[i] * fitted.normals[i];
+    mesh.vertices[fitted.moved[i]] += height[i] * fitted.normals[i];
   return mesh;
 }
 

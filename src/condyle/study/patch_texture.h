@@ -1,0 +1,47 @@
+#pragma once
+
+/// What a mesh leaves beside the patch that was fitted to it: its vertices as heights over the patch,
+/// and the strength and correlation of the texture that these heights are of.
+///
+/// A fit of smoothing length ℓ follows H(k) = 1/(1 + (ℓk)⁶) of a wave, so of a texture with correlation
+/// σ² exp(-d²/2l²) it leaves heights of covariance
+///     C(d) = σ² ∫ l² exp(-k²l²/2) (1 - H)² J0(kd) k dk.
+/// σ and l are those for which it comes nearest to the covariance of the heights farther than 4 mm from
+/// the edge of what is known, over lags up to 5 mm.
+
+#include <vector>
+
+#include "condyle/mesh/triangle_mesh.h"
+#include "condyle/scene/fitted_surface.h"
+#include "condyle/scene/scene.h"
+
+namespace condyle {
+
+/// A vertex of a mesh beside a patch. A patch that was moved out of the bone is meant where it was
+/// fitted.
+struct VertexOverPatch {
+  int vertex = 0;
+  Eigen::Vector3d foot;  ///< closest point of the patch [mm]
+  Eigen::Vector3d normal;
+  double height = 0;         ///< over the patch, out of the bone [mm]
+  double edge_distance = 0;  ///< of the foot from the edge of what is known [mm]
+};
+
+/// Those of `candidates` that the patch was fitted to: over its known part or within 2 mm of that, less
+/// than 2 mm off, and facing as the patch does.
+[[nodiscard]] std::vector<VertexOverPatch> vertices_over_patch(const TriangleMesh& mesh,
+                                                               const std::vector<int>& candidates,
+                                                               const Surface& patch,
+                                                               double offset);
+
+struct PatchTexture {
+  double rms = 0, correlation = 0;  ///< σ, l [mm]
+  double left = 0;                  ///< rms of the heights that the fit left [mm]
+};
+
+/// `surface`: how the patch was asked for; `report`: its smoothing length.
+[[nodiscard]] PatchTexture texture_beside(const std::vector<VertexOverPatch>& vertices,
+                                          const PatchDescription& surface,
+                                          const FitReport& report);
+
+}  // namespace condyle
