@@ -18,6 +18,7 @@ void setup_sweep(CLI::App& program, int& status);
 void setup_compare(CLI::App& program, int& status);
 void setup_laxity(CLI::App& program, int& status);
 void setup_calibrate(CLI::App& program, int& status);
+void setup_study(CLI::App& program, int& status);
 void setup_simulate(CLI::App& program, int& status);
 void setup_export(CLI::App& program, int& status);
 void setup_import(CLI::App& program, int& status);

@@ -13,12 +13,13 @@ namespace condyle {
 namespace {
 
 std::vector<SetupCommand> commands() {
-  return {setup_check,     setup_fit,      setup_sweep,      setup_compare, setup_laxity,
-          setup_calibrate, setup_simulate, setup_export,     setup_import,  setup_new,
+  return {setup_check,  setup_fit,       setup_sweep,      setup_compare,
+          setup_laxity, setup_calibrate, setup_study,      setup_simulate,
+          setup_export, setup_import,    setup_new,
 #ifdef CONDYLE_PICTURES
-          setup_render,    setup_plot,
+          setup_render, setup_plot,
 #endif
-          setup_verify,    setup_report,   setup_completion, setup_manual};
+          setup_verify, setup_report,    setup_completion, setup_manual};
 }
 
 }  // namespace

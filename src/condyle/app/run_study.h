@@ -36,7 +36,7 @@ struct StudyTeam {
   std::function<void()> between = [] {};
   /// Waits until all have come here.
   std::function<void()> barrier = [] {};
-  /// Whether any process says yes. Called by all at the same place.
+  /// Whether some process says yes. Called by all at the same place.
   std::function<bool(bool)> any = [](bool mine) { return mine; };
   [[nodiscard]] bool first() const { return rank == 0; }
 };

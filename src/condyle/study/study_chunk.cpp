@@ -16,10 +16,11 @@ namespace {
 class ChunkRun {
  public:
   ChunkRun(const StudyPlan& plan,
+           std::shared_ptr<const StudyModels> models,
            const NextChunk& next,
            const KeepChunk& keep,
            const std::function<bool()>& between)
-      : plan_(plan), next_(next), keep_(keep), between_(between), models_(study_models(plan)) {}
+      : plan_(plan), next_(next), keep_(keep), between_(between), models_(std::move(models)) {}
 
   bool on(int threads) {
     std::vector<std::exception_ptr> errors(static_cast<std::size_t>(threads));
@@ -98,12 +99,21 @@ NextChunk chunks_from_counter(std::vector<std::uint64_t> wanted) {
 }
 
 bool run_chunks(const StudyPlan& plan,
+                std::shared_ptr<const StudyModels> models,
                 int threads,
                 const NextChunk& next,
                 const KeepChunk& keep,
                 const std::function<bool()>& between) {
   if (threads <= 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  return ChunkRun(plan, next, keep, between).on(threads);
+  return ChunkRun(plan, std::move(models), next, keep, between).on(threads);
+}
+
+bool run_chunks(const StudyPlan& plan,
+                int threads,
+                const NextChunk& next,
+                const KeepChunk& keep,
+                const std::function<bool()>& between) {
+  return run_chunks(plan, study_models(plan), threads, next, keep, between);
 }
 
 }  // namespace condyle

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -39,6 +40,14 @@ using KeepChunk = std::function<bool(int worker, const StudyChunk& chunk)>;
 /// samples (progress, messages of a network); false: stop.
 /// False where it was stopped. Rethrows the first exception of a thread.
 bool run_chunks(const StudyPlan& plan,
+                int threads,
+                const NextChunk& next,
+                const KeepChunk& keep,
+                const std::function<bool()>& between = {});
+/// The same with models that are there already.
+class StudyModels;
+bool run_chunks(const StudyPlan& plan,
+                std::shared_ptr<const StudyModels> models,
                 int threads,
                 const NextChunk& next,
                 const KeepChunk& keep,

@@ -1,0 +1,126 @@
+#include "condyle/results/study_tables.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "condyle/input_error.h"
+#include "condyle/results/output_file.h"
+#include "condyle/results/study_reduction.h"
+
+namespace condyle {
+namespace {
+
+std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    quoted += c;
+    if (c == '"') quoted += c;
+  }
+  return quoted += '"';
+}
+
+std::string column_of(const SweptQuantity& swept) {
+  return swept.unit.name == "1" ? swept.name : fmt::format("{} {}", swept.name, swept.unit.name);
+}
+
+/// Calls `tell` with what is told of all knees, and of each where that is told.
+template <class Tell>
+void for_each_summary(const StudyView& view, const Tell& tell) {
+  tell("all", view.all);
+  for (std::size_t k = 0; k < view.by_knee.size(); ++k) tell(view.knees[k], view.by_knee[k]);
+}
+
+std::string cells(const std::vector<std::vector<IndexEstimate>>& estimates,
+                  std::size_t parameter,
+                  std::size_t pose) {
+  if (estimates.empty()) return ",,";
+  const IndexEstimate& e = estimates[parameter][pose];
+  return fmt::format("{},{},{}", cell(e.value), cell(e.lower), cell(e.upper));
+}
+
+std::string head_of_samples(const StudyPlan& plan, const SweptQuantity& swept) {
+  std::string head = "sample,knee";
+  for (const StudyParameter& parameter : plan.parameters) head += "," + cell(parameter.name);
+  head += fmt::format(",{},status", column_of(swept));
+  for (const StudyOutput& output : plan.outputs)
+    head += fmt::format(
+        ",{}", cell(output.unit.name == "1" ? output.name : output.name + " " + output.unit.name));
+  return head + "\n";
+}
+
+}  // namespace
+
+std::string bands_csv(const StudyView& view) {
+  std::string csv = fmt::format("knee,output,unit,{},samples,nominal,mean,sd,p5,p25,p50,p75,p95\n",
+                                column_of(view.swept));
+  for_each_summary(view, [&](const std::string& knee, const StudySummary& summary) {
+    for (std::size_t o = 0; o < view.outputs.size(); ++o) {
+      const StudyBand& band = summary.bands[o];
+      for (std::size_t p = 0; p < view.values.size(); ++p) {
+        csv += fmt::format("{},{},{},{},{},{},{},{}", cell(knee), cell(view.outputs[o].name),
+                           view.outputs[o].units, view.values[p], band.samples[p],
+                           cell(band.nominal[p]), cell(band.mean[p]), cell(band.sd[p]));
+        for (const std::vector<double>& quantile : band.quantiles) csv += "," + cell(quantile[p]);
+        csv += "\n";
+      }
+    }
+  });
+  return csv;
+}
+
+std::string indices_csv(const StudyView& view) {
+  std::string csv = fmt::format(
+      "knee,output,{},parameter,first,first_lower,first_upper,total,total_lower,total_upper,rank\n",
+      column_of(view.swept));
+  for_each_summary(view, [&](const std::string& knee, const StudySummary& summary) {
+    for (std::size_t o = 0; o < view.outputs.size(); ++o) {
+      const StudyEffects& effects = summary.effects[o];
+      for (std::size_t p = 0; p < view.values.size(); ++p)
+        for (std::size_t i = 0; i < view.parameters.size(); ++i)
+          csv += fmt::format("{},{},{},{},{},{},{}\n", cell(knee), cell(view.outputs[o].name),
+                             view.values[p], cell(view.parameters[i].name),
+                             cells(effects.first, i, p), cells(effects.total, i, p),
+                             effects.rank.empty() ? "" : cell(effects.rank[i][p]));
+    }
+  });
+  return csv;
+}
+
+void write_sample_table(const std::filesystem::path& path,
+                        const StudyPlan& plan,
+                        const StudyJournals& journals) {
+  check_output_file(path);
+  const SweptQuantity swept = quantity_of_sweep(plan.knees.front().scene);
+  const std::vector<std::string> knees = knee_names(plan);
+  FileBeside file(path);
+  std::ofstream stream(file.name(), std::ios::binary);
+  stream << head_of_samples(plan, swept);
+  std::vector<double> theta;
+  for (std::uint64_t c = 0; c < chunk_count(plan) && stream; ++c) {
+    const StudyChunk chunk = journals.read(c);
+    const double* value = chunk.values.data();
+    const std::uint8_t* status = chunk.status.data();
+    for (std::uint64_t i = 0; i < chunk.samples; ++i) {
+      const std::uint64_t sample = c * kChunkSamples + i;
+      plan.theta(sample, theta);
+      std::string begin = fmt::format("{},{}", sample, cell(knees[plan.knee_of(sample)]));
+      for (const double number : theta) begin += "," + cell(number);
+      for (const double swept_value : plan.values) {
+        std::string row = fmt::format("{},{},{}", begin, swept.shown(swept_value),
+                                      cell(std::string(name(static_cast<PoseStatus>(*status++)))));
+        for (std::size_t o = 0; o < plan.outputs.size(); ++o) row += "," + cell(*value++);
+        stream << row << '\n';
+      }
+    }
+  }
+  stream.close();
+  if (!stream) throw InputError(path.string() + ": cannot be written, expected room on the disk");
+  file.keep();
+}
+
+}  // namespace condyle

@@ -1,0 +1,125 @@
+#include "condyle/results/study_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/contact/pose_status.h"
+
+namespace condyle {
+namespace {
+
+std::string counted(long count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string line_of_size(const StudyView& view) {
+  std::string line = fmt::format(
+      "{}, {} of {} ({}, seed {})", counted(static_cast<long>(view.knees.size()), "knee"),
+      counted(view.samples, "sample"), counted(static_cast<long>(view.parameters.size()), "number"),
+      view.design, view.seed);
+  return line += fmt::format(", {} each", counted(static_cast<long>(view.values.size()), "pose"));
+}
+
+std::string line_of_failures(const StudyFailures& failures) {
+  if (failures.failed == 0) return fmt::format("{} poses, none failed", failures.poses);
+  std::array<long, 16> total{};
+  for (const std::array<long, 16>& counts : failures.by_status)
+    for (std::size_t i = 0; i < total.size(); ++i) total[i] += counts[i];
+  std::string line = fmt::format(
+      "{} poses, {} failed ({:.3g} %) in {}", failures.poses, failures.failed,
+      100.0 * static_cast<double>(failures.failed) / static_cast<double>(failures.poses),
+      counted(failures.incomplete, "sample"));
+  const char* mark = ": ";
+  for (std::size_t i = 1; i < total.size() && i < std::size_t{kPoseStatusCount}; ++i) {
+    if (total[i] == 0) continue;
+    line += fmt::format("{}{} {}", mark, total[i], name(static_cast<PoseStatus>(i)));
+    mark = ", ";
+  }
+  return line;
+}
+
+std::string line_of_quartiles(const StudyView& view, std::size_t parameter) {
+  const std::array<double, 4>& rates = view.all.failures.by_quartile[parameter];
+  return fmt::format(
+      "failed poses by quarters of {}: {:.3g}, {:.3g}, {:.3g}, {:.3g} %: bands lean to where poses "
+      "are found",
+      view.parameters[parameter].name, 100 * rates[0], 100 * rates[1], 100 * rates[2],
+      100 * rates[3]);
+}
+
+std::string effects_in_words(const StudyView& view, const StudyEffects& effects, std::size_t pose) {
+  constexpr std::size_t kMost = 3;
+  constexpr double kSmall = 0.05;
+  std::string words;
+  for (const EffectSize& effect : largest_effects(effects, pose)) {
+    if (std::abs(effect.value) < kSmall ||
+        static_cast<std::size_t>(std::count(words.begin(), words.end(), ',')) >= kMost)
+      break;
+    words += fmt::format("{} {:.2f}, ", view.parameters[effect.parameter].name, effect.value);
+  }
+  return words.empty() ? words : words.substr(0, words.size() - 2);
+}
+
+}  // namespace
+
+std::optional<std::size_t> widest_pose(const StudyBand& band) {
+  std::optional<std::size_t> widest;
+  double width = -1;
+  for (std::size_t p = 0; p < band.mean.size(); ++p) {
+    const double here = band.quantiles.back()[p] - band.quantiles.front()[p];
+    if (!(here > width)) continue;
+    width = here;
+    widest = p;
+  }
+  return widest;
+}
+
+bool failures_depend_on(const StudyView& view, std::size_t parameter) {
+  constexpr double kDeviations = 3;
+  const std::array<double, 4>& rates = view.all.failures.by_quartile.at(parameter);
+  const auto [low, high] = std::minmax_element(rates.begin(), rates.end());
+  // Poses of a sample fail together: a quarter has as many chances as samples.
+  const double chances = std::max(1.0, static_cast<double>(view.samples) / 4);
+  const double mean = (rates[0] + rates[1] + rates[2] + rates[3]) / 4;
+  return *high - *low > kDeviations * std::sqrt(2 * mean * (1 - mean) / chances);
+}
+
+std::vector<EffectSize> largest_effects(const StudyEffects& effects, std::size_t pose) {
+  std::vector<EffectSize> sizes;
+  const std::size_t d = effects.total.empty() ? effects.rank.size() : effects.total.size();
+  for (std::size_t i = 0; i < d; ++i) {
+    const double value =
+        effects.total.empty() ? effects.rank[i][pose] : effects.total[i][pose].value;
+    if (!std::isnan(value)) sizes.push_back({i, value});
+  }
+  std::stable_sort(sizes.begin(), sizes.end(), [](const EffectSize& a, const EffectSize& b) {
+    return std::abs(a.value) > std::abs(b.value);
+  });
+  return sizes;
+}
+
+std::vector<std::string> study_lines(const StudyView& view) {
+  std::vector<std::string> lines = {line_of_size(view), line_of_failures(view.all.failures)};
+  for (std::size_t i = 0; i < view.parameters.size(); ++i)
+    if (failures_depend_on(view, i)) lines.push_back(line_of_quartiles(view, i));
+  if (view.outputs.empty()) return lines;
+  const bool indices = !view.all.effects.empty() && !view.all.effects.front().total.empty();
+  lines.emplace_back();
+  lines.push_back(fmt::format("where each band is widest: 5, 50 and 95 %, and the largest {}",
+                              indices ? "total indices" : "rank correlations"));
+  for (std::size_t o = 0; o < view.outputs.size(); ++o) {
+    const StudyBand& band = view.all.bands[o];
+    const std::optional<std::size_t> pose = widest_pose(band);
+    if (!pose) continue;
+    lines.push_back(
+        fmt::format("  {:<24} at {:>6.4g}{}: {:>9.4g} {:>9.4g} {:>9.4g} {:<4}  {}",
+                    view.outputs[o].name, view.values[*pose], view.swept.unit_after_number(),
+                    band.quantiles[0][*pose], band.quantiles[2][*pose], band.quantiles[4][*pose],
+                    view.outputs[o].units, effects_in_words(view, view.all.effects[o], *pose)));
+  }
+  return lines;
+}
+
+}  // namespace condyle

@@ -1,0 +1,33 @@
+#pragma once
+
+/// What a study says, in words for the standard output.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/results/study_file.h"
+
+namespace condyle {
+
+/// Knees, samples and poses; how many failed and why, and where that depends on what varies; of each
+/// output where its band is widest, and what it depends on most there.
+[[nodiscard]] std::vector<std::string> study_lines(const StudyView& view);
+
+/// The pose at which the band of 5 to 95 % is widest; none where there is no number.
+[[nodiscard]] std::optional<std::size_t> widest_pose(const StudyBand& band);
+
+/// Whether failed poses are more frequent in some quarter of the parameter's samples than chance
+/// (three deviations) explains.
+[[nodiscard]] bool failures_depend_on(const StudyView& view, std::size_t parameter);
+
+/// The parameters by the size of their effect on an output at a pose, the largest first: total index
+/// where there are indices, else rank correlation. With the word for it: "total", "rank".
+struct EffectSize {
+  std::size_t parameter = 0;
+  double value = 0;
+};
+[[nodiscard]] std::vector<EffectSize> largest_effects(const StudyEffects& effects,
+                                                      std::size_t pose);
+
+}  // namespace condyle
