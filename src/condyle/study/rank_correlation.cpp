@@ -10,42 +10,65 @@ namespace condyle {
 
 namespace {
 
-/// Ranks about their mean of the samples that are known, by place: of a group of ties the middle.
-std::vector<double> ranks_by_place(const Places& places, const std::vector<std::uint32_t>& known) {
-  std::vector<std::uint32_t> count(places.distinct);
-  for (const std::uint32_t k : known) ++count[places.of[k]];
-  std::vector<double> rank(places.distinct);
-  const double middle = (static_cast<double>(known.size()) - 1) / 2;
-  double below = 0;
-  for (std::size_t place = 0; place < rank.size(); ++place) {
-    rank[place] = below + (count[place] - 1.) / 2 - middle;
-    below += count[place];
+/// Twice the ranks of some samples by place, from 0, and the sum of squares of the ranks about their mean.
+/// Ties have the middle of their ranks; twice of it is a whole number.
+struct Ranks {
+  std::vector<std::uint32_t> twice;
+  double squares = 0;
+};
+
+/// Of all samples but `missing`.
+Ranks ranks_without(const Places& places, const std::vector<std::uint32_t>& missing) {
+  const bool ties = places.distinct != places.of.size();
+  Ranks ranks;
+  ranks.twice.assign(places.distinct, ties ? 0 : 1);  // at first how many there are
+  if (ties)
+    for (const std::uint32_t place : places.of) ++ranks.twice[place];
+  for (const std::uint32_t k : missing) --ranks.twice[places.of[k]];
+  const double n = static_cast<double>(places.of.size() - missing.size());
+  ranks.squares = n * (n * n - 1) / 12;
+  std::uint32_t below = 0;
+  for (std::uint32_t& rank : ranks.twice) {
+    const std::uint32_t count = rank;
+    if (ties) ranks.squares -= count * (static_cast<double>(count) * count - 1.) / 12;
+    rank = 2 * below + count - 1;
+    below += count;
   }
-  return rank;
+  return ranks;
 }
 
-/// Ranks of the known samples about their mean.
-void ranks_of(const Places& places,
-              const std::vector<std::uint32_t>& known,
-              std::vector<double>& ranks) {
-  ranks.resize(known.size());
-  if (places.distinct == known.size() &&
-      places.of.size() == known.size()) {  // no ties, none missing
-    const double middle = (static_cast<double>(known.size()) - 1) / 2;
-    for (std::size_t i = 0; i < ranks.size(); ++i) ranks[i] = places.of[i] - middle;
-    return;
-  }
-  const std::vector<double> by_place = ranks_by_place(places, known);
-  for (std::size_t i = 0; i < ranks.size(); ++i) ranks[i] = by_place[places.of[known[i]]];
+/// Ranks about their mean of all values of a sample, at the places `known` of the result; 0 elsewhere.
+std::vector<double> spread_ranks(const Places& y,
+                                 const Ranks& ranks,
+                                 const std::vector<std::uint32_t>& known,
+                                 std::size_t samples) {
+  std::vector<double> spread(samples);
+  const double twice_mean = static_cast<double>(known.size()) - 1;
+  for (std::size_t i = 0; i < known.size(); ++i)
+    spread[known[i]] = (ranks.twice[y.of[i]] - twice_mean) / 2;
+  return spread;
 }
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  std::array<double, 4> sums{};  // as one would have to wait for each addition
+/// Sum of products of y's ranks and of the parameter's about their mean.
+double product(const std::vector<double>& y, const Places& places, const Ranks& ranks, double n) {
+  std::array<double, 4> sums{};  // of one each addition would wait for the one before it
+  const std::uint32_t* of = places.of.data();
   std::size_t i = 0;
-  for (; i + 4 <= a.size(); i += 4)
-    for (std::size_t c = 0; c < 4; ++c) sums[c] += a[i + c] * b[i + c];
-  for (; i < a.size(); ++i) sums[0] += a[i] * b[i];
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+  for (; i + 4 <= y.size(); i += 4)
+    for (std::size_t c = 0; c < 4; ++c) sums[c] += y[i + c] * (ranks.twice[of[i + c]] - (n - 1));
+  for (; i < y.size(); ++i) sums[0] += y[i] * (ranks.twice[of[i]] - (n - 1));
+  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) / 2;
+}
+
+std::vector<std::uint32_t> all_but(const std::vector<std::uint32_t>& known, std::size_t samples) {
+  std::vector<std::uint32_t> missing;
+  std::size_t next = 0;
+  for (std::uint32_t k = 0; k < samples; ++k)
+    if (next < known.size() && known[next] == k)
+      ++next;
+    else
+      missing.push_back(k);
+  return missing;
 }
 
 }  // namespace
@@ -67,16 +90,18 @@ std::vector<double> rank_correlations(const std::vector<Places>& parameters,
                                       const std::vector<std::uint32_t>& known,
                                       std::span<const double> y) {
   std::vector<double> correlations(parameters.size(), std::numeric_limits<double>::quiet_NaN());
-  if (known.size() < 3) return correlations;
-  std::vector<std::uint32_t> all(y.size());
-  for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-  std::vector<double> rank_y, rank;
-  ranks_of(places(y), all, rank_y);
-  const double square_y = dot(rank_y, rank_y);
+  if (known.size() < 3 || parameters.empty()) return correlations;
+  const std::size_t samples = parameters.front().of.size();
+  const auto n = static_cast<double>(known.size());
+  const Places places_y = places(y);
+  const Ranks ranks_y = ranks_without(places_y, {});
+  const std::vector<double> spread_y = spread_ranks(places_y, ranks_y, known, samples);
+  const std::vector<std::uint32_t> missing = all_but(known, samples);
   for (std::size_t j = 0; j < parameters.size(); ++j) {
-    ranks_of(parameters[j], known, rank);
-    const double squares = square_y * dot(rank, rank);
-    if (squares > 0) correlations[j] = dot(rank, rank_y) / std::sqrt(squares);
+    const Ranks ranks = ranks_without(parameters[j], missing);
+    const double squares = ranks_y.squares * ranks.squares;
+    if (squares > 0)
+      correlations[j] = product(spread_y, parameters[j], ranks, n) / std::sqrt(squares);
   }
   return correlations;
 }
