@@ -138,8 +138,8 @@ TEST(StudyEffects, OfADesignOfSaltelli) {
 }
 
 TEST(StudyEffects, DoNotDependOnThreads) {
-  const std::vector<std::vector<double>> theta = drawn(3, 50);
-  std::vector<double> y(50 * 9), u(1);
+  const std::vector<std::vector<double>> theta = drawn(3, 6000);
+  std::vector<double> y(6000 * 9), u(1);
   for (std::size_t i = 0; i < y.size(); ++i) {
     uniform_draws(2, 99, i, u);
     y[i] = u[0] < 0.05 ? kMissing : u[0] + theta[0][i / 9];

@@ -70,10 +70,19 @@ Theta theta_of(const Theta& theta, std::size_t from, std::size_t count) {
 
 class Reduction {
  public:
-  Reduction(const Hdf5Group& root, const StudyPlan& plan, const Theta& theta)
-      : root_(root), outputs_(root.open("outputs")), plan_(plan), theta_(theta) {
-    poses_ = plan.values.size();
-    by_knee_ = plan.knees.size() > 1 && plan.points > 1;
+  Reduction(const Hdf5Group& root, const StudyPlan& plan, const Theta& theta, int threads)
+      : root_(root),
+        outputs_(root.open("outputs")),
+        plan_(plan),
+        theta_(theta),
+        threads_(threads),
+        poses_(plan.values.size()),
+        by_knee_(plan.knees.size() > 1 && plan.points > 1) {
+    const bool saltelli = plan.study.design == DesignKind::kSaltelli;
+    ranked_ = ranked_parameters(theta, saltelli && plan.knees.size() == 1);
+    for (std::size_t k = 0; by_knee_ && k < plan.knees.size(); ++k)
+      ranked_by_knee_.push_back(
+          ranked_parameters(theta_of(theta, k * plan.points, plan.points), saltelli));
     (void)make_groups(root);
     if (!by_knee_) return;
     const Hdf5Group knees = root.create("knees");
@@ -86,17 +95,17 @@ class Reduction {
     const std::vector<double> column = outputs_.read(output.name, {plan_.samples(), poses_});
     std::vector<std::vector<double>> rows;
     for (const SweepResult* sweep : nominal) rows.push_back(nominal_values(plan_, output, *sweep));
-    const bool saltelli = plan_.study.design == DesignKind::kSaltelli;
     const OutputSamples samples{column, poses_};
-    summary.bands.push_back(study_band(samples, mean_of(rows)));
-    summary.effects.push_back(study_effects(samples, theta_, saltelli && plan_.knees.size() == 1));
+    summary.bands.push_back(study_band(samples, mean_of(rows), threads_));
+    summary.effects.push_back(study_effects(samples, ranked_, threads_));
     write(open_groups(root_), output, summary.bands.back(), summary.effects.back());
     for (std::size_t k = 0; by_knee_ && k < plan_.knees.size(); ++k) {
       const std::vector<double> own =
           slice(column, k * plan_.points * poses_, plan_.points * poses_);
       const OutputSamples of_knee{own, poses_};
-      write(open_groups(root_.open("knees").open(names_[k])), output, study_band(of_knee, rows[k]),
-            study_effects(of_knee, theta_of(theta_, k * plan_.points, plan_.points), saltelli));
+      write(open_groups(root_.open("knees").open(names_[k])), output,
+            study_band(of_knee, rows[k], threads_),
+            study_effects(of_knee, ranked_by_knee_[k], threads_));
     }
   }
 
@@ -125,8 +134,11 @@ class Reduction {
   Hdf5Group outputs_;
   const StudyPlan& plan_;
   const Theta& theta_;
+  int threads_ = 1;
   std::size_t poses_ = 0;
   bool by_knee_ = false;
+  RankedParameters ranked_;
+  std::vector<RankedParameters> ranked_by_knee_;
   std::vector<std::string> names_;
 };
 
@@ -147,9 +159,10 @@ StudySummary write_summaries(const Hdf5Group& root,
                              const StudyPlan& plan,
                              const std::vector<std::vector<double>>& theta,
                              const std::vector<const SweepResult*>& nominal,
+                             int threads,
                              const OnProgress& on_output) {
   StudySummary summary;
-  const Reduction reduction(root, plan, theta);
+  const Reduction reduction(root, plan, theta, threads);
   const int total = static_cast<int>(plan.outputs.size());
   for (const StudyOutput& output : plan.outputs) {
     reduction.add_output(output, nominal, summary);

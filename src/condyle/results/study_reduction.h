@@ -17,11 +17,13 @@ namespace condyle {
 [[nodiscard]] std::vector<std::string> knee_names(const StudyPlan& plan);
 
 /// Reads /outputs of the file, writes /bands, /indices and /failures, and, of several knees with more than
-/// one point each, the same below /knees/NAME. `theta` by parameters, then samples; `nominal` by knees.
+/// one point each, the same below /knees/NAME. `theta` by parameters, then samples; `nominal` by knees; nothing
+/// depends on `threads` (0: as many as there are cores).
 StudySummary write_summaries(const Hdf5Group& root,
                              const StudyPlan& plan,
                              const std::vector<std::vector<double>>& theta,
                              const std::vector<const SweepResult*>& nominal,
+                             int threads,
                              const OnProgress& on_output);
 
 }  // namespace condyle

@@ -216,7 +216,7 @@ StudySummary write_study(const std::filesystem::path& path,
     write_study_head(root, plan);
     const std::vector<std::vector<double>> theta = write_samples(root, plan);
     write_outputs(root, plan, journals);
-    summary = write_summaries(root, plan, theta, nominal, on_output);
+    summary = write_summaries(root, plan, theta, nominal, provenance.threads, on_output);
     write_provenance(root, provenance);
   }
   hdf5.close();

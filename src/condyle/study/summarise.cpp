@@ -16,10 +16,16 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-void for_each_pose(std::size_t poses, int threads, const std::function<void(std::size_t)>& work) {
+/// Fewer values than these are told before a thread is there.
+constexpr std::size_t kWorthAThread = 50000;
+
+void for_each_pose(const OutputSamples& samples,
+                   int threads,
+                   const std::function<void(std::size_t)>& work) {
+  if (samples.values.size() < kWorthAThread) threads = 1;
   StudyProgress silent({});
   in_parallel(
-      "", static_cast<int>(poses), threads,
+      "", static_cast<int>(samples.poses), threads,
       [&] { return [&](int pose) { work(static_cast<std::size_t>(pose)); }; }, silent);
 }
 
@@ -68,7 +74,7 @@ StudyBand study_band(const OutputSamples& samples,
   band.sd.resize(samples.poses);
   band.samples.resize(samples.poses);
   for (std::vector<double>& quantile : band.quantiles) quantile.resize(samples.poses);
-  for_each_pose(samples.poses, threads, [&](std::size_t pose) {
+  for_each_pose(samples, threads, [&](std::size_t pose) {
     std::vector<double> known = known_values(samples, pose);
     const auto n = static_cast<double>(known.size());
     band.samples[pose] = static_cast<long>(known.size());
@@ -106,7 +112,7 @@ StudyEffects study_effects(const OutputSamples& samples,
     effects.total = effects.first;
   }
   const std::size_t base_points = sample_count(samples) / (count + 2);
-  for_each_pose(samples.poses, threads, [&](std::size_t pose) {
+  for_each_pose(samples, threads, [&](std::size_t pose) {
     const std::vector<double> rank = correlations_at(samples, parameters, pose);
     for (std::size_t j = 0; j < count; ++j) effects.rank[j][pose] = rank[j];
     if (!parameters.saltelli) return;
