@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -122,6 +123,19 @@ void ContactSearch::reset() {
   division_ = Division();
   doubts_ = 0;
   now_ = 0;
+  nearest_reach_ = nearest_merge_ = -1;
+}
+
+void ContactSearch::go_back(const ContactSearch& other) {
+  assert(cover_ == other.cover_);
+  closest_ = other.closest_;
+  seen_ = other.seen_;
+  cluster_closest_ = other.cluster_closest_;
+  split_ = other.split_;
+  near_contacts_ = other.near_contacts_;
+  division_ = other.division_;
+  doubts_ = other.doubts_;
+  now_ = other.now_;
   nearest_reach_ = nearest_merge_ = -1;
 }
 

@@ -60,6 +60,8 @@ class ContactSearch {
 
   /// As newly made. Allocates nothing.
   void reset();
+  /// As another search of the same cover is: begins where that one does. Allocates nothing.
+  void go_back(const ContactSearch& other);
 
   /// All minima with gap < cutoff [mm], lowest first; nearer than `merge` [mm] to a lower one are
   /// left out, and so may be the known contacts.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 #include <tuple>
 
 #include "condyle/contact/contact_scales.h"
@@ -59,7 +60,8 @@ EquilibriumSolver::EquilibriumSolver(std::shared_ptr<const Model> model, Equilib
 EquilibriumSolver::EquilibriumSolver(Model model, EquilibriumOptions options)
     : EquilibriumSolver(std::make_shared<const Model>(std::move(model)), options) {}
 
-void EquilibriumSolver::reset() {
+/// All but the searches.
+void EquilibriumSolver::forget() {
   state_.X = model_->start;
   state_.contacts.clear();
   state_.sigma.assign(model_->conditions.size(), 0);
@@ -68,8 +70,19 @@ void EquilibriumSolver::reset() {
   spent_ = {};
   predictor_.clear();
   newton_.system().reset();
-  for (ContactSearch& search : searches_) search.reset();
   for (PassedThrough& passed : passed_) passed.reset();
+}
+
+void EquilibriumSolver::reset() {
+  forget();
+  for (ContactSearch& search : searches_) search.reset();
+}
+
+void EquilibriumSolver::reset(const std::vector<ContactSearch>& searches) {
+  if (searches.size() != searches_.size())
+    throw std::invalid_argument("searches of another model, expected one for each pair");
+  forget();
+  for (std::size_t p = 0; p < searches_.size(); ++p) searches_[p].go_back(searches[p]);
 }
 
 void EquilibriumSolver::set_parameters(const Parameters& parameters) {

@@ -86,6 +86,12 @@ class EquilibriumSolver {
   /// Builds nothing anew and allocates nothing.
   void reset();
 
+  /// Where searches of contacts begin, as the last pose left it.
+  [[nodiscard]] const std::vector<ContactSearch>& searches() const { return searches_; }
+  /// The same, but searches begin where those of a solver of the same model and covers did: a pose
+  /// near that one's costs less.
+  void reset(const std::vector<ContactSearch>& searches);
+
   /// The last converged state; set_state restores one, solved with that drive.
   [[nodiscard]] const EquilibriumState& state() const { return state_; }
   void set_state(const EquilibriumState& state, const Drive& drive);
@@ -112,6 +118,7 @@ class EquilibriumSolver {
   [[nodiscard]] bool from_elsewhere() const { return from_elsewhere_; }
 
  private:
+  void forget();
   void keep(const EquilibriumState& state);
   void set_drive(const Drive& from, const Drive& to, double t);
   bool settle_at_estimates(EquilibriumState& state, Attempt& attempt);

@@ -95,16 +95,10 @@ void SampleSweep::mend_gap(std::size_t end, std::uint8_t* status, double* number
   solver_.go_back(here);
 }
 
-void SampleSweep::fail_all(PoseStatus status_of_all, std::uint8_t* status, double* numbers) const {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  std::fill_n(status, values_.size(), static_cast<std::uint8_t>(status_of_all));
-  std::fill_n(numbers, values_.size() * outputs_.size(), kNone);
-}
-
-void SampleSweep::solve(const std::vector<double>& theta, std::uint8_t* status, double* numbers) {
+bool SampleSweep::solve(const std::vector<double>& theta, std::uint8_t* status, double* numbers) {
   std::copy_n(theta.begin(), theta_.size(), theta_.data());
-  solver_.reset();
-  if (!set(1)) return fail_all(PoseStatus::kNotComputed, status, numbers);
+  solver_.reset(model_.searches);
+  if (!set(1)) return false;
   bool stands = !model_.nominal.empty() && model_.nominal.front();
   if (stands) solver_.go_back(*model_.nominal.front());
   for (std::size_t i = 0; i < values_.size(); ++i) {
@@ -114,6 +108,7 @@ void SampleSweep::solve(const std::vector<double>& theta, std::uint8_t* status, 
     stands = true;
     mend_gap(i, status, numbers);
   }
+  return true;
 }
 
 }  // namespace condyle

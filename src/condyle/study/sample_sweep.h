@@ -21,9 +21,9 @@ class SampleSweep {
               const std::vector<StudyOutput>& outputs);
 
   /// θ: of `parameters`, what follows is not read. status: one of each value; numbers: values times
-  /// outputs, in the outputs' units, NaN where a pose did not converge. Where no knee has such numbers
-  /// nothing is computed. Allocates nothing once a pose was solved, but where one fails.
-  void solve(const std::vector<double>& theta, std::uint8_t* status, double* numbers);
+  /// outputs, in the outputs' units, NaN where a pose did not converge. False, and nothing is computed,
+  /// where no knee has such numbers. Allocates nothing once a pose was solved, but where one fails.
+  bool solve(const std::vector<double>& theta, std::uint8_t* status, double* numbers);
 
  private:
   bool set(double part);
@@ -32,7 +32,6 @@ class SampleSweep {
   bool follow(std::size_t i);
   bool find(std::size_t i, bool stands);
   void keep(std::size_t i, std::uint8_t* status, double* numbers) const;
-  void fail_all(PoseStatus status_of_all, std::uint8_t* status, double* numbers) const;
   void mend_gap(std::size_t end, std::uint8_t* status, double* numbers);
 
   const StudyModel& model_;

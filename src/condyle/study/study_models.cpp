@@ -47,6 +47,7 @@ StudyModel study_model(const Scene& scene,
   for (std::size_t i = 0; i < values.size(); ++i) {
     made.swept.in(drive) = values[i];
     made.nominal.push_back(standing_at(nominal.poses[i], drive, solver));
+    if (i == 0) made.searches = solver.searches();
   }
   return made;
 }
@@ -55,6 +56,8 @@ StudyModels::StudyModels(const StudyPlan& plan) {
   for (const StudyKnee& knee : plan.knees) {
     sweeps_.push_back(sweep_of(knee, plan.values));
     knees_.push_back(study_model(knee.scene, knee.surfaces, plan.values, sweeps_.back()));
+    std::vector<FittedMesh>& rough = meshes_.emplace_back();
+    if (plan.study.roughness) rough = fitted_meshes(knee.scene, knee.surfaces);
   }
 }
 

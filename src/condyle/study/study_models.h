@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/study/rough_mesh.h"
 #include "condyle/study/study_plan.h"
 
 namespace condyle {
@@ -19,6 +20,7 @@ struct StudyModel {
   Swept swept;
   /// By values; none where the pose was not found.
   std::vector<std::optional<EquilibriumSolver::Standing>> nominal;
+  std::vector<ContactSearch> searches;  ///< as the nominal pose at the first value leaves them
 };
 
 [[nodiscard]] StudyModel study_model(const Scene& scene,
@@ -35,10 +37,13 @@ class StudyModels {
 
   [[nodiscard]] const StudyModel& knee(std::size_t i) const { return knees_[i]; }
   [[nodiscard]] const SweepResult& nominal(std::size_t i) const { return sweeps_[i]; }
+  /// What is made rough; empty where nothing is.
+  [[nodiscard]] const std::vector<FittedMesh>& meshes(std::size_t i) const { return meshes_[i]; }
 
  private:
   std::vector<SweepResult> sweeps_;
   std::vector<StudyModel> knees_;
+  std::vector<std::vector<FittedMesh>> meshes_;
 };
 
 }  // namespace condyle

@@ -8,6 +8,7 @@
 
 #include "condyle/input_error.h"
 #include "condyle/specimen/fit_surfaces.h"
+#include "condyle/specimen/fit_wraps.h"
 #include "condyle/study/study_table.h"
 
 namespace condyle {
@@ -69,6 +70,24 @@ void check_alike(const StudyKnee& knee, const StudyPlan& plan, const std::string
                     study, knee.scene.file.string(), plan.knees.front().scene.file.string()));
 }
 
+/// Those of the first knee, by their names.
+std::vector<StudyOutput> outputs_of(const StudyKnee& knee, const StudyPlan& plan) {
+  const std::string file = plan.study.file.string();
+  const std::vector<StudyOutput> own = study_outputs(knee.scene, plan.study.outputs, file);
+  std::vector<StudyOutput> outputs;
+  for (const StudyOutput& output : plan.outputs) {
+    const auto found = std::find_if(own.begin(), own.end(), [&](const StudyOutput& candidate) {
+      return candidate.name == output.name;
+    });
+    if (found == own.end())
+      throw InputError(fmt::format("{}: {}: no {}, expected the outputs of {} in all specimens",
+                                   file, knee.scene.file.string(), output.name,
+                                   plan.knees.front().scene.file.string()));
+    outputs.push_back(*found);
+  }
+  return outputs;
+}
+
 void set_points(const StudyDescription& study, StudyPlan& plan) {
   if (study.design == DesignKind::kTable) {
     if (study.table_holds_values && plan.knees.size() > 1)
@@ -120,6 +139,7 @@ StudyPlan study_plan(ReadStudy study, const OnProgress& on_knee) {
     knee.scene = std::move(study.scenes[i]);
     knee.name = knee.scene.file.stem().string();
     knee.surfaces = fit_surfaces(knee.scene);
+    fit_wraps(knee.scene, knee.surfaces);
     knee.parameters = numbers_of(knee.scene, knee.surfaces, study.varied[i], file);
     check_alike(knee, plan, file);
   }
@@ -127,6 +147,7 @@ StudyPlan study_plan(ReadStudy study, const OnProgress& on_knee) {
   const StudyKnee& first = plan.knees.front();
   plan.parameters = parameters_of(first.parameters, study.varied.front(), plan.study);
   plan.outputs = study_outputs(first.scene, plan.study.outputs, file);
+  for (StudyKnee& knee : plan.knees) knee.outputs = outputs_of(knee, plan);
   plan.values = first.scene.sweep->values;
   set_points(plan.study, plan);
   return plan;

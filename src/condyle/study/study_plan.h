@@ -31,6 +31,7 @@ struct StudyKnee {
   Scene scene;
   std::vector<FittedSurface> surfaces;
   std::vector<FreeParameter> parameters;  ///< kNumber, as StudyPlan::parameters but roughness
+  std::vector<StudyOutput> outputs;       ///< as StudyPlan::outputs, each where this scene has it
 };
 
 struct StudyPlan {

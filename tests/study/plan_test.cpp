@@ -1,0 +1,170 @@
+/// What a study keeps, and how its numbers come from points.
+
+#include "condyle/study/study_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "condyle/input_error.h"
+#include "study/small_study.h"
+#include "support/scratch_folder.h"
+
+namespace condyle::test {
+namespace {
+
+const Scene& wismans() {
+  static const Scene scene = small_study("wismans-type/knee.toml", 1).scenes[0];
+  return scene;
+}
+
+std::vector<std::string> names_of(const std::vector<std::string>& words) {
+  std::vector<std::string> names;
+  for (const StudyOutput& output : study_outputs(wismans(), words, "study.toml"))
+    names.push_back(output.name);
+  return names;
+}
+
+std::string refusal(const std::vector<std::string>& words) {
+  try {
+    (void)study_outputs(wismans(), words, "study.toml");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(StudyOutputs, WithoutWordsAreCoordinatesAndForces) {
+  const std::vector<std::string> names = names_of({});
+  ASSERT_EQ(names.size(), 5 + 2 + wismans().ligaments.size());
+  EXPECT_EQ(names[0], "adduction");  // flexion is swept
+  EXPECT_EQ(names[5], "medial.force");
+  EXPECT_EQ(names[7], "aACL.force");
+}
+
+TEST(StudyOutputs, StandOnceInTheOrderAskedFor) {
+  const std::vector<std::string> expected = {
+      "aACL.strain", "flexion",           "medial.point.x", "medial.point.y",  "medial.point.z",
+      "adduction",   "internal_rotation", "lateral_shift",  "anterior_drawer", "distraction"};
+  EXPECT_EQ(names_of({"aACL.strain", "joint.flexion", "medial.point", "joint", "aACL.strain"}),
+            expected);
+}
+
+TEST(StudyOutputs, AnUnknownWordIsNamed) {
+  for (const char* word : {"aACK.force", "aACL.length2", "joint.drawer", "contact",
+                           "contacts.force", "medial.strain", ""}) {
+    SCOPED_TRACE(word);
+    const std::string message = refusal({"joint", word});
+    EXPECT_EQ(message.find("study.toml: outputs: \"" + std::string(word) + "\", expected"), 0u)
+        << message;
+    EXPECT_NE(message.find("aACL"), std::string::npos);
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+  }
+}
+
+TEST(StudyPlan, ARangeIsUniformAndOfAFactorItsLogarithm) {
+  ReadStudy study = small_study("wismans-type/knee.toml", 3, true);
+  study.varied[0][0].range = {-0.01, 0.03};
+  study.varied[0][1].range = {0.5, 2};
+  const StudyPlan plan = study_plan(study);
+  const std::size_t strains = study.scenes[0].ligaments.size();
+  EXPECT_EQ(plan.parameters[0].spread.kind, Spread::Kind::kUniform);
+  EXPECT_DOUBLE_EQ(plan.parameters[0].spread.bounds[1], 0.03);
+  EXPECT_TRUE(plan.parameters[strains].logarithmic);
+  EXPECT_DOUBLE_EQ(plan.parameters[strains].spread.bounds[0], std::log(0.5));
+  EXPECT_EQ(plan.samples(), 3u);
+  std::vector<double> theta;
+  for (std::uint64_t k = 0; k < plan.samples(); ++k) {
+    plan.theta(k, theta);
+    ASSERT_EQ(theta.size(), plan.parameters.size());
+    EXPECT_GT(theta[0], -0.01);
+    EXPECT_LT(theta[0], 0.03);
+  }
+}
+
+TEST(StudyPlan, ANumberTwiceIsRefusedByName) {
+  ReadStudy study = small_study("wismans-type/knee.toml", 3);
+  study.varied[0].push_back(study.varied[0][0]);
+  try {
+    (void)study_plan(study);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(message.find("small.toml: [[vary]] in "), 0u) << message;
+    EXPECT_NE(message.find("aACL.reference_strain is free twice"), std::string::npos) << message;
+  }
+}
+
+TEST(StudyPlan, OutputsAreFoundInEachKneeByTheirNames) {
+  ReadStudy study = small_study("wismans-type/knee.toml", 2);
+  study.scenes.push_back(study.scenes[0]);
+  study.varied.push_back(study.varied[0]);
+  std::swap(study.scenes[1].contacts[0], study.scenes[1].contacts[1]);
+  study.study.outputs = {"medial.force"};
+  const StudyPlan plan = study_plan(study);
+  ASSERT_EQ(plan.samples(), 4u);
+  EXPECT_EQ(plan.knees[0].outputs[0].output.index, 0u);
+  EXPECT_EQ(plan.knees[1].outputs[0].output.index, 1u);
+  study.scenes[1].contacts[1].name = "inner";
+  study.study.outputs.clear();
+  EXPECT_THROW((void)study_plan(study), InputError);
+}
+
+class StudyTable : public testing::Test {
+ protected:
+  StudyPlan plan_of(const std::string& text, bool values = false) {
+    const std::filesystem::path file = folder_ / "points.csv";
+    std::ofstream(file) << text;
+    ReadStudy study = small_study("wismans-type/knee.toml", 0);
+    study.study.design = DesignKind::kTable;
+    study.study.table = file;
+    study.study.table_holds_values = values;
+    VariedNumber two = study.varied[0][0];
+    two.number.of = {0, 1};
+    study.varied[0] = {two};
+    first_ = study.scenes[0].ligaments[0].name + ".reference_strain";
+    return study_plan(study);
+  }
+  std::string refusal(const std::string& text) {
+    try {
+      (void)plan_of(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  const std::filesystem::path folder_ = fresh_folder("study table");
+  std::string first_;
+};
+
+TEST_F(StudyTable, HoldsChangesByTheNamesOfItsColumns) {
+  const StudyPlan plan = plan_of(
+      "pACL.reference_strain,aACL.reference_strain,femur "
+      "frame.turn.lateral\n0.01,0.02,7\n0,-0.5,7\n");
+  ASSERT_EQ(plan.samples(), 2u);
+  std::vector<double> theta;
+  plan.theta(0, theta);
+  EXPECT_EQ(theta, (std::vector<double>{0.02, 0.01}));
+}
+
+TEST_F(StudyTable, MayHoldTheNumbersThemselves) {
+  const StudyPlan plan = plan_of("pACL.reference_strain,aACL.reference_strain\n0.01,0.02\n", true);
+  std::vector<double> theta;
+  plan.theta(0, theta);
+  EXPECT_DOUBLE_EQ(theta[0], 0.02 - plan.knees[0].parameters[0].start);
+}
+
+TEST_F(StudyTable, WhatIsMissingIsNamed) {
+  EXPECT_NE(refusal("aACL.reference_strain\n0.1\n").find("no column \"pACL.reference_strain\""),
+            std::string::npos);
+  EXPECT_NE(refusal("aACL.reference_strain,pACL.reference_strain\n0.1,x\n")
+                .find("points.csv:2: pACL.reference_strain = x, expected a number"),
+            std::string::npos);
+  EXPECT_NE(refusal("aACL.reference_strain,pACL.reference_strain\n").find("no rows"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace condyle::test
