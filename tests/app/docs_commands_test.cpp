@@ -27,6 +27,9 @@ class DocsCommands : public CommandLine {
       fs::create_directory_symlink(kRoot / name, folder_ / name);
     fs::create_directory(folder_ / "out");
     write("knee.toml", contents(kRoot / "data/wismans-type/knee.toml"));
+    write("study.toml",
+          "specimens = \"knee.toml\"\ndesign = \"monte-carlo\"\nsamples = 100\n[[vary]]\nwhat = "
+          "\"reference_strain\"\nof = \"*\"\nsd = 0.02\n");
     std::string model = contents(kRoot / "tests/data/phantom_jam.osim");
     for (std::size_t at; (at = model.find("../../meshes")) != std::string::npos;)
       model.replace(at, 12, (kRoot / "meshes").string());

@@ -68,15 +68,10 @@ std::string word_of_earlier(const StudyWork& work, bool there, const StudyJourna
 
 /// Of the first process of a team: takes the folder.
 StudyJournals take_folder(const StudyWork& work) {
+  expect_room(work.command.output, work.plan);
   const bool there = holds_chunks(work.folder());
   StudyJournals journals(work.command.output, work.plan, work.command.part,
                          work.command.resume || work.command.merge);
-  try {
-    expect_room(work.command.output, work.plan, journals.count());
-  } catch (const InputError&) {
-    if (journals.count() == 0 && work.command.part.whole()) journals.remove();
-    throw;
-  }
   const std::string word = word_of_earlier(work, there, journals);
   if (!word.empty()) say(work.talk(), "{}\n", word);
   return journals;

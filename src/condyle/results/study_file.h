@@ -20,11 +20,9 @@ namespace condyle {
 /// Bytes that the result and the journals of a study take on disk.
 [[nodiscard]] std::uint64_t study_bytes(const StudyPlan& plan);
 
-/// Throws InputError ("needs 12.3 GB, the disk has 4.5 GB") where there is no room for what is not
-/// computed yet.
-void expect_room(const std::filesystem::path& result,
-                 const StudyPlan& plan,
-                 std::uint64_t done_chunks);
+/// Throws InputError ("needs 12.3 GB, the disk has 4.5 GB") where there is no room for what is not in
+/// the folder of journals yet.
+void expect_room(const std::filesystem::path& result, const StudyPlan& plan);
 
 /// How a result came to be: all that may differ between runs of a study (/provenance).
 struct StudyProvenance {

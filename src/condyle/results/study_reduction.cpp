@@ -41,7 +41,7 @@ std::vector<double> nominal_values(const StudyPlan& plan,
                                    const SweepResult& sweep) {
   std::vector<double> values(plan.values.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t p = 0; p < values.size() && p < sweep.poses.size(); ++p)
-    if (sweep.poses[p].solved())
+    if (sweep.poses[p].converged())
       values[p] = value_of(output.output, sweep.poses[p]) / output.unit.factor;
   return values;
 }
@@ -94,7 +94,9 @@ class Reduction {
                   StudySummary& summary) const {
     const std::vector<double> column = outputs_.read(output.name, {plan_.samples(), poses_});
     std::vector<std::vector<double>> rows;
-    for (const SweepResult* sweep : nominal) rows.push_back(nominal_values(plan_, output, *sweep));
+    const std::size_t o = summary.bands.size();
+    for (std::size_t k = 0; k < nominal.size(); ++k)
+      rows.push_back(nominal_values(plan_, plan_.knees[k].outputs[o], *nominal[k]));
     const OutputSamples samples{column, poses_};
     summary.bands.push_back(study_band(samples, mean_of(rows), threads_));
     summary.effects.push_back(study_effects(samples, ranked_, threads_));

@@ -27,6 +27,16 @@ std::uint64_t result_bytes(const StudyPlan& plan) {
   return plan.samples() * sample + kAllElse;
 }
 
+std::uint64_t bytes_in(const fs::path& folder) {
+  std::uint64_t bytes = 0;
+  std::error_code unknown;
+  for (const auto& entry : fs::directory_iterator(folder, unknown)) {
+    const std::uint64_t size = entry.file_size(unknown);
+    if (!unknown) bytes += size;
+  }
+  return bytes;
+}
+
 std::string in_words(std::uint64_t bytes) {
   constexpr double kMega = 1e6, kGiga = 1e9;
   const auto size = static_cast<double>(bytes);
@@ -40,8 +50,9 @@ std::uint64_t study_bytes(const StudyPlan& plan) {
   return journal_bytes(plan, chunk_layout(plan).chunks()) + result_bytes(plan);
 }
 
-void expect_room(const fs::path& result, const StudyPlan& plan, std::uint64_t done_chunks) {
-  const std::uint64_t needed = study_bytes(plan) - journal_bytes(plan, done_chunks);
+void expect_room(const fs::path& result, const StudyPlan& plan) {
+  const std::uint64_t whole = study_bytes(plan), there = bytes_in(StudyJournals::folder(result));
+  const std::uint64_t needed = whole - std::min(whole, there);
   std::error_code error;
   const fs::path folder = result.has_parent_path() ? result.parent_path() : fs::path(".");
   const fs::space_info space = fs::space(folder, error);

@@ -1,0 +1,196 @@
+#include "condyle/results/study_file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "condyle/input_error.h"
+#include "condyle/results/hdf5_file.h"
+#include "condyle/results/study_tables.h"
+#include "condyle/results/study_words.h"
+#include "results/made_up_study.h"
+#include "support/scratch_folder.h"
+
+namespace condyle {
+namespace {
+
+namespace fs = std::filesystem;
+
+class StudyFile : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  StudySummary write(const StudyPlan& plan, const std::vector<std::uint64_t>& order) const {
+    StudyJournals journals(result_, plan, {}, false);
+    for (const std::uint64_t c : order)
+      journals.append(static_cast<int>(c % 2), made_up_chunk(plan, c));
+    const SweepResult nominal = made_up_nominal(plan);
+    StudySummary summary = write_study(
+        result_, plan, journals, std::vector<const SweepResult*>(plan.knees.size(), &nominal));
+    journals.remove();
+    return summary;
+  }
+  /// Without the time at which it was written.
+  [[nodiscard]] std::string bytes_but_time() const {
+    std::ifstream stream(result_, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    const std::string created = read_study_file(result_).created;
+    const std::size_t at = bytes.find(created);
+    EXPECT_NE(at, std::string::npos);
+    return bytes.replace(at, created.size(), "");
+  }
+
+  fs::path folder_ = test::scratch_folder("study_file");
+  fs::path result_ = folder_ / "study.h5";
+};
+
+TEST_F(StudyFile, HoldsTheSamplesInTheirOrder) {
+  const StudyPlan plan = made_up_study();
+  (void)write(plan, {2, 0, 1});
+  const Hdf5Reader reader(result_);
+  const Hdf5Group root = reader.root();
+  const std::vector<double> force = root.open("outputs").read("aACL.force", {150, 3});
+  const std::vector<int> status = root.open("outputs").read_integers("status", {150, 3});
+  const std::vector<double> theta = root.open("samples").read("theta", {150, 2});
+  std::vector<double> expected;
+  for (std::uint64_t k = 0; k < 150; ++k) {
+    const StudyChunk chunk = made_up_chunk(plan, k / kChunkSamples);
+    plan.theta(k, expected);
+    EXPECT_EQ(theta[2 * k], expected[0]);
+    EXPECT_EQ(theta[2 * k + 1], expected[1]);
+    for (std::size_t p = 0; p < 3; ++p) {
+      const std::size_t at = (k % kChunkSamples) * 3 + p;
+      EXPECT_EQ(status[3 * k + p], chunk.status[at]);
+      if (chunk.status[at] == 0) {
+        EXPECT_EQ(force[3 * k + p], chunk.values[2 * at + 1]);
+      } else {
+        EXPECT_TRUE(std::isnan(force[3 * k + p]));
+      }
+    }
+  }
+  EXPECT_EQ(root.open("outputs").read_attribute("aACL.force", "units"), "N");
+}
+
+TEST_F(StudyFile, IsReadBackAsItWasReduced) {
+  const StudyPlan plan = made_up_study();
+  const StudySummary summary = write(plan, {0, 1, 2});
+  ASSERT_TRUE(is_study_file(result_));
+  const StudyView view = read_study_file(result_);
+  EXPECT_EQ(view.title, "made up");
+  EXPECT_EQ(view.design, "monte-carlo");
+  EXPECT_EQ(view.seed, 7U);
+  EXPECT_EQ(view.samples, 150);
+  EXPECT_EQ(view.swept.name, "bend");
+  ASSERT_EQ(view.parameters.size(), 2U);
+  EXPECT_EQ(view.parameters[0].spread, "normal, sd 0.02");
+  EXPECT_EQ(view.parameters[1].spread, "uniform, -0.2 to 0.2");
+  EXPECT_NEAR(view.parameters[0].typical, 0.02, 0.005);  // 150 draws
+  ASSERT_EQ(view.outputs.size(), 2U);
+  EXPECT_EQ(view.outputs[1].name, "aACL.force");
+  for (std::size_t o = 0; o < 2; ++o) {
+    EXPECT_EQ(view.all.bands[o].mean, summary.bands[o].mean);
+    EXPECT_EQ(view.all.bands[o].quantiles, summary.bands[o].quantiles);
+    EXPECT_EQ(view.all.bands[o].samples, summary.bands[o].samples);
+    EXPECT_EQ(view.all.effects[o].rank, summary.effects[o].rank);
+  }
+  EXPECT_EQ(view.all.bands[1].nominal, (std::vector<double>{0, 7, 14}));  // made_up_pose
+  EXPECT_EQ(view.all.failures.failed, 9);                                 // (k + p) % 50 == 49
+  EXPECT_EQ(view.all.failures.by_status[0][5], 3);
+  EXPECT_EQ(view.all.failures.by_quartile, summary.failures.by_quartile);
+  EXPECT_TRUE(view.by_knee.empty());
+}
+
+TEST_F(StudyFile, HasTheSameBytesWhoeverComputedIt) {
+  const StudyPlan plan = made_up_study();
+  (void)write(plan, {0, 1, 2});
+  const std::string first = bytes_but_time();
+  (void)write(plan, {2, 1, 0});
+  EXPECT_TRUE(bytes_but_time() == first);
+}
+
+TEST_F(StudyFile, KeepsHalfTheBytesInSinglePrecision) {
+  StudyPlan plan = made_up_study(6400);
+  std::vector<std::uint64_t> chunks(100);
+  for (std::size_t c = 0; c < chunks.size(); ++c) chunks[c] = c;
+  (void)write(plan, chunks);
+  const auto full = fs::file_size(result_);
+  plan.study.single_precision = true;
+  (void)write(plan, chunks);
+  EXPECT_EQ(full - fs::file_size(result_), 6400U * 3 * 2 * 4);
+  const std::vector<double> force =
+      Hdf5Reader(result_).root().open("outputs").read("aACL.force", {6400, 3});
+  EXPECT_EQ(force[0], static_cast<double>(static_cast<float>(std::sin(100.0))));
+}
+
+TEST_F(StudyFile, TellsOfEachKneeByItself) {
+  const StudyPlan plan = made_up_study(40, 2);
+  (void)write(plan, {0, 1});
+  const StudyView view = read_study_file(result_);
+  EXPECT_EQ(view.knees, (std::vector<std::string>{"knee1", "knee2"}));
+  EXPECT_EQ(view.samples, 80);
+  EXPECT_EQ(view.points, 40);
+  ASSERT_EQ(view.by_knee.size(), 2U);
+  const auto samples = [&](std::size_t k) { return view.by_knee[k].bands[0].samples[0]; };
+  EXPECT_EQ(samples(0) + samples(1), view.all.bands[0].samples[0]);
+  EXPECT_EQ(samples(1), 39);  // of 40 the one with k = 49 failed
+  const std::vector<int> knee =
+      Hdf5Reader(result_).root().open("samples").read_integers("knee", {80});
+  EXPECT_EQ(knee[39], 0);
+  EXPECT_EQ(knee[40], 1);
+}
+
+TEST_F(StudyFile, IsWholeOrNotThere) {
+  const StudyPlan plan = made_up_study();
+  EXPECT_THROW((void)write(plan, {0, 2}), InputError);
+  EXPECT_FALSE(fs::exists(result_));
+  (void)write(plan, {0, 1, 2});
+  const std::string before = bytes_but_time();
+  EXPECT_THROW((void)write(plan, {1}), InputError);
+  EXPECT_TRUE(bytes_but_time() == before);
+  for (const auto& entry : fs::directory_iterator(folder_))
+    EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
+}
+
+TEST_F(StudyFile, AsksForRoomBeforeItStarts) {
+  StudyPlan plan = made_up_study();
+  EXPECT_NO_THROW(expect_room(result_, plan));
+  const std::uint64_t whole = study_bytes(plan);
+  plan.study.single_precision = true;
+  EXPECT_LT(study_bytes(plan), whole);
+  plan.points = std::uint64_t{1} << 50;
+  try {
+    expect_room(result_, plan);
+    FAIL() << "no disk is that large";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(" GB, the disk has "), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST_F(StudyFile, RefusesFilesThatAreNoStudy) {
+  EXPECT_FALSE(is_study_file(result_));
+  EXPECT_THROW((void)read_study_file(result_), InputError);
+  std::ofstream(result_) << "no HDF5\n";
+  EXPECT_FALSE(is_study_file(result_));
+  EXPECT_THROW((void)read_study_file(result_), InputError);
+}
+
+TEST_F(StudyFile, TablesHaveARowForEachNumber) {
+  const StudyPlan plan = made_up_study();
+  (void)write(plan, {0, 1, 2});
+  const StudyView view = read_study_file(result_);
+  const std::string bands = bands_csv(view), indices = indices_csv(view);
+  EXPECT_EQ(std::count(bands.begin(), bands.end(), '\n'), 1 + 2 * 3);
+  EXPECT_EQ(std::count(indices.begin(), indices.end(), '\n'), 1 + 2 * 3 * 2);
+  EXPECT_EQ(bands.find("knee,output,unit,bend deg,samples,nominal,mean,sd,p5,p25,p50,p75,p95\n"),
+            0U);
+  EXPECT_NE(bands.find("\nall,aACL.force,N,0,147,0,"), std::string::npos) << bands;
+  const std::vector<std::string> lines = study_lines(view);
+  EXPECT_EQ(lines[1], "450 poses, 9 failed (2 %) in 9 samples: 9 no equilibrium");
+}
+
+}  // namespace
+}  // namespace condyle
