@@ -14,7 +14,9 @@
 #include "condyle/input_error.h"
 #include "condyle/pictures/picture_folder.h"
 #include "condyle/pictures/plot_run.h"
+#include "condyle/pictures/plot_study.h"
 #include "condyle/results/run_file.h"
+#include "condyle/results/study_file.h"
 
 namespace condyle {
 namespace {
@@ -32,7 +34,9 @@ PlotFormat format_from_name(const std::string& text) {
   throw InputError("--format " + text + ": expected png, svg or pdf");
 }
 
-Run read_plottable(const std::string& file) {
+Run read_plottable(const std::string& file, bool alone) {
+  if (!alone && is_study_file(file))
+    throw InputError(file + ": is a study, expected runs; a study is plotted by itself");
   Run run = read_run(file);
   if (run.sweep.poses.empty() && !run.laxity() && !run.calibration())
     throw InputError(file + ": holds no poses, expected the result of condyle sweep");
@@ -55,12 +59,16 @@ std::vector<std::string> run_names(const std::vector<std::string>& files) {
 
 std::vector<std::filesystem::path> plot_all(const PlotCommand& command,
                                             const std::vector<PlotFormat>& formats) {
+  if (command.runs.size() == 1 && is_study_file(command.runs.front())) {
+    const StudyView study = read_study_file(command.runs.front());
+    return plot_study(study, make_picture_folder(command.folder), formats);
+  }
   if (command.runs.size() == 1) {
-    const Run run = read_plottable(command.runs.front());
+    const Run run = read_plottable(command.runs.front(), true);
     return plot_run(run, make_picture_folder(command.folder), formats);
   }
   std::vector<Run> runs;
-  for (const std::string& file : command.runs) runs.push_back(read_plottable(file));
+  for (const std::string& file : command.runs) runs.push_back(read_plottable(file, false));
   const std::vector<std::string> names = run_names(command.runs);
   std::vector<NamedRun> named;
   for (std::size_t i = 0; i < runs.size(); ++i) named.push_back({names[i], &runs[i]});
@@ -85,7 +93,7 @@ int run_plot(const PlotCommand& command) {
 void setup_plot(CLI::App& program, int& status) {
   const auto options = std::make_shared<PlotCommand>();
   CLI::App* command = program.add_subcommand(
-      "plot", "Plot what a run holds over what it sweeps; several runs over each other");
+      "plot", "Plot what a run or a study holds over what it sweeps; several runs over each other");
   command->add_option("RUN", options->runs, "result files (HDF5)")->required();
   command->add_option("-o,--output", options->folder, "folder for the plots")->required();
   command->add_option("--format", options->formats, "png, svg, pdf, or several of them")

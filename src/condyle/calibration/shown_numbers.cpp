@@ -19,8 +19,9 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
 
 }  // namespace
 
-std::string shown_name(const FreeParameter& parameter) {
-  std::string name = parameter.name;
+std::string shown_name(const FreeParameter& parameter) { return shown_name(parameter.name); }
+
+std::string shown_name(std::string name) {
   for (const auto& [from, to] : {std::pair{"reference_strain", "strain"}, {".", " "}, {"_", " "}})
     replace_all(name, from, to);
   return name;

@@ -12,6 +12,7 @@ namespace condyle {
 
 /// "aACL strain", "aMCL insertion femur normal"
 [[nodiscard]] std::string shown_name(const FreeParameter& parameter);
+[[nodiscard]] std::string shown_name(std::string name);  ///< "aACL.reference_strain"
 [[nodiscard]] std::vector<std::string> shown_names(const CalibrationResult& result);
 
 [[nodiscard]] std::string load_name(const Scene& scene, int load);

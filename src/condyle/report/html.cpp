@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/report/embedded.h"
+
 namespace condyle {
 
 std::string escaped(std::string_view text) {
@@ -86,5 +88,22 @@ std::string section(std::string_view id, std::string_view title, const std::stri
 std::string details(std::string_view title, const std::string& body) {
   return fmt::format("<details><summary>{}</summary>\n{}</details>\n", escaped(title), body);
 }
+
+std::string page_head(const std::string& title, const std::string& what) {
+  constexpr const char* kPolicy =
+      "default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src "
+      "'unsafe-inline'";
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n"
+      "<link rel=\"icon\" href=\"data:,\">\n"
+      "<title>{} - condyle</title>\n<style>\n{}</style>\n</head>\n<body>\n"
+      "<header>\n<h1>{}</h1>\n<p>{}</p>\n</header>\n<main>\n",
+      kPolicy, escaped(title), page_style(), escaped(title), escaped(what));
+}
+
+std::string page_foot() { return "</main>\n</body>\n</html>\n"; }
 
 }  // namespace condyle

@@ -36,4 +36,9 @@ struct HtmlTable {
 /// Folded away until it is asked for.
 [[nodiscard]] std::string details(std::string_view title, const std::string& body);
 
+/// All of a page before its sections, and behind them. Nothing is fetched from anywhere, whatever stands
+/// in the page.
+[[nodiscard]] std::string page_head(const std::string& title, const std::string& what);
+[[nodiscard]] std::string page_foot();
+
 }  // namespace condyle

@@ -1,5 +1,6 @@
 #include "condyle/report/html.h"
 #include "condyle/report/sections.h"
+#include "condyle/report/study_page.h"
 #include "condyle/report/viewer_pressures.h"
 
 namespace condyle {
@@ -11,6 +12,10 @@ std::string picture_section(const Run& run) {
 }
 
 std::string plot_section(const Run&) { return ""; }
+
+std::string study_plot_section(const StudyView&) {
+  return section("plots", "Plots", "<p>This condyle was built without plots.</p>\n");
+}
 
 std::string sensitivity_figure(const Run&) { return ""; }
 

@@ -1,11 +1,7 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <vector>
 
@@ -16,6 +12,7 @@
 #include "condyle/pictures/sensitivity_map.h"
 #include "condyle/pictures/strip.h"
 #include "condyle/report/html.h"
+#include "condyle/report/plot_figures.h"
 #include "condyle/report/sections.h"
 #include "condyle/results/digest.h"
 #include "condyle/results/run_view.h"
@@ -26,33 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostAngles = 4;
-
-/// A folder that is gone with all it holds when the work is done.
-class PassingFolder {
- public:
-  PassingFolder() {
-    std::string name = (fs::temp_directory_path() / "condyle-report-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw fs::filesystem_error("no folder for pictures", name,
-                                 std::error_code(errno, std::generic_category()));
-    path_ = name;
-  }
-  ~PassingFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  PassingFolder(const PassingFolder&) = delete;
-  PassingFolder& operator=(const PassingFolder&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-std::string contents(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// Evenly over the converged poses, both ends among them; where none converged over those that have
 /// a place.
@@ -129,36 +99,6 @@ std::string pair_of(const Run& run, KneePictures& pictures, std::size_t pose) {
   for (const View view : {View::kPlateau, View::kCondyles})
     body += single(run, pictures, view, pose);
   return body + "</div>\n";
-}
-
-void replace_all(std::string& text, std::string_view from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
-}
-
-/// As a part of a page: no prologue, no name spaces, and names of its own, as several plots share
-/// one page.
-std::string inlined(std::string svg, const std::string& prefix) {
-  const std::size_t begin = svg.find("<svg");
-  if (begin == std::string::npos) return "";
-  svg.erase(0, begin);
-  for (const char* quote : {"\"", "'"}) {
-    const std::string q = quote;
-    replace_all(svg, " id=" + q, " id=" + q + prefix);
-    replace_all(svg, "href=" + q + "#", "href=" + q + "#" + prefix);
-    for (const char* space : {" xmlns=", " xmlns:xlink="}) {
-      const std::size_t at = svg.find(space + q);
-      if (at == std::string::npos) continue;
-      const std::size_t end = svg.find(q, at + std::string(space).size() + 1);
-      svg.erase(at, end + 1 - at);
-    }
-  }
-  replace_all(svg, "url(#", "url(#" + prefix);
-  return svg;
-}
-
-std::string plot_figure(const fs::path& svg, const std::string& prefix) {
-  return "<figure class=\"plot\">" + inlined(contents(svg), prefix) + "</figure>\n";
 }
 
 /// Pages of a calibration that are looked at where something else is asked.

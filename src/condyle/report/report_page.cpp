@@ -5,17 +5,11 @@
 #include <functional>
 #include <vector>
 
-#include "condyle/report/embedded.h"
 #include "condyle/report/html.h"
 #include "condyle/report/sections.h"
 
 namespace condyle {
 namespace {
-
-// Nothing is fetched from anywhere, whatever stands in the page.
-constexpr const char* kPolicy =
-    "default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src "
-    "'unsafe-inline'";
 
 /// "25 poses, flexion from 0 to 120 deg"
 std::string what_was_done(const Run& run) {
@@ -30,24 +24,15 @@ std::string what_was_done(const Run& run) {
                      at_value(swept, poses.back().value), swept.unit_after_number());
 }
 
-std::string head(const Run& run) {
-  const std::string title = run.scene.title.empty() ? "A knee" : run.scene.title;
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\">\n"
-      "<link rel=\"icon\" href=\"data:,\">\n"
-      "<title>{} - condyle</title>\n<style>\n{}</style>\n</head>\n<body>\n"
-      "<header>\n<h1>{}</h1>\n<p>{}</p>\n</header>\n<main>\n",
-      kPolicy, escaped(title), page_style(), escaped(title), escaped(what_was_done(run)));
-}
-
 }  // namespace
 
 std::string report_page(const Run& run, const std::string& file, const ReportOptions& options) {
   using Part = std::function<std::string()>;
-  std::vector<Part> parts = {[&] { return head(run); }, [&] { return status_section(run); }};
+  std::vector<Part> parts = {
+      [&] {
+        return page_head(run.scene.title.empty() ? "A knee" : run.scene.title, what_was_done(run));
+      },
+      [&] { return status_section(run); }};
   parts.emplace_back([&] { return calibration_section(run); });
   if (options.viewer) parts.emplace_back([&] { return viewer_section(run, file); });
   if (options.pictures) {
@@ -71,7 +56,7 @@ std::string report_page(const Run& run, const std::string& file, const ReportOpt
     page += part();
     if (options.on_part) options.on_part(++done, static_cast<int>(parts.size()));
   }
-  return page + "</main>\n</body>\n</html>\n";
+  return page + page_foot();
 }
 
 }  // namespace condyle

@@ -49,6 +49,8 @@ void take_integers(const Hdf5Group& group,
 
 Scene read_head(const Hdf5Group& root) {
   const std::string format = root.read_attribute("format");
+  if (format.starts_with("condyle study"))
+    root.fail("holds a study, expected a run; condyle plot and condyle report show studies");
   if (format != kRunFormat)
     root.fail(fmt::format("format = \"{}\", expected \"{}\"", format, kRunFormat));
   return parse_scene(root.read_attribute("scene"), root.read_attribute("scene_file"));

@@ -19,6 +19,8 @@ Scene parse(const std::string& text, const std::filesystem::path& file, bool mes
   const Source source{file.string(), file.parent_path(), meshes_must_exist};
   const Value document = parse_document(text, source.file);
   const Section root(document, source, "");
+  if (document.find("specimens") != nullptr)
+    root.fail_with("is a study, expected a scene; condyle study sweeps the scenes that it names");
   Scene scene;
   scene.text = text;
   scene.file = file;

@@ -1,0 +1,108 @@
+/// The report of a study as a text.
+
+#include "condyle/report/study_page.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "condyle/results/study_shown.h"
+#include "support/made_up_study.h"
+
+namespace condyle {
+namespace {
+
+std::string page_of(const StudyView& study, bool pictures = false) {
+  StudyPageOptions options;
+  options.pictures = pictures;
+  return study_page(study, "study.h5", options);
+}
+
+bool has(const std::string& page, const std::string& words) {
+  return page.find(words) != std::string::npos;
+}
+
+TEST(StudyPage, HoldsItsSectionsInOrder) {
+  const std::string page = page_of(test::made_up_study());
+  std::size_t at = 0;
+  for (const char* id : {"status", "varied", "effects", "plots", "bands", "failures", "source"}) {
+    const std::size_t found = page.find("<section id=\"" + std::string(id) + "\">");
+    ASSERT_NE(found, std::string::npos) << id;
+    EXPECT_GT(found, at) << id;
+    at = found;
+  }
+  EXPECT_TRUE(has(page, "Study: 1024 samples, design saltelli, flexion from 0 to 120 deg"));
+  EXPECT_TRUE(has(page, "normal, sd 0.02"));
+  EXPECT_TRUE(has(page, "specimens = &quot;knees&quot; # &lt;all&gt;")) << "escaped";
+}
+
+TEST(StudyPage, FailuresThatDependOnANumberAreABias) {
+  StudyView study = test::made_up_study();
+  const std::string page = page_of(study);
+  EXPECT_TRUE(has(page, "poses without a result depend on " + shown_parameters(study)[2] + "."));
+  EXPECT_TRUE(has(page, "30 contact beyond edge") || has(page, "30 left patch") ||
+              has(page, std::string("30 ") + name(PoseStatus::kLeftPatch)));
+  for (auto& shares : study.all.failures.by_quartile) shares = {0.01, 0.011, 0.01, 0.009};
+  EXPECT_FALSE(has(page_of(study), "biased"));
+  EXPECT_TRUE(has(page_of(study), "about as many in each quarter"));
+  study.all.failures.failed = study.all.failures.incomplete = 0;
+  EXPECT_FALSE(has(page_of(study), "<section id=\"failures\">"));
+  EXPECT_TRUE(has(page_of(study), "<p class=\"verdict good\"><strong>25600 of 25600</strong>"));
+}
+
+TEST(StudyPage, TellsWhatExplainsWhatTheGreatestFirst) {
+  StudyView study = test::made_up_study();
+  for (auto& by_parameter : study.all.effects[3].first)
+    for (IndexEstimate& index : by_parameter) index = {0.001, 0, 0.01};
+  for (IndexEstimate& index : study.all.effects[3].first[4]) index = {0.75, 0.7, 0.8};
+  const std::string page = page_of(study);
+  EXPECT_TRUE(has(page, "anterior drawer by aMCL strain (75 %)"));
+  EXPECT_TRUE(has(page, "<td class=\"text\">aMCL strain 0.75</td>")) << "others are too small";
+  const std::string others = page_of(test::made_up_study(false));
+  EXPECT_TRUE(has(others, "Squares of rank correlations"));
+  EXPECT_FALSE(has(others, "At some poses, with intervals"));
+}
+
+TEST(StudyPage, EffectsOverTheSweepAreWeightedByVariance) {
+  StudyView study = test::made_up_study();
+  std::vector<double>& sd = study.all.bands[0].sd;
+  std::fill(sd.begin(), sd.end(), 0.0);
+  sd[3] = 1;
+  sd[7] = 2;
+  study.all.effects[0].first[1][3].value = 0.5;
+  study.all.effects[0].first[1][7].value = 0.1;
+  EXPECT_NEAR(sweep_effects(study, 0).first[1], (0.5 + 4 * 0.1) / 5, 1e-15);
+}
+
+TEST(StudyPage, NumbersThatAreNoneBreakNothing) {
+  StudyView study = test::made_up_study();
+  for (StudyBand& band : study.all.bands) {
+    band.mean.assign(band.mean.size(), std::nan(""));
+    band.sd = band.mean;
+    for (auto& quantile : band.quantiles) quantile = band.mean;
+  }
+  study.scenes = {"no TOML ["};
+  EXPECT_FALSE(has(page_of(study), ">nan<"));
+}
+
+TEST(StudyPage, OfManyKneesOnlySomeScenesAreShown) {
+  const std::string page = page_of(test::made_up_study(false, 6));
+  EXPECT_TRUE(has(page, "6144 samples of 6 knees, 1024 of each"));
+  EXPECT_TRUE(has(page, "And 3 scenes more"));
+}
+
+#ifdef CONDYLE_PICTURES
+TEST(StudyPage, HasAllPlots) {
+  const std::string page = page_of(test::made_up_study(), true);
+  if (!has(page, "<svg")) GTEST_SKIP() << "gnuplot is not installed";
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = page.find("<figure class=\"plot\">", at)) != std::string::npos;
+       ++at)
+    ++count;
+  EXPECT_EQ(count, 10U) << "three of bands, four of indices, failures, two maps";
+}
+#endif
+
+}  // namespace
+}  // namespace condyle
