@@ -136,7 +136,7 @@ TEST(PlotStudy, FailuresAreSharesOfTheSamples) {
   const auto pages = study_failure_pages(study);
   ASSERT_EQ(pages.size(), 1U);
   const PagePanel &curve = pages[0].page.panels.at(0), &quarters = pages[0].page.panels.at(1);
-  EXPECT_NEAR(curve.marks[0].y.back(), 100.0 * 30 / static_cast<double>(study.samples), 1e-12);
+  EXPECT_NEAR(curve.marks[0].y.back(), 100.0 * 240 / static_cast<double>(study.samples), 1e-12);
   EXPECT_EQ(quarters.y_names[0], shown_parameters(study)[2]) << "whose quarters differ most";
   const auto dots = marks_of(quarters, Mark::Kind::kDots);
   ASSERT_EQ(dots.size(), 4U);

@@ -81,7 +81,7 @@ inline StudyFailures failures(const StudyView& study) {
   StudyFailures made;
   made.poses = study.samples * static_cast<long>(study.values.size());
   for (const double angle : study.values) {
-    made.by_pose.push_back(angle > 90 ? static_cast<long>(angle) - 90 : 0);
+    made.by_pose.push_back(angle > 90 ? 8 * (static_cast<long>(angle) - 90) : 0);
     made.failed += made.by_pose.back();
     made.by_status.push_back({study.samples - made.by_pose.back(), 0, 0, 0, made.by_pose.back()});
   }

@@ -3,20 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <vector>
 
 #include "condyle/report/html.h"
 #include "condyle/results/study_shown.h"
+#include "condyle/results/study_words.h"
 
 namespace condyle {
 namespace {
-
-/// A share of failed poses that differs so much between quarters of a parameter's samples is a bias.
-constexpr double kUneven = 2;
-/// And from so many poses without a result on.
-constexpr double kWorthTelling = 0.001;
 
 std::string percent_of(long part, long whole) {
   return whole > 0 ? fmt::format("{:.3g} %",
@@ -39,19 +34,12 @@ std::string what_was_studied(const StudyView& study) {
   return text;
 }
 
-/// Parameters whose quarters differ, the most uneven first.
+/// Names of those whose quarters differ by more than chance.
 std::vector<std::string> uneven_parameters(const StudyView& study) {
-  const StudyFailures& failures = study.all.failures;
-  std::vector<double> differences;
-  for (const std::array<double, 4>& shares : failures.by_quartile) {
-    const auto [low, high] = std::minmax_element(shares.begin(), shares.end());
-    const bool uneven = *high > kWorthTelling && *high > kUneven * *low;
-    differences.push_back(uneven ? *high - *low : 0);
-  }
   const std::vector<std::string> names = shown_parameters(study);
   std::vector<std::string> uneven;
-  for (const std::size_t j : greatest_first(differences))
-    if (differences[j] > 0) uneven.push_back(names.at(j));
+  for (std::size_t j = 0; j < study.all.failures.by_quartile.size(); ++j)
+    if (failures_depend_on(study, j)) uneven.push_back(names.at(j));
   return uneven;
 }
 

@@ -9,6 +9,7 @@
 #include "condyle/report/html.h"
 #include "condyle/report/study_page.h"
 #include "condyle/results/study_shown.h"
+#include "condyle/results/study_words.h"
 
 namespace condyle {
 namespace {
@@ -28,14 +29,6 @@ std::string greatest_in_words(const std::vector<std::string>& names,
                          number(parts[order[k]], 2));
   }
   return words.empty() ? "-" : words;
-}
-
-/// Where a quantity spreads most; nothing where it does not.
-std::optional<std::size_t> widest_pose(const StudyBand& band) {
-  std::optional<std::size_t> widest;
-  for (std::size_t i = 0; i < band.sd.size(); ++i)
-    if (std::isfinite(band.sd[i]) && (!widest || band.sd[i] > band.sd[*widest])) widest = i;
-  return widest;
 }
 
 std::string widest_in_words(const StudyView& study, const ShownOutput& output) {
@@ -108,11 +101,11 @@ std::string study_effect_section(const StudyView& study) {
                 "greatest of each quantity"
               : "Squares of rank correlations over the whole sweep, poses weighted by their "
                 "variance: the three greatest of each quantity",
-      {"quantity", "greatest sd", "by itself", "with what it does together with others",
-       "by themselves in all"},
+      {"quantity", "sd where the band is widest", "by itself",
+       "with what it does together with others", "by themselves in all"},
       {},
       {0, 1, 2, 3}};
-  if (!indices) table.columns = {"quantity", "greatest sd", "greatest"};
+  if (!indices) table.columns = {"quantity", "sd where the band is widest", "greatest"};
   for (const ShownOutput& output : outputs) {
     const SweepEffects effects = sweep_effects(study, output.index);
     table.rows.push_back(
