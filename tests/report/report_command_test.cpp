@@ -44,5 +44,23 @@ TEST_F(CommandLine, DoesNotWriteAReportOverItsRun) {
                    "run.h5: is read by this command, expected another file to write");
 }
 
+TEST_F(CommandLine, ReportsAStudyAndRefusesItWhereARunIsNeeded) {
+  write("study.toml",
+        "specimens = \"knee.toml\"\ndesign = \"monte-carlo\"\nsamples = 8\n[[vary]]\n"
+        "what = \"stiffness\"\nof = \"*\"\nsd = 0.1\n");
+  ASSERT_EQ(run("study study.toml -o study.h5 --quiet").code, 0);
+  EXPECT_EQ(run("report study.h5 -o study.html --no-pictures").out, "wrote study.html\n");
+  const std::string page = contents(folder_ / "study.html");
+  EXPECT_NE(page.find("<strong>40 of 40</strong> poses have a result"), std::string::npos);
+  EXPECT_NE(page.find("aACL.stiffness"), std::string::npos);
+  for (const char* command : {"render study.h5 -o pictures", "export study.h5 -o knee.glb",
+                              "verify study.h5", "check study.h5"}) {
+    const auto outcome = run(command);
+    EXPECT_EQ(outcome.code, 1) << command;
+    EXPECT_NE(outcome.err.find("condyle plot and condyle report show"), std::string::npos)
+        << command << ": " << outcome.err;
+  }
+}
+
 }  // namespace
 }  // namespace condyle

@@ -1,5 +1,6 @@
 #include <ostream>
 
+#include "scene/mistake.h"
 #include "scene/study_on_disk.h"
 
 namespace condyle {
@@ -183,6 +184,12 @@ TEST_F(StudyFileTest, SceneIsNoStudy) {
   EXPECT_EQ(message_of(kSmallScene),
             "study.toml:1: is a scene, expected a study, which names scenes as its specimens");
   EXPECT_THROW((void)read_study(folder_ / "none.toml"), InputError);
+}
+
+TEST_F(StudyFileTest, StudyIsNoScene) {
+  EXPECT_EQ(test::message_of(test::kSmallStudy),
+            "some/knee.toml:1: is a study, expected a scene; condyle study sweeps the scenes that "
+            "it names");
 }
 
 }  // namespace

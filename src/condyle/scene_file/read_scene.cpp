@@ -59,6 +59,9 @@ std::string text_of(const std::filesystem::path& file, const std::string& expect
   text << stream.rdbuf();
   if (!stream)
     throw InputError(name + ": cannot be read, expected " + expected + " that is not empty");
+  if (text.str().starts_with("\x89HDF"))
+    throw InputError(name + ": is a result (HDF5), expected " + expected +
+                     "; condyle plot and condyle report show results");
   return text.str();
 }
 
