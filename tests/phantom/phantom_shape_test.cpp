@@ -107,8 +107,10 @@ TEST(PhantomFemur, CondylesFollowAJ) {
 
 TEST(PhantomTibia, MedialPlateauIsADishAndLateralPlateauASaddle) {
   for (const double x : {-8.0, -4.0, 0.0, 4.0, 8.0}) {
-    const Matrix3d medial = surface_point(Bone::kTibia, {x, tibial_height(x, -23.5), -23.5}).K;
-    const Matrix3d lateral = surface_point(Bone::kTibia, {x, tibial_height(x, 23.5), 23.5}).K;
+    const Matrix3d medial =
+        surface_point(Bone::kTibia, {x, tibial_height(kShippedPhantom.tibia, x, -23.5), -23.5}).K;
+    const Matrix3d lateral =
+        surface_point(Bone::kTibia, {x, tibial_height(kShippedPhantom.tibia, x, 23.5), 23.5}).K;
     EXPECT_GT(medial(0, 0), 0.004);    // concave along x: 1/90 mm
     EXPECT_GT(medial(2, 2), 0.028);    // concave along z: 1/28 mm
     EXPECT_LT(lateral(0, 0), -0.015);  // convex along x: 1/45 mm
@@ -123,7 +125,9 @@ TEST(PhantomBones, TouchLightlyAtFullExtension) {
     double gap = 100;
     for (double x = -15; x <= 22; x += 0.5)
       for (double z = 14; z <= 34; z += 0.5)
-        gap = std::min(gap, shape(Bone::kFemur, {x, tibial_height(x, side * z), side * z}));
+        gap = std::min(
+            gap,
+            shape(Bone::kFemur, {x, tibial_height(kShippedPhantom.tibia, x, side * z), side * z}));
     EXPECT_LT(std::abs(gap), 0.3) << side;
   }
 }

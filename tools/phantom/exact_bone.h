@@ -12,7 +12,8 @@ namespace condyle::phantom {
 class ExactBone : public Surface {
  public:
   /// side: -1 medial, +1 lateral.
-  ExactBone(Bone bone, int side) : bone_(bone), side_(side) {}
+  ExactBone(Bone bone, int side, const PhantomParameters& knee = kShippedPhantom)
+      : knee_(knee), bone_(bone), side_(side) {}
 
   [[nodiscard]] SurfacePoint evaluate(const Place& place) const override;
   [[nodiscard]] Place moved(const Place& place,
@@ -25,6 +26,9 @@ class ExactBone : public Surface {
   [[nodiscard]] std::unique_ptr<Surface> translated(const Eigen::Vector3d& d) const override;
 
  private:
+  [[nodiscard]] Eigen::Vector3d near_surface(const Eigen::Vector3d& p) const;
+
+  PhantomParameters knee_;
   Bone bone_;
   int side_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();  ///< of the phantom [mm]

@@ -11,8 +11,6 @@
 namespace condyle::phantom {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
-
 /// Sum over the ligaments whose name holds `part` [N].
 double force_of(const Scene& scene, const PoseResult& pose, const std::string& part) {
   double sum = 0;
@@ -36,13 +34,13 @@ std::string row(const Scene& scene, const PoseResult& pose) {
 
 }  // namespace
 
-std::vector<FittedSurface> exact_surfaces(const Scene& scene) {
+std::vector<FittedSurface> exact_surfaces(const Scene& scene, const PhantomParameters& knee) {
   std::vector<FittedSurface> surfaces;
   for (const SurfaceDescription& s : scene.surfaces) {
     const Bone bone = scene.bodies[static_cast<std::size_t>(s.body)].name == "femur" ? Bone::kFemur
                                                                                      : Bone::kTibia;
     const int side = s.patch.compartment == Compartment::kMedial ? -1 : 1;
-    surfaces.push_back({std::make_shared<ExactBone>(bone, side), std::nullopt});
+    surfaces.push_back({std::make_shared<ExactBone>(bone, side, knee), std::nullopt});
   }
   return surfaces;
 }

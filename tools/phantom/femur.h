@@ -1,43 +1,14 @@
 #pragma once
 
-/// The femur of the phantom; see docs/phantom.md for the sources of its measures. Lengths in mm,
-/// angles in rad.
+/// The femur of the phantom before it is sized; see docs/phantom.md for the sources of its measures.
+/// Lengths in mm, angles in rad.
 
 #include <cmath>
 
+#include "phantom/phantom_parameters.h"
 #include "phantom/smooth.h"
 
 namespace condyle::phantom {
-
-/// A condyle: its sagittal outline is a J made of two arcs that touch at `turn`, the passage
-/// rounded over `passage`; its coronal section is a circle.
-struct Condyle {
-  double z;          ///< of its middle, at x = 0
-  double drift;      ///< dz/dx: condyles diverge backwards
-  double posterior;  ///< radius of the posterior arc, centred at x = y = 0
-  double distal;     ///< radius of the distal arc
-  double turn;       ///< where the arcs meet, measured from distal (-y) towards posterior (-x)
-  double passage;
-  double coronal;  ///< radius of the coronal section
-  double wall;     ///< z of the outer wall
-};
-inline constexpr double kDegree = 3.14159265358979323846 / 180;
-inline constexpr Condyle kMedialCondyle{.z = -23.5,
-                                        .drift = 0.06,
-                                        .posterior = 21.5,
-                                        .distal = 34.0,
-                                        .turn = 28 * kDegree,
-                                        .passage = 8 * kDegree,
-                                        .coronal = 20,
-                                        .wall = -36.5};
-inline constexpr Condyle kLateralCondyle{.z = 23.5,
-                                         .drift = -0.02,
-                                         .posterior = 20.0,
-                                         .distal = 36.0,
-                                         .turn = 18 * kDegree,
-                                         .passage = 8 * kDegree,
-                                         .coronal = 20,
-                                         .wall = 36.5};
 
 /// Distance from the centre of the posterior arc to the outline in the direction `angle` (from
 /// distal, towards posterior). With Δ the difference of the radii, the distal arc lies at √(r² - Δ²
@@ -104,12 +75,12 @@ T notch_shape(const T& x, const T& y, const T& z) {
 }
 
 template <class T>
-T femur_shape(const T& x, const T& y, const T& z) {
+T femur_shape(const FemurParameters& femur, const T& x, const T& y, const T& z) {
   const T medial_epicondyle = ellipsoid<T>(x - 2.0, y - 6.0, z + 29.0, 13, 14, 10.5);
   const T lateral_epicondyle = ellipsoid<T>(x - 1.0, y - 5.0, z - 29.0, 12, 12, 9.5);
   const T articular =
-      smooth_min<T>({condyle_shape(kMedialCondyle, x, y, z),
-                     condyle_shape(kLateralCondyle, x, y, z), trochlea_shape(x, y, z)},
+      smooth_min<T>({condyle_shape(femur.medial, x, y, z), condyle_shape(femur.lateral, x, y, z),
+                     trochlea_shape(x, y, z)},
                     1.4);
   const T solid = smooth_min<T>(
       {articular, femoral_shaft_shape(x, y, z), medial_epicondyle, lateral_epicondyle}, 2.4);

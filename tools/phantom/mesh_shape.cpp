@@ -10,6 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 using Cell = std::array<int, 3>;
+using Knee = PhantomParameters;
 
 /// Values of the shape at the nodes of a regular grid.
 struct Grid {
@@ -26,8 +27,8 @@ struct Grid {
   }
 };
 
-Grid sample(Bone bone, double cell) {
-  const Box box = bounds(bone);
+Grid sample(Bone bone, double cell, const Knee& knee) {
+  const Box box = bounds(bone, knee);
   Grid grid{box.low, cell, {}, {}};
   for (int a = 0; a < 3; ++a)
     grid.nodes[a] = static_cast<int>(std::ceil((box.high - box.low)[a] / cell)) + 1;
@@ -35,7 +36,7 @@ Grid sample(Bone bone, double cell) {
   for (int i = 0; i < grid.nodes[0]; ++i)
     for (int j = 0; j < grid.nodes[1]; ++j)
       for (int k = 0; k < grid.nodes[2]; ++k)
-        grid.f[grid.at(i, j, k)] = shape(bone, grid.point(i, j, k));
+        grid.f[grid.at(i, j, k)] = shape(bone, grid.point(i, j, k), knee);
   return grid;
 }
 
@@ -110,9 +111,9 @@ void connect(const Grid& grid, const std::vector<int>& vertex_of, TriangleMesh& 
 }
 
 /// Dropped onto the surface along the gradient: cheap, and all the mesh needs.
-Vector3d onto_surface(Bone bone, Vector3d p, int steps) {
+Vector3d onto_surface(Bone bone, Vector3d p, int steps, const Knee& knee) {
   for (int i = 0; i < steps; ++i) {
-    const ShapeValue s = shape_derivatives(bone, p);
+    const ShapeValue s = shape_derivatives(bone, p, knee);
     const Vector3d step = -s.f / s.g.squaredNorm() * s.g;
     p += step * std::min(1.0, 1.0 / (step.norm() + 1e-300));
     if (step.norm() < 1e-10) break;
@@ -121,7 +122,7 @@ Vector3d onto_surface(Bone bone, Vector3d p, int steps) {
 }
 
 /// Each vertex to the mean of its neighbours, along the surface only.
-void relax(Bone bone, TriangleMesh& mesh) {
+void relax(Bone bone, TriangleMesh& mesh, const Knee& knee) {
   std::vector<Vector3d> sum(mesh.vertices.size(), Vector3d::Zero());
   std::vector<int> count(mesh.vertices.size(), 0);
   for (const auto& t : mesh.triangles)
@@ -130,23 +131,23 @@ void relax(Bone bone, TriangleMesh& mesh) {
       ++count[t[a]];
     }
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Vector3d p = mesh.vertices[i], n = normal(bone, p);
+    const Vector3d p = mesh.vertices[i], n = normal(bone, p, knee);
     const Vector3d shift = sum[i] / count[i] - p;
-    mesh.vertices[i] = onto_surface(bone, p + 0.6 * (shift - shift.dot(n) * n), 1);
+    mesh.vertices[i] = onto_surface(bone, p + 0.6 * (shift - shift.dot(n) * n), 1, knee);
   }
 }
 
 }  // namespace
 
-TriangleMesh mesh_bone(Bone bone, double cell) {
-  const Grid grid = sample(bone, cell);
+TriangleMesh mesh_bone(Bone bone, double cell, const Knee& knee) {
+  const Grid grid = sample(bone, cell, knee);
   TriangleMesh mesh;
   const std::vector<int> vertex_of = place_vertices(grid, mesh);
-  for (Vector3d& p : mesh.vertices) p = onto_surface(bone, p, 2);
+  for (Vector3d& p : mesh.vertices) p = onto_surface(bone, p, 2, knee);
   connect(grid, vertex_of, mesh);
   constexpr int kRelaxations = 6;
-  for (int i = 0; i < kRelaxations; ++i) relax(bone, mesh);
-  for (Vector3d& p : mesh.vertices) p = onto_surface(bone, p, 12);
+  for (int i = 0; i < kRelaxations; ++i) relax(bone, mesh, knee);
+  for (Vector3d& p : mesh.vertices) p = onto_surface(bone, p, 12, knee);
   return mesh;
 }
 

@@ -13,6 +13,8 @@ inline constexpr double kResolution = 1.4;
 
 /// Surface nets [Gibson 1998] on a grid of `cell` mm, vertices relaxed along the surface and
 /// dropped onto it.
-[[nodiscard]] TriangleMesh mesh_bone(Bone bone, double cell);
+[[nodiscard]] TriangleMesh mesh_bone(Bone bone,
+                                     double cell,
+                                     const PhantomParameters& knee = kShippedPhantom);
 
 }  // namespace condyle::phantom

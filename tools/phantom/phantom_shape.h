@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "condyle/surface/surface.h"
+#include "phantom/phantom_parameters.h"
 
 namespace condyle::phantom {
 
@@ -22,27 +23,45 @@ struct ShapeValue {
   Eigen::Matrix3d h;  ///< ∇∇f [1/mm]
 };
 
-[[nodiscard]] double shape(Bone bone, const Eigen::Vector3d& p);
-[[nodiscard]] ShapeValue shape_derivatives(Bone bone, const Eigen::Vector3d& p);
+/// Size and place of a bone: p = rise + S q of a point q of the shape before it is sized.
+[[nodiscard]] Eigen::Vector3d sized(Bone bone, const Eigen::Vector3d& q, const PhantomParameters&);
+[[nodiscard]] Eigen::Vector3d unsized(Bone bone,
+                                      const Eigen::Vector3d& p,
+                                      const PhantomParameters&);
+
+[[nodiscard]] double shape(Bone bone,
+                           const Eigen::Vector3d& p,
+                           const PhantomParameters& knee = kShippedPhantom);
+[[nodiscard]] ShapeValue shape_derivatives(Bone bone,
+                                           const Eigen::Vector3d& p,
+                                           const PhantomParameters& knee = kShippedPhantom);
 
 /// The point of the exact surface closest to p, for p within a few mm of it.
-[[nodiscard]] Eigen::Vector3d project(Bone bone, const Eigen::Vector3d& p);
+[[nodiscard]] Eigen::Vector3d project(Bone bone,
+                                      const Eigen::Vector3d& p,
+                                      const PhantomParameters& knee = kShippedPhantom);
 
 /// Unit normal out of the bone at a point of the surface.
-[[nodiscard]] Eigen::Vector3d normal(Bone bone, const Eigen::Vector3d& c);
+[[nodiscard]] Eigen::Vector3d normal(Bone bone,
+                                     const Eigen::Vector3d& c,
+                                     const PhantomParameters& knee = kShippedPhantom);
 
 /// Curvature tensor K at a point of the surface [1/mm], dn = -K dc.
-[[nodiscard]] Eigen::Matrix3d curvature(Bone bone, const Eigen::Vector3d& c);
+[[nodiscard]] Eigen::Matrix3d curvature(Bone bone,
+                                        const Eigen::Vector3d& c,
+                                        const PhantomParameters& knee = kShippedPhantom);
 
 /// Point, normal and curvature at the surface point closest to p. `dual` is left zero: the shape
 /// has no chart.
-[[nodiscard]] SurfacePoint surface_point(Bone bone, const Eigen::Vector3d& p);
+[[nodiscard]] SurfacePoint surface_point(Bone bone,
+                                         const Eigen::Vector3d& p,
+                                         const PhantomParameters& knee = kShippedPhantom);
 
 /// A box that holds the bone.
 struct Box {
   Eigen::Vector3d low, high;
 };
-[[nodiscard]] Box bounds(Bone bone);
+[[nodiscard]] Box bounds(Bone bone, const PhantomParameters& knee = kShippedPhantom);
 
 /// Names as used in files and messages.
 [[nodiscard]] const char* bone_name(Bone bone);

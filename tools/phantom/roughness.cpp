@@ -29,7 +29,10 @@ class Random {
 
 }  // namespace
 
-void roughen(Bone bone, const Roughness& roughness, TriangleMesh& mesh) {
+void roughen(Bone bone,
+             const Roughness& roughness,
+             TriangleMesh& mesh,
+             const PhantomParameters& knee) {
   if (roughness.rms <= 0 || mesh.vertices.empty()) return;
   // A sum of many plane waves, wave vectors normally distributed with deviation 1/l: correlation
   // exp(-d²/2l²).
@@ -53,7 +56,7 @@ void roughen(Bone bone, const Roughness& roughness, TriangleMesh& mesh) {
   const double n = static_cast<double>(field.size()), mean = sum / n;
   const double scale = roughness.rms / std::sqrt(sum_of_squares / n - mean * mean);
   for (std::size_t i = 0; i < field.size(); ++i)
-    mesh.vertices[i] += scale * (field[i] - mean) * normal(bone, mesh.vertices[i]);
+    mesh.vertices[i] += scale * (field[i] - mean) * normal(bone, mesh.vertices[i], knee);
 }
 
 }  // namespace condyle::phantom

@@ -17,6 +17,9 @@ struct Roughness {
 };
 
 /// Moves every vertex of a mesh that lies on the exact surface. The same seed gives the same field.
-void roughen(Bone bone, const Roughness& roughness, TriangleMesh& mesh);
+void roughen(Bone bone,
+             const Roughness& roughness,
+             TriangleMesh& mesh,
+             const PhantomParameters& knee = kShippedPhantom);
 
 }  // namespace condyle::phantom

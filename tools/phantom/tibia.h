@@ -1,25 +1,14 @@
 #pragma once
 
-/// The tibia of the phantom; see docs/phantom.md for the sources of its measures. Lengths in mm.
+/// The tibia of the phantom before it is sized; see docs/phantom.md for the sources of its measures.
+/// Lengths in mm.
 
 #include <cmath>
 
+#include "phantom/phantom_parameters.h"
 #include "phantom/smooth.h"
 
 namespace condyle::phantom {
-
-/// Height of the tibial plateau: a dish of coronal and sagittal radius on a slope, per compartment.
-struct Plateau {
-  double x, z;      ///< its middle
-  double height;    ///< y there
-  double slope;     ///< rise per mm forwards: the posterior slope
-  double sagittal;  ///< radius along x, positive concave, negative convex
-  double coronal;   ///< radius along z, positive concave
-};
-inline constexpr Plateau kMedialPlateau{
-    .x = 2.0, .z = -23.5, .height = -24.17, .slope = 0.1228, .sagittal = 90, .coronal = 28};
-inline constexpr Plateau kLateralPlateau{
-    .x = 1.0, .z = 23.5, .height = -21.05, .slope = 0.1051, .sagittal = -45, .coronal = 60};
 
 template <class T>
 T plateau_height(const Plateau& p, const T& x, const T& z) {
@@ -30,10 +19,10 @@ T plateau_height(const Plateau& p, const T& x, const T& z) {
 
 /// Both plateaus, the two spines of the eminence and the hollows in front of and behind it.
 template <class T>
-T tibial_height(const T& x, const T& z) {
+T tibial_height(const TibiaParameters& tibia, const T& x, const T& z) {
   const T lateral = step<T>(z, 2.6);
-  const T plateaus = (1.0 - lateral) * plateau_height(kMedialPlateau, x, z) +
-                     lateral * plateau_height(kLateralPlateau, x, z);
+  const T plateaus = (1.0 - lateral) * plateau_height(tibia.medial, x, z) +
+                     lateral * plateau_height(tibia.lateral, x, z);
   const T spines =
       5.5 * hill<T>(x - 0.5, 9.0, z + 5.5, 3.2) + 5.5 * hill<T>(x + 1.5, 8.0, z - 5.5, 3.2);
   const T hollows = 4.0 * hill<T>(x - 17.0, 6.0, z, 6.0) + 7.0 * hill<T>(x + 18.0, 7.0, z, 6.0);
@@ -49,7 +38,7 @@ T column(const T& x, const T& taper, const T& z, double depth, double width) {
 }
 
 template <class T>
-T tibia_shape(const T& x, const T& y, const T& z) {
+T tibia_shape(const TibiaParameters& tibia, const T& x, const T& y, const T& z) {
   const T taper = 1.0 - 0.62 * step<T>(-46.0 - y, 7.0);
   const T medial = column<T>(x - 3.0, taper, z + 15.5 * taper, 25.5, 23.0);
   const T lateral = column<T>(x - 3.0, taper, z - 16.5 * taper, 22.5, 21.5);
@@ -58,7 +47,7 @@ T tibia_shape(const T& x, const T& y, const T& z) {
   const T tuberosity = ellipsoid<T>(x - 17.0, y + 47.0, z - 2.0, 10.5, 17, 9);
   const T fibular_head = ellipsoid<T>(x + 13.0, y + 44.0, z - 27.0, 8.5, 13, 8.5);
   const T sides = smooth_min<T>({medial, lateral, front, shaft, tuberosity, fibular_head}, 2.2);
-  return smooth_max<T>({y - tibial_height(x, z), sides, -108.0 - y}, 1.6);
+  return smooth_max<T>({y - tibial_height(tibia, x, z), sides, -108.0 - y}, 1.6);
 }
 
 }  // namespace condyle::phantom
