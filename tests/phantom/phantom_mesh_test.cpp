@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "phantom/mesh_shape.h"
+#include "phantom/population.h"
 #include "phantom/roughness.h"
 #include "phantom/stl.h"
 
@@ -133,6 +134,18 @@ TEST_P(PhantomMesh, ExactMeshLiesOnTheSurfaceWithWellShapedTriangles) {
   }
   EXPECT_GT(worst, 3);                                                 // none degenerate
   EXPECT_LT(thin, 0.02 * static_cast<double>(mesh.triangles.size()));  // and few below 20 degrees
+}
+
+TEST_P(PhantomMesh, OfAnyKneeOfAPopulationIsClosedManifoldAndOutward) {
+  for (std::uint64_t number = 1; number <= 6; ++number) {
+    const PhantomParameters knee = population_knee(1, number).parameters;
+    const TriangleMesh mesh = mesh_bone(GetParam(), 3.0, knee);
+    expect_closed_two_manifold(mesh);
+    EXPECT_EQ(
+        static_cast<long>(mesh.vertices.size()) - static_cast<long>(mesh.triangles.size()) / 2, 2);
+    EXPECT_GT(volume(mesh), 3e4);
+    for (const Vector3d& p : mesh.vertices) ASSERT_LT(std::abs(shape(GetParam(), p, knee)), 1e-9);
+  }
 }
 
 TEST_P(PhantomMesh, RoughnessFollowsItsSeed) {

@@ -1,11 +1,12 @@
-/// condyle_phantom: writes the phantom knee's two bones as binary STL, or prints how a scene of it
-/// moves on the exact surfaces (docs/phantom.md).
+/// condyle_phantom: writes the phantom knee's two bones as binary STL, prints how a scene of it moves on
+/// the exact surfaces, or writes a population of knees with their scenes (docs/phantom.md).
 ///
 ///   condyle_phantom -o meshes
 ///   condyle_phantom -o DIR --resolution 1.0 --roughness 0.1 --correlation 3 --seed 7
 ///   condyle_phantom -o DIR --exact
 ///   condyle_phantom -o DIR --split 3
 ///   condyle_phantom --motion data/phantom/knee.toml
+///   condyle_phantom --population 20 --seed 1 --exact -o DIR
 
 #include <CLI/CLI.hpp>
 
@@ -13,17 +14,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <utility>
 
 #include "condyle/equilibrium/sweep.h"
+#include "condyle/input_error.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_wraps.h"
 #include "phantom/exact_motion.h"
 #include "phantom/mesh_shape.h"
-#include "phantom/roughness.h"
-#include "phantom/split_triangles.h"
-#include "phantom/stl.h"
+#include "phantom/write_knee.h"
 
 namespace {
 
@@ -49,17 +47,17 @@ int main(int argc, char** argv) {
       },
       "");
   CLI::App app{"Meshes of the phantom knee"};
-  std::filesystem::path folder, scene;
-  double resolution = kResolution;
-  Roughness roughness;
+  std::filesystem::path folder, scene, shipped = "data/phantom/knee.toml";
+  KneeMeshes meshes{.resolution = kResolution, .roughness = {}, .split = 0};
+  Roughness& roughness = meshes.roughness;
   bool exact = false;
-  int split = 0;
+  int knees = 0;
   CLI::Option* output = app.add_option("-o,--output", folder, "folder for femur.stl and tibia.stl")
                             ->check(CLI::ExistingDirectory);
   app.add_option("--motion", scene, "scene to sweep on the exact surfaces, printed as a table")
       ->check(CLI::ExistingFile)
       ->excludes(output);
-  app.add_option("--resolution", resolution, "grid cell [mm]")
+  app.add_option("--resolution", meshes.resolution, "grid cell [mm]")
       ->capture_default_str()
       ->check(finite)
       ->check(CLI::Range(0.2, 8.0));
@@ -71,11 +69,17 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(finite)
       ->check(CLI::Range(0.1, 50.0));
-  app.add_option("--seed", roughness.seed, "of the roughness")->capture_default_str();
+  app.add_option("--seed", roughness.seed, "of the roughness, of the population")
+      ->capture_default_str();
   app.add_flag("--exact", exact, "no roughness");
-  app.add_option("--split", split, "times that each triangle is cut into four, at the end")
+  app.add_option("--split", meshes.split, "times that each triangle is cut into four, at the end")
       ->capture_default_str()
       ->check(CLI::Range(0, 4));
+  app.add_option("--population", knees, "knees of a population, each with its scene")
+      ->check(CLI::Range(1, 999))
+      ->needs(output);
+  app.add_option("--scene", shipped, "scene that a population's are carried from")
+      ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   if (!scene.empty()) {
     print_motion(scene);
@@ -87,20 +91,21 @@ int main(int argc, char** argv) {
   }
   if (exact) roughness.rms = 0;
 
-  for (const Bone bone : {Bone::kFemur, Bone::kTibia}) {
-    condyle::TriangleMesh mesh = mesh_bone(bone, resolution);
-    roughen(bone, roughness, mesh);
-    mesh = split_triangles(std::move(mesh), split);
-    const std::string name = bone_name(bone);
-    const std::filesystem::path file = folder / (name + ".stl");
-    std::ofstream out(file, std::ios::binary);
-    const std::string bytes = binary_stl(mesh, "condyle phantom " + name + ", right knee, mm");
-    if (!out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush()) {
-      std::fprintf(stderr, "condyle_phantom: cannot write %s\n", file.string().c_str());
-      return 1;
+  try {
+    if (knees > 0) {
+      write_population(folder, condyle::read_scene(shipped), knees, roughness.seed, meshes);
+      std::printf("%s: %d knees\n", folder.string().c_str(), knees);
+      return 0;
     }
-    std::printf("%s: %zu vertices, %zu triangles\n", file.string().c_str(), mesh.vertices.size(),
-                mesh.triangles.size());
+    for (const Bone bone : {Bone::kFemur, Bone::kTibia}) {
+      const std::filesystem::path file = folder / (std::string(bone_name(bone)) + ".stl");
+      const WrittenMesh written = write_bone(file, bone, meshes);
+      std::printf("%s: %zu vertices, %zu triangles\n", file.string().c_str(), written.vertices,
+                  written.triangles);
+    }
+  } catch (const condyle::InputError& error) {
+    std::fprintf(stderr, "condyle_phantom: %s\n", error.what());
+    return 1;
   }
   return 0;
 }

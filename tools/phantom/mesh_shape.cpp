@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace condyle::phantom {
 
@@ -27,11 +29,12 @@ struct Grid {
   }
 };
 
-Grid sample(Bone bone, double cell, const Knee& knee) {
+/// `before`: how far the grid starts before the box, of a cell.
+Grid sample(Bone bone, double cell, double before, const Knee& knee) {
   const Box box = bounds(bone, knee);
-  Grid grid{box.low, cell, {}, {}};
+  Grid grid{box.low - Vector3d::Constant(before * cell), cell, {}, {}};
   for (int a = 0; a < 3; ++a)
-    grid.nodes[a] = static_cast<int>(std::ceil((box.high - box.low)[a] / cell)) + 1;
+    grid.nodes[a] = static_cast<int>(std::ceil((box.high - grid.origin)[a] / cell)) + 1;
   grid.f.resize(static_cast<std::size_t>(grid.nodes[0]) * grid.nodes[1] * grid.nodes[2]);
   for (int i = 0; i < grid.nodes[0]; ++i)
     for (int j = 0; j < grid.nodes[1]; ++j)
@@ -137,14 +140,43 @@ void relax(Bone bone, TriangleMesh& mesh, const Knee& knee) {
   }
 }
 
-}  // namespace
-
-TriangleMesh mesh_bone(Bone bone, double cell, const Knee& knee) {
-  const Grid grid = sample(bone, cell, knee);
+TriangleMesh net(Bone bone, const Grid& grid, const Knee& knee) {
   TriangleMesh mesh;
   const std::vector<int> vertex_of = place_vertices(grid, mesh);
   for (Vector3d& p : mesh.vertices) p = onto_surface(bone, p, 2, knee);
   connect(grid, vertex_of, mesh);
+  return mesh;
+}
+
+/// Whether each edge is used once in each direction, and the triangles round each vertex are one fan.
+bool is_two_manifold(const TriangleMesh& mesh) {
+  std::map<std::pair<int, int>, int> next;  // from an edge to the one before it round its start
+  std::vector<int> valence(mesh.vertices.size(), 0), some(mesh.vertices.size(), -1);
+  for (const auto& t : mesh.triangles)
+    for (int a = 0; a < 3; ++a) {
+      if (!next.emplace(std::pair(t[a], t[(a + 1) % 3]), t[(a + 2) % 3]).second) return false;
+      ++valence[t[a]];
+      some[t[a]] = t[(a + 1) % 3];
+    }
+  for (int v = 0; v < static_cast<int>(valence.size()); ++v) {
+    int steps = 0, w = some[v];
+    do {
+      const auto found = next.find({v, w});
+      if (found == next.end()) return false;
+      w = found->second;
+    } while (++steps < valence[v] && w != some[v]);
+    if (steps != valence[v] || w != some[v]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TriangleMesh mesh_bone(Bone bone, double cell, const Knee& knee) {
+  TriangleMesh mesh = net(bone, sample(bone, cell, 0, knee), knee);
+  constexpr int kGrids = 8;
+  for (int i = 1; !is_two_manifold(mesh) && i < kGrids; ++i)
+    mesh = net(bone, sample(bone, cell, static_cast<double>(i) / kGrids, knee), knee);
   constexpr int kRelaxations = 6;
   for (int i = 0; i < kRelaxations; ++i) relax(bone, mesh, knee);
   for (Vector3d& p : mesh.vertices) p = onto_surface(bone, p, 12, knee);

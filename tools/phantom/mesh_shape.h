@@ -12,7 +12,8 @@ namespace condyle::phantom {
 inline constexpr double kResolution = 1.4;
 
 /// Surface nets [Gibson 1998] on a grid of `cell` mm, vertices relaxed along the surface and
-/// dropped onto it.
+/// dropped onto it. Where a crevice as narrow as a cell leaves an edge to more than two triangles the
+/// grid is moved by parts of a cell until there is none.
 [[nodiscard]] TriangleMesh mesh_bone(Bone bone,
                                      double cell,
                                      const PhantomParameters& knee = kShippedPhantom);

@@ -10,7 +10,13 @@
 
 namespace condyle {
 
-enum class DrawsFor : std::uint64_t { kStart = 1, kPriorMean = 2, kNoise = 3, kRoughness = 4 };
+enum class DrawsFor : std::uint64_t {
+  kStart = 1,
+  kPriorMean = 2,
+  kNoise = 3,
+  kRoughness = 4,
+  kPopulation = 5
+};
 
 [[nodiscard]] Eigen::VectorXd normal_draws(std::uint64_t seed,
                                            DrawsFor what,
