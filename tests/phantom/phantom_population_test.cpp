@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>

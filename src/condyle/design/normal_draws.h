@@ -15,7 +15,7 @@ enum class DrawsFor : std::uint64_t {
   kPriorMean = 2,
   kNoise = 3,
   kRoughness = 4,
-  kPopulation = 5
+  kPopulation = 16
 };
 
 [[nodiscard]] Eigen::VectorXd normal_draws(std::uint64_t seed,
