@@ -3,7 +3,6 @@
 #include "condyle/equilibrium/build_model.h"
 #include "condyle/equilibrium/restore_state.h"
 #include "condyle/equilibrium/sweep.h"
-#include "condyle/study/study_worker.h"
 
 namespace condyle {
 namespace {
@@ -59,14 +58,6 @@ StudyModels::StudyModels(const StudyPlan& plan) {
     std::vector<FittedMesh>& rough = meshes_.emplace_back();
     if (plan.study.roughness) rough = fitted_meshes(knee.scene, knee.surfaces);
   }
-}
-
-std::shared_ptr<const StudyModels> study_models(const StudyPlan& plan) {
-  return std::make_shared<const StudyModels>(plan);
-}
-
-const SweepResult& nominal_sweep(const StudyModels& models, std::size_t knee) {
-  return models.nominal(knee);
 }
 
 }  // namespace condyle

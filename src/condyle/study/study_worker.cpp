@@ -56,6 +56,14 @@ struct StudyWorker::Parts {
   }
 };
 
+std::shared_ptr<const StudyModels> study_models(const StudyPlan& plan) {
+  return std::make_shared<const StudyModels>(plan);
+}
+
+const SweepResult& nominal_sweep(const StudyModels& models, std::size_t knee) {
+  return models.nominal(knee);
+}
+
 StudyWorker::StudyWorker(const StudyPlan& plan, std::shared_ptr<const StudyModels> models)
     : parts_(std::make_unique<Parts>(Parts{plan, std::move(models), {}, {}})) {
   parts_->sweeps.resize(plan.knees.size());
