@@ -1,9 +1,11 @@
 /// How sure a pose is, given a mesh: the phantom with roughness of known strength, swept on patches that
 /// are fitted to it and on its exact surfaces, and what the mesh alone tells of the error
-/// (study/mesh_uncertainty.h). Prints a table for docs/study.md.
+/// (study/mesh_uncertainty.h). Prints tables for docs/study.md.
 ///
-///   roughness_study SCENE MESHES JUDGED SWEEPS [RMS...]   MESHES of each strength, of which the first JUDGED
-///                                              are asked for their uncertainty, by SWEEPS sweeps each
+///   condyle_roughness_study SCENE auto|position MESHES JUDGED SWEEPS RMS...
+///
+/// MESHES of each strength, of which the first JUDGED are asked for their uncertainty, by SWEEPS sweeps
+/// each.
 
 #include <fmt/format.h>
 
@@ -43,8 +45,8 @@ using Numbers = std::vector<double>;
 struct Quantity {
   SensitivityOutput output;
   std::string name;
-  std::vector<Numbers> error;      ///< by meshes
-  std::vector<Numbers> sd, shift;  ///< by judged meshes
+  std::vector<Numbers> error;  ///< by meshes
+  std::vector<Numbers> sd;     ///< by judged meshes
 };
 
 std::vector<Quantity> quantities_of(const Scene& scene) {
@@ -61,7 +63,7 @@ std::vector<Quantity> quantities_of(const Scene& scene) {
   std::vector<Quantity> quantities;
   for (const auto& [place, name] : shown)
     for (const SensitivityOutput& output : uncertain_outputs(scene))
-      if (output.place == place) quantities.push_back({output, name, {}, {}, {}});
+      if (output.place == place) quantities.push_back({output, name, {}, {}});
   return quantities;
 }
 
@@ -122,7 +124,7 @@ class Phantom {
 };
 
 void add(const Phantom& knee, const Trial& trial, Quantity& quantity) {
-  Numbers error, sd, shift;
+  Numbers error, sd;
   for (std::size_t pose = 0; pose < trial.sweep.poses.size(); ++pose)
     error.push_back(number(quantity, trial.sweep.poses[pose]) -
                     number(quantity, knee.truth().poses[pose]));
@@ -133,11 +135,8 @@ void add(const Phantom& knee, const Trial& trial, Quantity& quantity) {
     if (outputs[i].place != quantity.output.place) continue;
     for (const double value : trial.uncertainty->sd[i])
       sd.push_back(value / outputs[i].unit.factor);
-    for (const double value : trial.uncertainty->shift[i])
-      shift.push_back(value / outputs[i].unit.factor);
   }
   quantity.sd.push_back(sd);
-  quantity.shift.push_back(shift);
 }
 
 /// Root mean square of finite numbers.
@@ -184,22 +183,27 @@ double covered(const Quantity& quantity, double times) {
   return 100 * within / all;
 }
 
-void print_quantity(double rms, const Quantity& quantity) {
+std::string row_of(double rms, const Quantity& quantity) {
   const Split errors = split(quantity.error);
-  Rms told, shift;
+  std::string row = fmt::format("| {:g} | {} {} | {:.2f} | {:.2f} | {:.2f} |", rms, quantity.name,
+                                quantity.output.unit.name, errors.bias.value(),
+                                errors.spread.value(), errors.error.value());
+  if (quantity.sd.empty()) return row + "\n";
+  Rms told;
   for (const Numbers& mesh : quantity.sd)
     for (const double value : mesh) told.add(value);
-  for (const Numbers& mesh : quantity.shift)
-    for (const double value : mesh) shift.add(value);
   constexpr double kStudent = 2.09;  // 19 degrees of freedom
-  fmt::print("| {:g} | {} {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} |\n",
-             rms, quantity.name, quantity.output.unit.name, errors.bias.value(),
-             errors.spread.value(), errors.error.value(), told.value(),
-             told.value() / errors.spread.value(), told.value() / errors.error.value(),
-             covered(quantity, kStudent));
+  return row + fmt::format(" {:.2f} | {:.2f} | {:.2f} | {:.0f} |\n", told.value(),
+                           told.value() / errors.spread.value(),
+                           told.value() / errors.error.value(), covered(quantity, kStudent));
 }
 
-void study(const Phantom& knee, bool position, double rms, const Asked& asked) {
+/// Of one strength: rows of quantities, and one of all.
+struct Rows {
+  std::string quantities, whole;
+};
+
+Rows study(const Phantom& knee, bool position, double rms, const Asked& asked) {
   Scene scene = knee.scene();
   for (SurfaceDescription& surface : scene.surfaces) surface.patch.smooth_for_position = position;
   std::vector<Trial> trials(static_cast<std::size_t>(asked.meshes));
@@ -226,11 +230,24 @@ void study(const Phantom& knee, bool position, double rms, const Asked& asked) {
       length.add(surface.texture.correlation);
     }
   }
-  fmt::print(stderr,
-             "{:g} mm, {}: {} of {} poses; told {:.3f} mm, l = {:.2f} mm; smoothing {:.1f} mm\n",
-             rms, position ? "position" : "auto", converged, poses, strength.value(),
-             length.value(), smoothing.value());
-  for (const Quantity& quantity : quantities) print_quantity(rms, quantity);
+  Rows rows;
+  rows.whole =
+      fmt::format("| {:g} | {:.1f} | {} of {} |", rms, smoothing.value(), converged, poses);
+  if (strength.count > 0)
+    rows.whole += fmt::format(" {:.2f} | {:.1f} |", strength.value(), length.value());
+  rows.whole += "\n";
+  for (const Quantity& quantity : quantities) rows.quantities += row_of(rms, quantity);
+  return rows;
+}
+
+void print(const std::vector<Rows>& all, bool told) {
+  fmt::print("| roughness mm | quantity | bias | spread | error |{}\n|---|---|---|---|---|{}\n",
+             told ? " told sd | told / spread | told / error | within 95 % |" : "",
+             told ? "---|---|---|---|" : "");
+  for (const Rows& rows : all) fmt::print("{}", rows.quantities);
+  fmt::print("\n| roughness mm | smoothing mm | poses |{}\n|---|---|---|{}\n",
+             told ? " told mm | told l mm |" : "", told ? "---|---|" : "");
+  for (const Rows& rows : all) fmt::print("{}", rows.whole);
 }
 
 }  // namespace
@@ -238,15 +255,19 @@ void study(const Phantom& knee, bool position, double rms, const Asked& asked) {
 
 int main(int argc, char** argv) {
   try {
-    if (argc < 6)
-      throw condyle::InputError("roughness_study SCENE MESHES JUDGED SWEEPS auto|position RMS...");
+    if (argc < 7)
+      throw condyle::InputError(
+          "condyle_roughness_study: expected SCENE auto|position MESHES JUDGED SWEEPS RMS...");
     const condyle::Phantom knee(argv[1]);
-    const condyle::Asked asked{std::atoi(argv[2]), std::atoi(argv[3]), std::atoi(argv[4])};
+    const bool position = std::string(argv[2]) == "position";
+    const condyle::Asked asked{std::atoi(argv[3]), std::atoi(argv[4]), std::atoi(argv[5])};
+    std::vector<condyle::Rows> rows;
     for (int i = 6; i < argc; ++i)
-      condyle::study(knee, std::string(argv[5]) == "position", std::atof(argv[i]), asked);
+      rows.push_back(condyle::study(knee, position, std::atof(argv[i]), asked));
+    condyle::print(rows, asked.judged > 0);
     return 0;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "roughness_study: {}\n", error.what());
+    fmt::print(stderr, "{}\n", error.what());
     return 1;
   }
 }

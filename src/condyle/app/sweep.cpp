@@ -21,7 +21,9 @@
 #include "condyle/results/output_file.h"
 #include "condyle/results/run_view.h"
 #include "condyle/results/sweep_table.h"
+#include "condyle/results/uncertainty_group.h"
 #include "condyle/scene_file/read_scene.h"
+#include "condyle/study/mesh_uncertainty.h"
 
 namespace condyle {
 namespace {
@@ -31,6 +33,7 @@ struct SweepCommand {
   std::string scene, output;
   RangeOptions range;
   bool resume = false;
+  int uncertainty = 0;  ///< sweeps; 0: none
 };
 
 // The sweep with its table; each pose goes into the journal as soon as it is known.
@@ -68,6 +71,23 @@ SweepResult sweep_aloud(const Talk& talk,
   return result;
 }
 
+/// How sure the poses are, given the meshes; null where it was not asked for.
+std::shared_ptr<const MeshUncertainty> uncertainty_aloud(const SweepCommand& command,
+                                                         const Scene& scene,
+                                                         const std::vector<FittedSurface>& surfaces,
+                                                         const std::vector<PoseResult>& poses) {
+  if (command.uncertainty == 0) return nullptr;
+  Progress line(command.talk, "sweeps");
+  StudyProgress progress([&](const std::string&, int done, int total) {
+    line.at(done, total);
+    return true;
+  });
+  auto found = mesh_uncertainty(scene, surfaces, poses, {command.uncertainty, 1, 0}, progress);
+  line.clear();
+  say(command.talk, "{}\n", uncertainty_words(*found));
+  return found;
+}
+
 void write_result(const SweepCommand& command, const Run& run, Journal& journal) {
   try {
     write_run(command.output, run);
@@ -86,6 +106,7 @@ int run_sweep(const SweepCommand& command) {
   CommandClock clock;
   check_output_file(command.output);
   Scene scene = read_scene(command.scene);
+  if (command.uncertainty != 0) check_uncertainty(scene, {command.uncertainty, 1, 0});
   if (command.resume && scene.sweep && scene.sweep->arc_length) {
     throw InputError(command.scene +
                      ": [sweep]: path = \"arc length\", expected \"steps\" for --resume");
@@ -101,6 +122,7 @@ int run_sweep(const SweepCommand& command) {
   Journal journal(journal_path(command.output), identity(scene, surfaces), earlier.journal_bytes);
   run.sweep = sweep_aloud(talk, scene, surfaces, std::move(earlier.poses), journal);
   run.sensitivities = sweep_sensitivities(scene, surfaces, run.sweep.poses);
+  run.uncertainty = uncertainty_aloud(command, scene, surfaces, run.sweep.poses);
   const SweepResult& result = run.sweep;
   for (const std::string& line : event_lines(scene, swept_quantity(run), result))
     say(talk, "{}\n", line);
@@ -125,6 +147,8 @@ void setup_sweep(CLI::App& program, int& status) {
   add_range_options(*command, options->range);
   command->add_flag("--resume", options->resume,
                     "take over what RUN.h5 and the journal of a stopped run hold");
+  command->add_flag("--uncertainty{20}", options->uncertainty,
+                    "how sure the poses are, given the meshes: by 20 sweeps, or --uncertainty=N");
   add_talk_options(*command, options->talk);
   command->footer("Example: condyle sweep data/phantom/knee.toml -o out/phantom.h5");
   command->callback([options, &status] {

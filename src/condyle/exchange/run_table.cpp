@@ -8,6 +8,7 @@
 #include "condyle/equilibrium/sweep_sensitivities.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/sensitivity_group.h"
+#include "condyle/study/mesh_uncertainty.h"
 
 namespace condyle {
 namespace {
@@ -26,6 +27,7 @@ class Columns {
     for (std::size_t i = 0; i < scene_.ligaments.size(); ++i) add_ligament(i);
     for (std::size_t i = 0; i < scene_.conditions.size(); ++i) add_condition(i);
     if (run_.sensitivities) add_sensitivities();
+    if (run_.uncertainty) add_uncertainty();
     add_solver();
     return std::move(columns_);
   }
@@ -143,6 +145,18 @@ class Columns {
           column.values.push_back(shown_derivative(all, shown.index, i, j));
         columns_.push_back(std::move(column));
       }
+  }
+
+  /// Quantity "uncertainty": standard deviation, given the meshes.
+  void add_uncertainty() {
+    const MeshUncertainty& all = *run_.uncertainty;
+    for (std::size_t i = 0; i < all.outputs.size(); ++i) {
+      const Unit& unit = all.outputs[i].unit;
+      TableColumn column{"uncertainty", all.outputs[i].place, "sd", unit.name, {}};
+      for (const ShownPose& shown : shown_)
+        column.values.push_back(all.sd[i][shown.index] / unit.factor);
+      columns_.push_back(std::move(column));
+    }
   }
 
   void add_solver() {

@@ -61,6 +61,25 @@ std::string data_block(const std::string& name, const Numbers& x, const Numbers&
   return block + "END_OF_DATA\n";
 }
 
+/// Broken where the curve is.
+std::string band_block(const std::string& name, const Curve& curve) {
+  std::string block = "$" + name + " << END_OF_DATA\n";
+  for (std::size_t i = 0; i < curve.low.size(); ++i) {
+    const bool known = std::isfinite(curve.x[i]) && std::isfinite(curve.y[i]) &&
+                       std::isfinite(curve.low[i]) && std::isfinite(curve.high[i]);
+    block += known ? fmt::format("{:.9g} {:.9g} {:.9g}\n", curve.x[i], curve.low[i], curve.high[i])
+                   : "\n";
+  }
+  return block + "END_OF_DATA\n";
+}
+
+std::string band_command(std::size_t color, const std::string& data) {
+  return fmt::format(
+      "${} using 1:2:3 with filledcurves fillcolor '{}' fillstyle transparent solid 0.18 noborder "
+      "notitle, ",
+      data, kColors[color % kColors.size()]);
+}
+
 Title title_of(const Chart& chart) {
   return page_title(chart.title, chart.what, (1 - kLeft) * kWidth - kTitleMargin);
 }
@@ -158,7 +177,10 @@ std::string panel_script(const Chart& chart, std::size_t index, int height) {
     const Curve& curve = panel.curves[i];
     script += data_block(name, curve.x, curve.y);
     if (has_hollow(curve)) script += data_block(name + "hollow", curve.hollow_x, curve.hollow_y);
-    commands += (commands.empty() ? "plot " : ", ") + curve_command(chart, panel, i, name) +
+    if (!curve.low.empty()) script += band_block(name + "band", curve);
+    commands += commands.empty() ? "plot " : ", ";
+    if (!curve.low.empty()) commands += band_command(color_of(curve, i), name + "band");
+    commands += curve_command(chart, panel, i, name) +
                 hollow_command(curve, color_of(curve, i), name + "hollow");
   }
   if (!commands.empty() && !chart.runs.empty()) commands += run_legend(chart, panel, index == 0);

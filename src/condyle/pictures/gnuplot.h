@@ -20,6 +20,7 @@ struct Curve {
   bool dashed = false;  ///< a second curve in the colour of a first
   int style = 0;        ///< of the line, where several runs lie over each other: which run
   std::vector<double> hollow_x = {}, hollow_y = {};  ///< points that are no results: hollow circles
+  std::vector<double> low = {}, high = {};  ///< of a band about it, at each x; none: no band
 };
 
 struct Panel {

@@ -16,6 +16,7 @@
 #include "condyle/results/contact_path.h"
 #include "condyle/results/motion_view.h"
 #include "condyle/results/run_view.h"
+#include "condyle/results/uncertainty_group.h"
 #include "condyle/scene/ligament_path.h"
 
 namespace condyle {
@@ -42,6 +43,23 @@ Curve curve_of(const Run& run, const std::string& title, const OfPose& y) {
     curve.hollow_y.push_back(y(pose));
   }
   return curve;
+}
+
+/// The interval of 95 %, given the meshes, about a curve of curve_of; `place` under /sweep.
+void add_band(const Run& run, const std::string& place, double unit, Curve& curve) {
+  if (!run.uncertainty) return;
+  const std::vector<double>* sd = inside_sd(*run.uncertainty, place);
+  if (sd == nullptr) return;
+  const double times = interval_of(*run.uncertainty);
+  for (std::size_t i = 0; i < curve.y.size(); ++i) {
+    curve.low.push_back(curve.y[i] - times * unit * (*sd)[i]);
+    curve.high.push_back(curve.y[i] + times * unit * (*sd)[i]);
+  }
+}
+
+/// Where the chart has bands, its title says so.
+std::string with_bands(const Run& run, const std::string& what) {
+  return run.uncertainty ? what + " (bands: 95 %, given the meshes)" : what;
 }
 
 Chart chart_of(const Run& run, const std::string& what) {
@@ -145,28 +163,32 @@ Curve broken_at_jumps(Curve curve, const SweepResult& sweep, std::size_t contact
 }
 
 Chart joint_coordinate_chart(const Run& run) {
-  Chart chart = chart_of(run, "joint coordinates");
+  Chart chart = chart_of(run, with_bands(run, "joint coordinates"));
   if (!run.scene.joint) return chart;
   Panel angles{"Rotation [°]", {}}, lengths{"Translation [mm]", {}};
   const bool flexion_is_swept = swept_quantity(run).flexion;
   for (const JointCoordinate& q : kJointCoordinates) {
     if (flexion_is_swept && q.member == &JointCoordinates::flexion) continue;
     const double unit = q.angle ? kDegrees : 1;
-    (q.angle ? angles : lengths).curves.push_back(curve_of(run, q.words, [&](const PoseResult& p) {
-      return unit * (p.joint.*q.member);
-    }));
+    Curve curve =
+        curve_of(run, q.words, [&](const PoseResult& p) { return unit * (p.joint.*q.member); });
+    add_band(run, std::string("joint/") + q.name, unit, curve);
+    (q.angle ? angles : lengths).curves.push_back(std::move(curve));
   }
   chart.panels = {angles, lengths};
   return chart;
 }
 
 Chart contact_force_chart(const Run& run) {
-  Chart chart = chart_of(run, "contact forces");
+  Chart chart = chart_of(run, with_bands(run, "contact forces"));
   Panel panel{"Contact force [N]", {}, true};
   for (std::size_t c = 0; c < run.scene.contacts.size(); ++c) {
-    panel.curves.push_back(curve_of(run, run.scene.contacts[c].name, [c](const PoseResult& pose) {
+    const std::string& name = run.scene.contacts[c].name;
+    Curve curve = curve_of(run, name, [c](const PoseResult& pose) {
       return c < pose.contacts.size() ? pose.contacts[c].force : kUnknown;
-    }));
+    });
+    add_band(run, "contacts/" + name + "/force", 1, curve);
+    panel.curves.push_back(std::move(curve));
   }
   if (!panel.curves.empty()) chart.panels = {panel};
   return chart;

@@ -11,6 +11,7 @@
 #include "condyle/report/summary_json.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/run_view.h"
+#include "condyle/results/uncertainty_group.h"
 #include "condyle/verify/verify.h"
 
 namespace condyle {
@@ -82,6 +83,8 @@ std::string status_section(const Run& run) {
     body += verified(run);
   }
   if (run.laxity()) body += laxity_verdict(*run.laxity());
+  if (run.uncertainty)
+    body += "<p>Given the meshes: " + escaped(uncertainty_words(*run.uncertainty)) + ".</p>\n";
   const std::vector<std::string> warnings = run_warnings(run);
   body += warnings.empty() ? "<p>No warnings.</p>\n" : list_of(warnings, "warnings");
   return section("status", "Status and warnings", body);

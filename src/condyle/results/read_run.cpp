@@ -17,6 +17,7 @@
 #include "condyle/results/simulation_group.h"
 #include "condyle/results/sweep_group.h"
 #include "condyle/results/trace_columns.h"
+#include "condyle/results/uncertainty_group.h"
 #include "condyle/results/wrap_group.h"
 #include "condyle/scene/ligament_path.h"
 #include "condyle/scene_file/read_scene.h"
@@ -330,6 +331,9 @@ Run read_run(const std::filesystem::path& path) {
     if (run.scene.sweep && sweep.has("sensitivities"))
       run.sensitivities =
           read_sensitivities(sweep.open("sensitivities"), run.scene, run.sweep.poses.size());
+    if (sweep.has("uncertainty"))
+      run.uncertainty =
+          read_uncertainty(sweep.open("uncertainty"), run.scene, run.sweep.poses.size());
   }
   if (root.has("events")) read_events(root.open("events"), unit, run);
   if (root.has("fit")) run.start = root.open("fit").read_texts("start");

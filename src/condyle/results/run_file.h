@@ -40,6 +40,7 @@ struct InputFile {
 struct CalibrationResult;
 struct Comparison;
 struct LaxityResult;
+struct MeshUncertainty;  ///< study/mesh_uncertainty.h
 struct Simulation;
 struct SweepSensitivities;  ///< equilibrium/sweep_sensitivities.h
 
@@ -67,6 +68,8 @@ struct Run {
   std::vector<InputFile> inputs = {};   ///< the meshes; none in files of version 0.1.0
   /// Where the sweep asks for them; else null.
   std::shared_ptr<const SweepSensitivities> sensitivities = {};
+  /// Of a sweep where it was asked for; else null.
+  std::shared_ptr<const MeshUncertainty> uncertainty = {};
   std::string program = {}, created = {};  ///< read back only: who wrote the file, and when (UTC)
 
   [[nodiscard]] RunKind kind() const { return static_cast<RunKind>(study.index()); }

@@ -18,6 +18,7 @@
 #include "condyle/results/simulation_group.h"
 #include "condyle/results/sweep_group.h"
 #include "condyle/results/trace_columns.h"
+#include "condyle/results/uncertainty_group.h"
 #include "condyle/results/wrap_group.h"
 #include "condyle/scene/ligament_path.h"
 #include "condyle/version.h"
@@ -350,6 +351,7 @@ void write_all(const Hdf5Group& root, const Run& run) {
     const Hdf5Group sweep = root.create("sweep");
     write_sweep(sweep, run.scene, unit, run.sweep.poses);
     if (run.sensitivities) write_sensitivities(sweep.create("sensitivities"), *run.sensitivities);
+    if (run.uncertainty) write_uncertainty(sweep.create("uncertainty"), *run.uncertainty);
     write_events(root.create("events"), run, unit);
   }
   const Hdf5Group patches = root.create("patches");

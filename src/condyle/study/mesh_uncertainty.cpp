@@ -151,7 +151,11 @@ void sum_up(const std::vector<Draw>& draws,
   }
 }
 
-void check(const Scene& scene) {
+}  // namespace
+
+void check_uncertainty(const Scene& scene, const UncertaintyOptions& options) {
+  if (options.sweeps < 2)
+    throw InputError(fmt::format("--uncertainty={}: expected at least 2 sweeps", options.sweeps));
   if (std::none_of(scene.surfaces.begin(), scene.surfaces.end(),
                    [](const auto& s) { return s.kind == SurfaceKind::kPatch; }))
     throw InputError(fmt::format(
@@ -162,8 +166,6 @@ void check(const Scene& scene) {
         fmt::format("{}: [sweep]: path = \"arc length\", expected \"steps\" for --uncertainty",
                     scene.file.string()));
 }
-
-}  // namespace
 
 std::vector<SensitivityOutput> uncertain_outputs(const Scene& scene) {
   std::vector<SensitivityOutput> outputs = sensitivity_outputs(scene);
@@ -183,7 +185,7 @@ std::shared_ptr<const MeshUncertainty> mesh_uncertainty(const Scene& scene,
                                                         const std::vector<PoseResult>& poses,
                                                         const UncertaintyOptions& options,
                                                         StudyProgress& progress) {
-  check(scene);
+  check_uncertainty(scene, options);
   const SmoothKnee knee = smooth_knee(scene, surfaces);
   const auto all = std::make_shared<MeshUncertainty>();
   all->sweeps = options.sweeps;

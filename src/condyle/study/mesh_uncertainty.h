@@ -10,6 +10,7 @@
 /// whole (too large, a bone cut short) leaves nothing beside its patch.
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -46,8 +47,11 @@ struct MeshUncertainty {
 /// Joint coordinates, forces of contacts and ligaments, places of contacts (resultant_ground).
 [[nodiscard]] std::vector<SensitivityOutput> uncertain_outputs(const Scene& scene);
 
-/// Throws InputError where no surface is fitted to a mesh, or the sweep goes by arc length: its poses
-/// have values of their own. Null where it was stopped.
+/// Throws InputError for fewer than two sweeps, and where no surface is fitted to a mesh or the sweep
+/// goes by arc length: its poses have values of their own.
+void check_uncertainty(const Scene& scene, const UncertaintyOptions& options);
+
+/// `poses`: of the sweep itself. Throws as check_uncertainty does; null where it was stopped.
 [[nodiscard]] std::shared_ptr<const MeshUncertainty> mesh_uncertainty(
     const Scene& scene,
     const std::vector<FittedSurface>& surfaces,
