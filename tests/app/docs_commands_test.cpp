@@ -105,6 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Data,
                                          "simulate phantom/pendulum.toml",
                                          "simulate phantom/blow.toml",
                                          "simulate phantom/decaying-sine.toml",
+                                         "study studies/roughness.toml",
                                          "sweep wismans-type/knee.toml",
                                          "compare wismans-type/knee.toml",
                                          "laxity wismans-type/drawer.toml"));

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The scenes that tests of invariance go through: those that are shipped, and those of real knees
-/// where they are at hand.
+/// where they are at hand. Studies (data/studies) are none.
 
 #include <algorithm>
 #include <filesystem>
@@ -15,7 +15,8 @@ inline void add_scenes(const std::filesystem::path& folder,
   namespace fs = std::filesystem;
   if (!fs::exists(folder)) return;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.path().extension() == ".toml") scenes.push_back(entry.path());
+    if (entry.path().extension() == ".toml" && entry.path().parent_path().filename() != "studies")
+      scenes.push_back(entry.path());
   std::sort(scenes.begin(), scenes.end());
 }
 }  // namespace detail

@@ -210,8 +210,12 @@ Rows study(const Phantom& knee, bool position, double rms, const Asked& asked) {
   StudyProgress silent({});
   const auto make_task = [&] {
     return [&](int k) {
-      trials[static_cast<std::size_t>(k)] =
-          knee.trial(scene, rms, k + 1, k < asked.judged ? asked.sweeps : 0);
+      try {
+        trials[static_cast<std::size_t>(k)] =
+            knee.trial(scene, rms, k + 1, k < asked.judged ? asked.sweeps : 0);
+      } catch (const InputError&) {
+        // The mesh is refused: none of its poses is found.
+      }
     };
   };
   (void)in_parallel("meshes", asked.meshes, 0, make_task, silent);
@@ -219,8 +223,9 @@ Rows study(const Phantom& knee, bool position, double rms, const Asked& asked) {
   int poses = 0, converged = 0;
   Rms strength, length, smoothing;
   for (const Trial& trial : trials) {
+    poses += static_cast<int>(knee.truth().poses.size());
+    if (trial.surfaces.empty()) continue;
     for (Quantity& quantity : quantities) add(knee, trial, quantity);
-    poses += static_cast<int>(trial.sweep.poses.size());
     converged += trial.sweep.count_converged();
     for (const FittedSurface& surface : trial.surfaces)
       smoothing.add(surface.report->smoothing_length);

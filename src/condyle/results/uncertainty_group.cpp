@@ -136,9 +136,8 @@ std::string uncertainty_words(const MeshUncertainty& uncertainty) {
       noise, uncertainty.sweeps, greatest_sd(uncertainty, "joint/", "deg"),
       greatest_sd(uncertainty, "joint/", "mm"), greatest_sd(uncertainty, "contacts/", "N"),
       greatest_sd(uncertainty, "ligaments/", "N"), solved, poses,
-      uncertainty.failed_fits > 0
-          ? fmt::format(", {} meshes could not be fitted", uncertainty.failed_fits)
-          : std::string());
+      uncertainty.failed_fits > 0 ? fmt::format(", fits that failed: {}", uncertainty.failed_fits)
+                                  : std::string());
 }
 
 }  // namespace condyle

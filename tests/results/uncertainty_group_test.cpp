@@ -1,0 +1,45 @@
+#include "condyle/results/uncertainty_group.h"
+
+#include <gtest/gtest.h>
+
+namespace condyle {
+namespace {
+
+MeshUncertainty made_up() {
+  MeshUncertainty all;
+  all.sweeps = 20;
+  all.failed_fits = 1;
+  all.surfaces = {{"medial condyle", {0.2, 1.5, 0.19}}};
+  all.outputs = {{"joint/anterior_drawer", {"mm", 1}, {OutputKind::kJointCoordinate, 4}},
+                 {"contacts/medial/force", {"N", 1}, {OutputKind::kContactForce, 0}}};
+  all.sd = {{0.1, 0.3}, {4, 2}};
+  all.shift = {{0, 0}, {0, 0}};
+  all.converged = {19, 18};
+  return all;
+}
+
+TEST(UncertaintyGroup, TellsTheGreatestSpreadInWords) {
+  EXPECT_EQ(uncertainty_words(made_up()),
+            "mesh noise of 0.20 mm rms: in 20 sweeps a standard deviation of up to 0 deg, 0.3 mm, "
+            "contact forces 4 N, ligament forces 0 N; 37 of 40 poses solved, fits that failed: 1");
+}
+
+TEST(UncertaintyGroup, FindsAnOutputByItsPlace) {
+  const MeshUncertainty all = made_up();
+  ASSERT_NE(inside_sd(all, "contacts/medial/force"), nullptr);
+  EXPECT_EQ(*inside_sd(all, "contacts/medial/force"), (std::vector<double>{4, 2}));
+  EXPECT_EQ(inside_sd(all, "contacts/lateral/force"), nullptr);
+}
+
+/// Tables of Student's distribution, 97.5 %.
+TEST(UncertaintyGroup, IntervalsOfFewSweepsAreWider) {
+  MeshUncertainty all;
+  for (const auto& [sweeps, student] :
+       {std::pair{20, 2.093}, {10, 2.262}, {5, 2.776}, {200, 1.972}}) {
+    all.sweeps = sweeps;
+    EXPECT_NEAR(interval_of(all), student, 0.02) << sweeps;
+  }
+}
+
+}  // namespace
+}  // namespace condyle
