@@ -44,7 +44,11 @@ void add_study_options(CLI::App& command, StudyCommand& options) {
       ->check(CLI::Range(1, 4096));
   command.add_option("--samples", options.samples, "in place of the study's")
       ->check(CLI::Range(1L, kMost));
-  command.add_option("--seed", options.seed, "of all random numbers, in place of the study's");
+  command.add_option("--seed", options.seed, "of all random numbers, in place of the study's")
+      ->check([](const std::string& text) {
+        return text.starts_with('-') ? text + ", expected a whole number, 0 or more"
+                                     : std::string();
+      });
   add_part(command, options);
   command.add_flag("--merge", options.merge, "make the result of what parts have left");
   command.add_flag("--resume", options.resume, "go on from the chunks of a stopped run");
