@@ -27,5 +27,6 @@ esac
 install_packages
 install_npm_where_possible
 install_where_possible chromium mandoc  # what tests look at reports and at the manual page with
+install_where_possible libopenmpi-dev openmpi-bin  # condyle-mpi
 build "$folder" "${options[@]}"
 ctest --test-dir "$folder" --output-on-failure --parallel "$(nproc)" "$@"

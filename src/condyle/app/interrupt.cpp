@@ -19,9 +19,13 @@ Interrupt::Interrupt() {
   action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, &before_);
+  sigaction(SIGTERM, &action, &before_term_);
 }
 
-Interrupt::~Interrupt() { sigaction(SIGINT, &before_, nullptr); }
+Interrupt::~Interrupt() {
+  sigaction(SIGINT, &before_, nullptr);
+  sigaction(SIGTERM, &before_term_, nullptr);
+}
 
 bool Interrupt::asked() const { return interrupted; }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Ctrl-C as a question: while one of these lives the first SIGINT is noted and the work may end in
-/// its own way; a second one ends the program at once.
+/// Ctrl-C as a question, and SIGTERM, by which batch systems end a job: while one of these lives the
+/// first of each is noted and the work may end in its own way; a second one ends the program at once.
 
 #include <csignal>
 
@@ -17,7 +17,7 @@ class Interrupt {
   [[nodiscard]] bool asked() const;
 
  private:
-  struct sigaction before_;
+  struct sigaction before_, before_term_;
 };
 
 }  // namespace condyle

@@ -228,6 +228,7 @@ int finished_study(const StudyWork& work, StudyJournals& journals) {
 int run_study(const StudyCommand& command, const StudyTeam& team) {
   StudyWork work{command, team};
   work.plan = ready_study(command);
+  team.expect_same(study_identity(work.plan));
   for (const std::string& line : plan_lines(work.plan)) say(command.talk, "{}\n", line);
   auto journals = std::make_unique<StudyJournals>(open_journals(work));
   if (command.merge) expect_all_chunks(work, *journals);

@@ -29,6 +29,9 @@ struct StudyCommand {
 /// writes; the others compute, and append to journals of their own. A process of its own is a team of one.
 struct StudyTeam {
   int rank = 0, size = 1;
+  /// Throws InputError where what samples depend on differs from that of rank 0. Called once by every
+  /// process.
+  std::function<void(const StudyIdentity&)> expect_same = [](const StudyIdentity&) {};
   /// Who computes which of the missing chunks. Called once by every process, at the same place; the
   /// list of rank 0 counts.
   std::function<NextChunk(std::vector<std::uint64_t> missing)> share = chunks_from_counter;
@@ -40,6 +43,10 @@ struct StudyTeam {
   std::function<bool(bool)> any = [](bool mine) { return mine; };
   [[nodiscard]] bool first() const { return rank == 0; }
 };
+
+/// The command `study` of a team, whose processes compute on one thread each unless told otherwise;
+/// `setup_study` (commands.h) is that of a process of its own.
+void setup_team_study(CLI::App& program, int& status, const StudyTeam& team);
 
 /// Arguments and options of `study` but those of Talk; each --option checks itself.
 void add_study_options(CLI::App& command, StudyCommand& options);

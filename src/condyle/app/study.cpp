@@ -57,6 +57,23 @@ void add_study_options(CLI::App& command, StudyCommand& options) {
   command.add_option("--table", options.table, "table of all samples (CSV)");
 }
 
+void setup_team_study(CLI::App& program, int& status, const StudyTeam& team) {
+  const auto options = std::make_shared<StudyCommand>();
+  options->threads = 1;
+  CLI::App* command = program.add_subcommand("study", "Sweep many samples of knees by all ranks");
+  add_study_options(*command, *options);
+  command->get_option("--threads")->description("of each rank (1)");
+  add_talk_options(*command, options->talk);
+  command->footer("Example: mpirun -n 4 condyle-mpi study study.toml -o out/study.h5");
+  command->callback([options, &status, team] {
+    if (!team.first()) {
+      options->talk.quiet = true;
+      options->talk.json = false;
+    }
+    status = run_telling_errors(options->talk, [&] { return run_study(*options, team); });
+  });
+}
+
 void setup_study(CLI::App& program, int& status) {
   const auto options = std::make_shared<StudyCommand>();
   CLI::App* command =
