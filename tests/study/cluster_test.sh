@@ -19,11 +19,22 @@ fail() {
   exit 1
 }
 
+mpi=(mpirun --oversubscribe --bind-to none)
+
 # ranks N ARGUMENT...: condyle-mpi on N ranks.
 ranks() {
   local n=$1
   shift
-  mpirun --oversubscribe --bind-to none -n "$n" "$condyle_mpi" "$@"
+  "${mpi[@]}" -n "$n" "$condyle_mpi" "$@"
+}
+
+# half_way RESULT: waits until a good part of its chunks is in journals.
+half_way() {
+  for _ in $(seq 600); do
+    [ "$(du -sb "$1.journal" 2>/dev/null | cut -f 1 || true)0" -lt 60000000 ] || return 0
+    sleep 0.02
+  done
+  fail "there are no journals"
 }
 
 whole_study() {
@@ -51,24 +62,18 @@ any_number_of_ranks() {
 # A rank that dies ends the job; what is in journals is not computed again, by any number of ranks.
 dead_rank() {
   whole_study 6000
-  ranks 3 study study.toml -o killed.h5 >killed.log 2>&1 &
+  "${mpi[@]}" -n 3 "$condyle_mpi" study study.toml -o killed.h5 >killed.log 2>&1 &
   local job=$! victim
-  for _ in $(seq 200); do
-    [ "$(cat killed.h5.journal/* 2>/dev/null | wc -c)" -lt 500000 ] || break
-    sleep 0.05
-  done
+  half_way killed.h5
   victim=$(pgrep -P "$job" | tail -n 1)
   kill -9 "$victim" || fail "there was no rank to kill"
   ! wait "$job" || fail "a dead rank did not end the job"
   [ ! -e killed.h5 ] || fail "an incomplete study was written"
   ranks 2 study study.toml -o killed.h5 --resume >resumed.log 2>&1 || fail "resumed: exit code $?"
   same_content whole.h5 killed.h5
-  ranks 2 study study.toml -o again.h5 >again.log 2>&1 &
+  "${mpi[@]}" -n 2 "$condyle_mpi" study study.toml -o again.h5 >again.log 2>&1 &
   job=$!
-  for _ in $(seq 200); do
-    [ "$(cat again.h5.journal/* 2>/dev/null | wc -c)" -lt 500000 ] || break
-    sleep 0.05
-  done
+  half_way again.h5
   kill -TERM "$job"
   ! wait "$job" || fail "SIGTERM did not end the job"
   [ -d again.h5.journal ] || fail "SIGTERM took the journals"
