@@ -122,6 +122,9 @@ TEST(PlotStudy, MapsHoldCorrelationsAndTotalIndices) {
   ASSERT_EQ(maps.size(), 2U);
   EXPECT_EQ(maps[0].name, "study_correlations");
   EXPECT_EQ(maps[1].name, "study_totals");
+  EXPECT_FALSE(maps[0].map.scales.at(0).from_zero);
+  EXPECT_TRUE(maps[1].map.scales.at(0).from_zero);
+  EXPECT_EQ(maps[1].map.scales.at(0).largest, 0.5);
   const HeatMap& map = maps[0].map;
   EXPECT_EQ(map.rows.size(), 14U);
   EXPECT_EQ(map.rows[0].name, "aACL strain");

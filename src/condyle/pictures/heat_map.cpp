@@ -227,13 +227,15 @@ class Script {
     constexpr int kSteps = 101;
     for (std::size_t s = 0; s < map_.scales.size(); ++s) {
       const double left = kMargin + 20 + room * static_cast<double>(s);
+      const double least = map_.scales[s].from_zero ? 0 : -1;
       for (int k = 0; k < kSteps; ++k)
         cell(left + length * k / kSteps, top, left + length * (k + 1) / kSteps + 0.3,
-             top + kBarHeight, color_of(2.0 * k / (kSteps - 1) - 1));
+             top + kBarHeight, color_of(least + (1 - least) * k / (kSteps - 1)));
       const double below = top + kBarHeight + 10;
-      words(left, below, fmt::format("−{:.3g}", map_.scales[s].largest), kCellSize + 1, "center",
-            false);
-      words(left + 0.5 * length, below, "0", kCellSize + 1, "center", false);
+      if (least < 0)
+        words(left, below, fmt::format("−{:.3g}", map_.scales[s].largest), kCellSize + 1, "center",
+              false);
+      words(left - least * 0.5 * length, below, "0", kCellSize + 1, "center", false);
       words(left + length, below, fmt::format("{:.3g}", map_.scales[s].largest), kCellSize + 1,
             "center", false);
       words(left + 0.5 * length, below + 15, full_title(map_.scales[s]), kTextSize, "center", false,

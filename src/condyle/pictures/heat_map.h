@@ -20,10 +20,12 @@ struct HeatMap {
     std::string name;
     std::size_t scale = 0;  ///< whose colours it has
   };
-  /// Colours go from -largest to +largest, white in the middle; columns of one scale stand together.
+  /// Colours go from -largest to +largest, white in the middle, or from 0 where nothing is negative;
+  /// columns of one scale stand together.
   struct Scale {
     std::string title, unit;  ///< of its columns
     double largest = 0;
+    bool from_zero = false;
   };
   struct Panel {
     std::string title;

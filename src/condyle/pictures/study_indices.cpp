@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "condyle/pictures/gnuplot_page.h"
 #include "condyle/pictures/plot_study.h"
@@ -36,15 +37,17 @@ void add_bar(Mark& bars, Mark& intervals, const IndexEstimate& index, double y) 
   intervals.high.push_back(within(index.upper));
 }
 
-/// A half or a quarter where no interval reaches further.
-double index_axis(const StudyEffects& effects, const std::vector<std::size_t>& rows) {
+/// A half or a quarter where nothing reaches further.
+double index_axis(double most) { return most > 0.5 ? 1 : most > 0.25 ? 0.5 : 0.25; }
+
+double greatest_end(const StudyEffects& effects, const std::vector<std::size_t>& rows) {
   double most = 0;
   for (const auto* indices : {&effects.first, &effects.total})
     for (const std::size_t row : rows)
       for (const IndexEstimate& index : indices->at(row))
         for (const double end : {index.value, index.upper})
           if (std::isfinite(end)) most = std::max(most, end);
-  return most > 0.5 ? 1 : most > 0.25 ? 0.5 : 0.25;
+  return most;
 }
 
 PagePanel index_panel(const StudyView& study,
@@ -58,7 +61,7 @@ PagePanel index_panel(const StudyView& study,
   Mark first = bars_of(kFirstInk, kThick), total = bars_of(kTotalInk, kThick),
        intervals = bars_of(kIntervalInk, kThin);
   const StudyEffects& effects = study.all.effects.at(output.index);
-  panel.x_range = {0, index_axis(effects, rows)};
+  panel.x_range = {0, index_axis(greatest_end(effects, rows))};
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const double y = static_cast<double>(r);
     add_bar(first, intervals, effects.first.at(rows[r]).at(pose), y - kApart);
@@ -193,13 +196,20 @@ std::vector<NamedMap> study_maps(const StudyView& study) {
   ranks.notes.push_back(
       fmt::format("Of {} samples; what is below {:.2g} may be chance.", study.samples, chance));
   keep("study_correlations", std::move(ranks));
-  if (has_indices(study))
-    keep("study_totals", map_of(study, "total index",
-                                [](const StudyEffects& effects, std::size_t row, std::size_t pose) {
-                                  return effects.total.empty()
-                                             ? std::nan("")
-                                             : effects.total.at(row).at(pose).value;
-                                }));
+  if (!has_indices(study)) return maps;
+  HeatMap totals = map_of(
+      study, "total index", [](const StudyEffects& effects, std::size_t row, std::size_t pose) {
+        return effects.total.empty() ? std::nan("") : effects.total.at(row).at(pose).value;
+      });
+  double most = 0;
+  for (const HeatMap::Panel& panel : totals.panels)
+    for (const double value : panel.values)
+      if (std::isfinite(value)) most = std::max(most, value);
+  for (HeatMap::Scale& scale : totals.scales) {
+    scale.largest = index_axis(most);
+    scale.from_zero = true;
+  }
+  keep("study_totals", std::move(totals));
   return maps;
 }
 
