@@ -50,7 +50,7 @@ sweeps() {
 
 study() {
   "$CONDYLE" study "$out/study.toml" -o "$out/study.h5" --bands "$out/bands.csv" >"$out/words.txt" 2>/dev/null || [ $? -eq 2 ]
-  grep -E '^ *[0-9]+ (knees|poses)' "$out/words.txt" | sed 's/^ *//; s/$/  /'
+  sed -nE 's/^([0-9]+ knees, [0-9]+ samples.*)$/\1;/p; s/^[0-9]+ poses, .*/&/p' "$out/words.txt"
   awk -F, '
     NR == 1 { next }
     $1 == "all" { band[$2, $4] = sprintf("%.3g / %.3g / %.3g", $9, $11, $13); unit[$2] = $3; next }
@@ -62,7 +62,7 @@ study() {
       for (i = 1; i <= count; ++i) for (flexion = 0; flexion <= 120; flexion += 60) {
         at = names[i] SUBSEP flexion
         m = sum[at] / n[at]
-        printf "| %s, %s | %d° | %s | %.2g | %.2g |\n", names[i], unit[names[i]], flexion, band[at],
+        printf "| %s, %s | %d° | %s | %.3g | %.3g |\n", names[i], unit[names[i]], flexion, band[at],
           sqrt((square[at] - n[at] * m * m) / (n[at] - 1)), sqrt(within[at] / n[at])
       }
     }' "$out/bands.csv"
