@@ -11,5 +11,5 @@ study=$(dirname "$CONDYLE")/condyle_roughness_study
 if [ "$1" = auto ]; then
   "$study" data/phantom/knee.toml auto 40 10 20 0.05 0.1 0.2 0.4
 else
-  "$study" data/phantom/knee.toml position 40 0 20 0.05 0.1 0.2
+  "$study" data/phantom/knee.toml position 40 0 20 0.05 0.1 0.2 0.4
 fi
