@@ -17,6 +17,7 @@
 
 #include "condyle/cluster/chunk_counter.h"
 #include "condyle/results/study_file.h"
+#include "condyle/scene_file/read_study.h"
 #include "condyle/study/study_worker.h"
 
 namespace condyle::cluster_costs {

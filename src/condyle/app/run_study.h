@@ -8,22 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "condyle/app/talk.h"
-#include "condyle/results/study_journal.h"
+#include "condyle/app/study_options.h"
+#include "condyle/results/study_identity.h"
 #include "condyle/study/study_chunk.h"
 
 namespace condyle {
-
-struct StudyCommand {
-  Talk talk;
-  std::string study, output;
-  std::string bands, indices, table;  ///< CSV files; empty: not asked for
-  std::optional<std::uint64_t> seed;
-  std::optional<long> samples;
-  int threads = 0;  ///< of each process; 0: as many as there are cores
-  StudyPart part;
-  bool merge = false, resume = false;
-};
 
 /// The processes that work on one study. Rank 0 takes the folder of journals, says things, merges and
 /// writes; the others compute, and append to journals of their own. A process of its own is a team of one.

@@ -6,6 +6,7 @@
 #include "condyle/app/progress.h"
 #include "condyle/input_error.h"
 #include "condyle/results/output_file.h"
+#include "condyle/scene_file/read_study.h"
 
 namespace condyle {
 namespace {

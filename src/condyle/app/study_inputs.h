@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "condyle/app/run_study.h"
+#include "condyle/app/study_options.h"
 #include "condyle/study/study_plan.h"
 
 namespace condyle {

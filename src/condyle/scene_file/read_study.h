@@ -3,20 +3,10 @@
 /// Study files (TOML, docs/study.md).
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
-#include "condyle/scene/scene.h"
-#include "condyle/scene/study_description.h"
+#include "condyle/scene/study_with_scenes.h"
 
 namespace condyle {
-
-/// A study with its knees as read.
-struct ReadStudy {
-  StudyDescription study;
-  std::vector<Scene> scenes;                      ///< as StudyDescription::specimens
-  std::vector<std::vector<VariedNumber>> varied;  ///< by scene: the same numbers of each
-};
 
 /// Reads and checks study and scenes. Where the study has no [[vary]] and its design is a table, what
 /// varies is what the first scene's [calibrate] leaves free. Throws InputError: file, line, key, value

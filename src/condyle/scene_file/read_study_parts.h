@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "condyle/scene_file/read_study.h"
+#include "condyle/scene/study_with_scenes.h"
 #include "condyle/scene_file/section.h"
 
 namespace condyle {

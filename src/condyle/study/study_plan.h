@@ -13,7 +13,7 @@
 #include "condyle/design/spread.h"
 #include "condyle/on_progress.h"
 #include "condyle/scene/fitted_surface.h"
-#include "condyle/scene_file/read_study.h"
+#include "condyle/scene/study_with_scenes.h"
 #include "condyle/study/study_output.h"
 
 namespace condyle {
