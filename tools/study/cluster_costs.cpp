@@ -133,8 +133,7 @@ void print_paper(const Costs& costs, double number_over_tcp) {
              100 * costs.setup / compute);
   fmt::print("| merge, by rank 0 alone | {:.0f} s | {:.0f} s | {:.0f} % |\n\n", merge, compute,
              100 * merge / compute);
-  fmt::print("At {:.0f} cores the counter is asked as fast as it can answer.
-", kCores / counter);
+  fmt::print("At {:.0f} cores the counter is asked as fast as it can answer.\n", kCores / counter);
 }
 
 int run(int argc, char** argv, int rank) {
