@@ -50,6 +50,15 @@ TEST(StudyPage, FailuresThatDependOnANumberAreABias) {
   EXPECT_TRUE(has(page_of(study), "<p class=\"verdict good\"><strong>25600 of 25600</strong>"));
 }
 
+// Three levels of a grid leave one quarter without samples.
+TEST(StudyPage, AQuarterWithoutSamplesHidesNoBias) {
+  StudyView study = test::made_up_study();
+  for (auto& shares : study.all.failures.by_quartile) shares = {0.02, 0.02, 0.06, std::nan("")};
+  EXPECT_TRUE(has(page_of(study), "biased"));
+  for (auto& shares : study.all.failures.by_quartile) shares = {0.033, 0.032, 0.033, std::nan("")};
+  EXPECT_FALSE(has(page_of(study), "biased"));
+}
+
 TEST(StudyPage, TellsWhatExplainsWhatTheGreatestFirst) {
   StudyView study = test::made_up_study();
   for (auto& by_parameter : study.all.effects[3].first)

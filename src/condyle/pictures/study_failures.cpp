@@ -9,6 +9,7 @@
 
 #include "condyle/pictures/plot_study.h"
 #include "condyle/results/study_shown.h"
+#include "condyle/results/study_words.h"
 
 namespace condyle {
 namespace {
@@ -46,8 +47,8 @@ PagePanel over_sweep(const StudyView& study) {
 std::vector<std::size_t> most_uneven(const StudyFailures& failures) {
   std::vector<double> differences;
   for (const std::array<double, 4>& shares : failures.by_quartile) {
-    const auto [low, high] = std::minmax_element(shares.begin(), shares.end());
-    differences.push_back(*high - *low);
+    const auto [low, high] = range_of_quarters(shares);
+    differences.push_back(high - low);
   }
   std::vector<std::size_t> order = greatest_first(differences);
   order.resize(std::min(order.size(), kMostParameters));
@@ -67,18 +68,20 @@ PagePanel by_quarter(const StudyView& study) {
   double most = 0;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const std::array<double, 4>& shares = failures.by_quartile.at(rows[r]);
-    const auto [low, high] = std::minmax_element(shares.begin(), shares.end());
+    const auto [low, high] = range_of_quarters(shares);
     spans.y.push_back(static_cast<double>(r));
-    spans.low.push_back(100 * *low);
-    spans.high.push_back(100 * *high);
-    most = std::max(most, 100 * *high);
+    spans.low.push_back(100 * low);
+    spans.high.push_back(100 * high);
+    most = std::max(most, 100 * high);
     panel.y_names.push_back(names.at(rows[r]));
   }
   panel.marks.push_back(spans);
   for (std::size_t q = 0; q < kQuarterInks.size(); ++q) {
     Mark dots{Mark::Kind::kDots, {}, {}, {}, {}, kQuarterInks[q], false, false, 1.2};
     for (std::size_t r = 0; r < rows.size(); ++r) {
-      dots.x.push_back(100 * failures.by_quartile[rows[r]][q]);
+      const double share = failures.by_quartile[rows[r]][q];
+      if (std::isnan(share)) continue;
+      dots.x.push_back(100 * share);
       dots.y.push_back(static_cast<double>(r));
     }
     panel.marks.push_back(dots);

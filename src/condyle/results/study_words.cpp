@@ -41,12 +41,12 @@ std::string line_of_failures(const StudyFailures& failures) {
 }
 
 std::string line_of_quartiles(const StudyView& view, std::size_t parameter) {
-  const std::array<double, 4>& rates = view.all.failures.by_quartile[parameter];
-  return fmt::format(
-      "failed poses by quarters of {}: {:.3g}, {:.3g}, {:.3g}, {:.3g} %: bands lean to where poses "
-      "are found",
-      view.parameters[parameter].name, 100 * rates[0], 100 * rates[1], 100 * rates[2],
-      100 * rates[3]);
+  std::string rates;
+  for (const double rate : view.all.failures.by_quartile[parameter])
+    rates += (rates.empty() ? "" : ", ") +
+             (std::isnan(rate) ? std::string("-") : fmt::format("{:.3g}", 100 * rate));
+  return fmt::format("failed poses by quarters of {}: {} %: bands lean to where poses are found",
+                     view.parameters[parameter].name, rates);
 }
 
 std::string effects_in_words(const StudyView& view, const StudyEffects& effects, std::size_t pose) {
@@ -76,14 +76,29 @@ std::optional<std::size_t> widest_pose(const StudyBand& band) {
   return widest;
 }
 
+QuarterRange range_of_quarters(const std::array<double, 4>& shares) {
+  QuarterRange range{1, 0};
+  for (const double share : shares) {
+    if (std::isnan(share)) continue;
+    range.low = std::min(range.low, share);
+    range.high = std::max(range.high, share);
+  }
+  return range;
+}
+
 bool failures_depend_on(const StudyView& view, std::size_t parameter) {
-  constexpr double kDeviations = 3;
-  const std::array<double, 4>& rates = view.all.failures.by_quartile.at(parameter);
-  const auto [low, high] = std::minmax_element(rates.begin(), rates.end());
-  // Poses of a sample fail together: a quarter has as many chances as samples.
-  const double chances = std::max(1.0, static_cast<double>(view.samples) / 4);
-  const double mean = (rates[0] + rates[1] + rates[2] + rates[3]) / 4;
-  return *high - *low > kDeviations * std::sqrt(2 * mean * (1 - mean) / chances);
+  constexpr double kDeviations = 4;  // of the farthest two of four quarters, for each parameter
+  const StudyFailures& failures = view.all.failures;
+  if (failures.failed == 0 || failures.incomplete == 0) return false;
+  const auto samples = static_cast<double>(view.samples);
+  const auto failed = static_cast<double>(failures.failed);
+  const double poses = static_cast<double>(failures.poses) / samples;
+  const double share = failed / static_cast<double>(failures.poses);
+  // Poses of a sample fail together: a sample with any has so large a share of them.
+  const double together = failed / static_cast<double>(failures.incomplete) / poses;
+  const double variance = share * std::max(together - share, (1 - share) / poses);
+  const auto [low, high] = range_of_quarters(failures.by_quartile.at(parameter));
+  return high - low > kDeviations * std::sqrt(2 * variance / std::max(1.0, samples / 4));
 }
 
 std::vector<EffectSize> largest_effects(const StudyEffects& effects, std::size_t pose) {

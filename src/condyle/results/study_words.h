@@ -2,6 +2,7 @@
 
 /// What a study says, in words for the standard output.
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,8 +18,14 @@ namespace condyle {
 /// The pose at which the band of 5 to 95 % is widest; none where there is no number.
 [[nodiscard]] std::optional<std::size_t> widest_pose(const StudyBand& band);
 
+/// The least and the greatest share; a quarter without samples (NaN) is left out.
+struct QuarterRange {
+  double low = 0, high = 0;
+};
+[[nodiscard]] QuarterRange range_of_quarters(const std::array<double, 4>& shares);
+
 /// Whether failed poses are more frequent in some quarter of the parameter's samples than chance
-/// (three deviations) explains.
+/// (four deviations, poses of a sample failing together) explains.
 [[nodiscard]] bool failures_depend_on(const StudyView& view, std::size_t parameter);
 
 /// The parameters by the size of their effect on an output at a pose, the largest first: total index
