@@ -157,6 +157,12 @@ HeatMap map_of(const StudyView& study, const char* what, const At& at) {
   return map;
 }
 
+/// Those with numbers of their own: of a design of Saltelli blocks A and B.
+long ranked_samples(const StudyView& study) {
+  if (study.design != "saltelli") return study.samples;
+  return 2 * study.samples / (static_cast<long>(study.parameters.size()) + 2);
+}
+
 }  // namespace
 
 std::vector<NamedPage> study_index_pages(const StudyView& study) {
@@ -192,9 +198,10 @@ std::vector<NamedMap> study_maps(const StudyView& study) {
              [](const StudyEffects& effects, std::size_t row, std::size_t pose) {
                return effects.rank.empty() ? std::nan("") : effects.rank.at(row).at(pose);
              });
-  const double chance = 1.96 / std::sqrt(std::max(1.0, static_cast<double>(study.samples)));
+  const long samples = ranked_samples(study);
+  const double chance = 1.96 / std::sqrt(std::max(1.0, static_cast<double>(samples)));
   ranks.notes.push_back(
-      fmt::format("Of {} samples; what is below {:.2g} may be chance.", study.samples, chance));
+      fmt::format("Of {} samples; what is below {:.2g} may be chance.", samples, chance));
   keep("study_correlations", std::move(ranks));
   if (!has_indices(study)) return maps;
   HeatMap totals = map_of(
