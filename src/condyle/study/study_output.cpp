@@ -44,9 +44,15 @@ class OutputList {
 
  private:
   void keep(const std::string& name, const Unit& unit, const PoseOutput& output) {
-    const bool there = std::any_of(outputs.begin(), outputs.end(),
-                                   [&](const StudyOutput& known) { return known.name == name; });
-    if (!there) outputs.push_back({name, unit, output});
+    const auto known = std::find_if(outputs.begin(), outputs.end(),
+                                    [&](const StudyOutput& other) { return other.name == name; });
+    if (known == outputs.end()) {
+      outputs.push_back({name, unit, output});
+    } else if (known->output.kind != output.kind) {
+      throw InputError(fmt::format(
+          "{}: outputs: \"{}\" is of a contact and of a ligament of {}, expected names that differ",
+          study_, name, scene_.file.string()));
+    }
   }
 
   /// The coordinate that the sweep prescribes is known.
