@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <system_error>
 
 #include "condyle/input_error.h"
@@ -15,16 +16,24 @@ namespace fs = std::filesystem;
 /// Heads, summaries and the like.
 constexpr std::uint64_t kAllElse = 1 << 20;
 
-std::uint64_t journal_bytes(const StudyPlan& plan, std::uint64_t chunks) {
+/// a * b + c, or the greatest number there is.
+std::uint64_t bytes_of(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
+  std::uint64_t bytes = 0;
+  const bool beyond =
+      __builtin_mul_overflow(a, b, &bytes) || __builtin_add_overflow(bytes, c, &bytes);
+  return beyond ? std::numeric_limits<std::uint64_t>::max() : bytes;
+}
+
+std::uint64_t journal_bytes(const StudyPlan& plan) {
   const ChunkLayout layout = chunk_layout(plan);
-  return layout.samples == 0 ? 0 : chunks * layout.record_bytes(0);
+  return layout.samples == 0 ? 0 : bytes_of(layout.chunks(), layout.record_bytes(0), 0);
 }
 
 std::uint64_t result_bytes(const StudyPlan& plan) {
   const std::uint64_t number = plan.study.single_precision ? sizeof(float) : sizeof(double);
   const std::uint64_t sample = plan.parameters.size() * sizeof(double) + sizeof(std::int32_t) +
                                plan.values.size() * (1 + plan.outputs.size() * number);
-  return plan.samples() * sample + kAllElse;
+  return bytes_of(plan.samples(), sample, kAllElse);
 }
 
 std::uint64_t bytes_in(const fs::path& folder) {
@@ -47,7 +56,7 @@ std::string in_words(std::uint64_t bytes) {
 }  // namespace
 
 std::uint64_t study_bytes(const StudyPlan& plan) {
-  return journal_bytes(plan, chunk_layout(plan).chunks()) + result_bytes(plan);
+  return bytes_of(journal_bytes(plan), 1, result_bytes(plan));
 }
 
 void expect_room(const fs::path& result, const StudyPlan& plan) {

@@ -34,7 +34,12 @@ class ChunkRun {
     };
     {
       std::vector<std::jthread> others;
-      for (int worker = 1; worker < threads; ++worker) others.emplace_back(work, worker);
+      try {
+        for (int worker = 1; worker < threads; ++worker) others.emplace_back(work, worker);
+      } catch (...) {  // no more threads can be had
+        stopped_ = true;
+        throw;
+      }
       work(0);
     }
     for (const std::exception_ptr& error : errors)

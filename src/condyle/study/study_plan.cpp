@@ -88,6 +88,14 @@ std::vector<StudyOutput> outputs_of(const StudyKnee& knee, const StudyPlan& plan
   return outputs;
 }
 
+/// Each point is a sample of each knee.
+void expect_countable(const StudyPlan& plan) {
+  constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 53;
+  if (plan.points > kMostSamples / plan.knees.size())
+    throw InputError(fmt::format("{}: {} points of {} knees, expected at most 2^53 samples",
+                                 plan.study.file.string(), plan.points, plan.knees.size()));
+}
+
 void set_points(const StudyDescription& study, StudyPlan& plan) {
   if (study.design == DesignKind::kTable) {
     if (study.table_holds_values && plan.knees.size() > 1)
@@ -150,6 +158,7 @@ StudyPlan study_plan(ReadStudy study, const OnProgress& on_knee) {
   for (StudyKnee& knee : plan.knees) knee.outputs = outputs_of(knee, plan);
   plan.values = first.scene.sweep->values;
   set_points(plan.study, plan);
+  expect_countable(plan);
   return plan;
 }
 
