@@ -88,7 +88,10 @@ void write_output_file(const fs::path& path, const std::string& bytes) {
 }
 
 FileBeside::FileBeside(fs::path path)
-    : path_(std::move(path)), name_(path_.string() + fmt::format(".part{}", ::getpid())) {}
+    : FileBeside(std::move(path), fmt::format(".part{}", ::getpid())) {}
+
+FileBeside::FileBeside(fs::path path, const std::string& ending)
+    : path_(std::move(path)), name_(path_.string() + ending) {}
 
 FileBeside::~FileBeside() {
   if (!kept_) ::unlink(name_.c_str());

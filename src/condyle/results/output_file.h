@@ -15,10 +15,13 @@ void check_output_file(const std::filesystem::path& path);
 /// such folder, disk full, ...) and then leaves nothing behind.
 void write_output_file(const std::filesystem::path& path, const std::string& bytes);
 
-/// The same for a file that something else writes by its name.
+/// The same for a file that something else writes by its name, which is that of `path` with an ending.
 class FileBeside {
  public:
+  /// With an ending of this process.
   explicit FileBeside(std::filesystem::path path);
+  /// Where no other process writes `path` at the same time: what a kill leaves is written over next time.
+  FileBeside(std::filesystem::path path, const std::string& ending);
   FileBeside(const FileBeside&) = delete;
   FileBeside& operator=(const FileBeside&) = delete;
   ~FileBeside();  ///< removes it where it was not kept
