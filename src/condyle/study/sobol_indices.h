@@ -2,7 +2,7 @@
 
 /// Sobol's first-order and total indices of one number from a design of Saltelli, each with an interval.
 ///
-/// First order: Janon, Monod et al. [Janon 2014], asymptotically efficient; total: [Jansen 1999]. Both
+/// First order: the estimator of Monod, asymptotically efficient [Janon 2014]; total: [Jansen 1999]. Both
 /// are ratios of means, so that the intervals of 95 % follow from the spread of the ratio's error over
 /// base points (delta method). They hold for independent base points; Sobol points are spread more
 /// evenly, and the intervals are then wider than need be. A base point of which any of the d + 2 values
