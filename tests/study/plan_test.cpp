@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 
@@ -109,6 +110,24 @@ TEST(StudyPlan, OutputsAreFoundInEachKneeByTheirNames) {
   study.scenes[1].contacts[1].name = "inner";
   study.study.outputs.clear();
   EXPECT_THROW((void)study_plan(study), InputError);
+}
+
+// Bounds are of the number itself: what change they allow depends on where a knee has it.
+TEST(StudyPlan, EachKneeIsCutAtBoundsOfItsOwn) {
+  ReadStudy study = small_study("wismans-type/knee.toml", 50);
+  study.scenes.push_back(study.scenes[0]);
+  study.varied.push_back(study.varied[0]);
+  StudyPlan plan = study_plan(study);
+  plan.knees[1].parameters[0].bounds = {-0.001, 0.001};
+  std::array<double, 2> farthest{};
+  std::vector<double> theta;
+  for (std::uint64_t k = 0; k < plan.samples(); ++k) {
+    plan.theta(k, theta);
+    double& far = farthest[plan.knee_of(k)];
+    far = std::max(far, std::abs(theta[0]));
+  }
+  EXPECT_GT(farthest[0], 0.01);
+  EXPECT_LE(farthest[1], 0.001);
 }
 
 class StudyTable : public testing::Test {

@@ -132,8 +132,13 @@ void StudyPlan::theta(std::uint64_t sample, std::vector<double>& theta) const {
     return;
   }
   design->point(point, theta);
-  for (std::size_t j = 0; j < parameters.size(); ++j)
-    theta[j] = quantile(parameters[j].spread, theta[j]);
+  const std::vector<FreeParameter>& own = knees[knee_of(sample)].parameters;
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    Spread spread = parameters[j].spread;
+    // Bounds are of the number itself, and where it stands differs between knees.
+    if (j < own.size()) spread.bounds = own[j].bounds;
+    theta[j] = quantile(spread, theta[j]);
+  }
 }
 
 StudyPlan study_plan(ReadStudy study, const OnProgress& on_knee) {

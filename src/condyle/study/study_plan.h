@@ -23,7 +23,7 @@ struct StudyParameter {
   std::string name;          ///< "aACL.reference_strain"; of the roughness "roughness.seed"
   std::string units;         ///< of θ: "1", "mm"
   bool logarithmic = false;  ///< θ = ln(number/number of the scene)
-  Spread spread;
+  Spread spread;  ///< of the first knee; each is cut at bounds of its own (StudyKnee::parameters)
 };
 
 struct StudyKnee {
