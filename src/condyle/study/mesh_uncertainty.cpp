@@ -161,6 +161,12 @@ void check_uncertainty(const Scene& scene, const UncertaintyOptions& options) {
     throw InputError(fmt::format(
         "{}: no surface is fitted to a mesh, expected one with kind = \"patch\" for --uncertainty",
         scene.file.string()));
+  for (const SurfaceDescription& s : scene.surfaces)
+    if (s.kind == SurfaceKind::kPatch && s.patch.smoothing == 0)
+      throw InputError(fmt::format(
+          "{}: surface \"{}\": smoothing = 0 tells no noise from the bone, expected \"auto\", "
+          "\"position\" or a length > 0 for --uncertainty",
+          scene.file.string(), s.name));
   if (scene.sweep && scene.sweep->arc_length)
     throw InputError(
         fmt::format("{}: [sweep]: path = \"arc length\", expected \"steps\" for --uncertainty",

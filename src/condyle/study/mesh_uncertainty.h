@@ -47,8 +47,9 @@ struct MeshUncertainty {
 /// Joint coordinates, forces of contacts and ligaments, places of contacts (resultant_ground).
 [[nodiscard]] std::vector<SensitivityOutput> uncertain_outputs(const Scene& scene);
 
-/// Throws InputError for fewer than two sweeps, and where no surface is fitted to a mesh or the sweep
-/// goes by arc length: its poses have values of their own.
+/// Throws InputError for fewer than two sweeps, and where no surface is fitted to a mesh, one is fitted
+/// without smoothing, which follows all noise, or the sweep goes by arc length: its poses have values of
+/// their own.
 void check_uncertainty(const Scene& scene, const UncertaintyOptions& options);
 
 /// `poses`: of the sweep itself. Throws as check_uncertainty does; null where it was stopped.
