@@ -106,6 +106,12 @@ void FileBeside::keep() {
   if (!kept_)
     throw InputError(
         fmt::format("{}: cannot be written: {}", path_.string(), reason(stored ? errno : code)));
+  // The name, too: what the file was made of may be removed now.
+  const fs::path folder = path_.has_parent_path() ? path_.parent_path() : fs::path(".");
+  const int names = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (names < 0) return;
+  ::fsync(names);
+  ::close(names);
 }
 
 }  // namespace condyle
