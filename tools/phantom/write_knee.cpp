@@ -75,6 +75,12 @@ void write_population(const fs::path& folder,
                       int knees,
                       std::uint64_t seed,
                       const KneeMeshes& meshes) {
+  const fs::path beyond = folder / fmt::format("P{:03}.toml", knees + 1);
+  if (fs::exists(beyond))
+    throw InputError(
+        fmt::format("{}: is of another population, which the study would sweep as well, "
+                    "expected a folder without",
+                    beyond.string()));
   std::string table = table_head();
   for (int k = 1; k <= knees; ++k) {
     const std::string name = fmt::format("P{:03}", k);
