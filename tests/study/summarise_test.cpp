@@ -152,6 +152,19 @@ TEST(StudyEffects, DoNotDependOnThreads) {
   EXPECT_EQ(one.quantiles, four.quantiles);
 }
 
+TEST(RankedParameters, OfVeryManySamplesAreOfSomeThatStandEvenly) {
+  std::vector<double> theta(3 * kMostRanked + 1);
+  for (std::size_t k = 0; k < theta.size(); ++k) theta[k] = static_cast<double>(k);
+  const RankedParameters ranked = ranked_parameters({theta}, false);
+  ASSERT_EQ(ranked.samples.size(), kMostRanked);
+  EXPECT_EQ(ranked.samples.front(), 0U);
+  EXPECT_GE(ranked.samples.back(), theta.size() - 4);
+  for (std::size_t i = 1; i < kMostRanked; ++i)
+    ASSERT_LE(ranked.samples[i] - ranked.samples[i - 1], 4U);
+  const std::vector<double>& y = theta;
+  EXPECT_NEAR(study_effects({y, 1}, ranked).rank[0][0], 1, 1e-12);
+}
+
 // Eight samples of two poses, a parameter that counts them and one that is the same throughout: samples
 // 5 (both poses), 6 and 7 fail.
 TEST(StudyFailures, AreCountedByPoseStatusAndQuarter) {

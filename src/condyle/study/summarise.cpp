@@ -49,6 +49,14 @@ double deviation(const std::vector<double>& values, double mean) {
   return std::sqrt(squares / static_cast<double>(values.size() - 1));
 }
 
+/// To kMostRanked at most, evenly.
+void thin_out(std::vector<std::uint32_t>& samples) {
+  const std::size_t all = samples.size();
+  if (all <= kMostRanked) return;
+  for (std::size_t i = 0; i < kMostRanked; ++i) samples[i] = samples[i * all / kMostRanked];
+  samples.resize(kMostRanked);
+}
+
 std::vector<double> correlations_at(const OutputSamples& samples,
                                     const RankedParameters& parameters,
                                     std::size_t pose) {
@@ -92,6 +100,7 @@ RankedParameters ranked_parameters(const std::vector<std::vector<double>>& theta
   const std::size_t samples = theta.empty() ? 0 : theta.front().size();
   for (std::uint32_t k = 0; k < samples; ++k)
     if (!saltelli || k % (theta.size() + 2) < 2) ranked.samples.push_back(k);
+  thin_out(ranked.samples);
   std::vector<double> values(ranked.samples.size());
   for (const std::vector<double>& parameter : theta) {
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = parameter[ranked.samples[i]];

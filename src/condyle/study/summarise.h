@@ -21,11 +21,16 @@ struct OutputSamples {
                                    const std::vector<double>& nominal,
                                    int threads = 1);
 
-/// The parameters of all samples as study_effects needs them: made once for all outputs.
+/// A correlation of so many samples is known within 0.004: more of them are passed over, since sorting
+/// all would take longer than sweeping cheap knees.
+inline constexpr std::size_t kMostRanked = 65536;
+
+/// The parameters of samples as study_effects needs them: made once for all outputs.
 struct RankedParameters {
   bool saltelli = false;
-  std::vector<std::uint32_t> samples;  ///< whose ranks are told: all; kSaltelli: those of A and B
-  std::vector<Places> places;          ///< by parameters, of these samples
+  std::vector<std::uint32_t>
+      samples;                 ///< that are ranked, evenly over all; kSaltelli: over A and B
+  std::vector<Places> places;  ///< by parameters, of these samples
 };
 
 /// `theta`: by parameters, then samples. `saltelli`: whether samples stand in the order of
