@@ -23,14 +23,16 @@ void fail_all(const StudyPlan& plan, std::uint8_t* status, double* values) {
 struct StudyWorker::Parts {
   const StudyPlan& plan;
   std::shared_ptr<const StudyModels> models;
-  std::vector<std::unique_ptr<SampleSweep>> sweeps;  ///< by knees, made where they are needed
-  std::vector<double> theta;
+  std::unique_ptr<SampleSweep> own = {};  ///< of the knee of the last sample: they go knee by knee
+  std::size_t knee_of_own = 0;
+  std::vector<double> theta = {};
 
   SampleSweep& sweep(std::size_t knee) {
-    std::unique_ptr<SampleSweep>& own = sweeps[knee];
-    if (!own)
-      own = std::make_unique<SampleSweep>(models->knee(knee), plan.knees[knee].parameters,
-                                          plan.values, plan.knees[knee].outputs);
+    if (own && knee_of_own == knee) return *own;
+    own.reset();
+    own = std::make_unique<SampleSweep>(models->knee(knee), plan.knees[knee].parameters,
+                                        plan.values, plan.knees[knee].outputs);
+    knee_of_own = knee;
     return *own;
   }
 
@@ -65,9 +67,7 @@ const SweepResult& nominal_sweep(const StudyModels& models, std::size_t knee) {
 }
 
 StudyWorker::StudyWorker(const StudyPlan& plan, std::shared_ptr<const StudyModels> models)
-    : parts_(std::make_unique<Parts>(Parts{plan, std::move(models), {}, {}})) {
-  parts_->sweeps.resize(plan.knees.size());
-}
+    : parts_(std::make_unique<Parts>(Parts{plan, std::move(models)})) {}
 
 StudyWorker::~StudyWorker() = default;
 

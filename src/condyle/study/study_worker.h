@@ -1,7 +1,7 @@
 #pragma once
 
-/// The workspace of one thread: solvers of all knees of a plan, and the way from a sample's numbers to
-/// its poses.
+/// The workspace of one thread: a solver of the knee whose samples are computed, and the way from a
+/// sample's numbers to its poses.
 ///
 /// The ligaments and loads are set in place; where the mesh is rough anew its surfaces are fitted and a
 /// solver is made. A sweep then goes from the stored nominal pose at its first value, each pose from the
