@@ -9,6 +9,7 @@
 #include "condyle/pictures/gnuplot_page.h"
 #include "condyle/pictures/plot_study.h"
 #include "condyle/results/study_shown.h"
+#include "condyle/study/summarise.h"
 
 namespace condyle {
 namespace {
@@ -157,10 +158,11 @@ HeatMap map_of(const StudyView& study, const char* what, const At& at) {
   return map;
 }
 
-/// Those with numbers of their own: of a design of Saltelli blocks A and B.
+/// How many correlations are of; of a design of Saltelli blocks A and B have numbers of their own.
 long ranked_samples(const StudyView& study) {
-  if (study.design != "saltelli") return study.samples;
-  return 2 * study.samples / (static_cast<long>(study.parameters.size()) + 2);
+  const long blocks = static_cast<long>(study.parameters.size()) + 2;
+  const long own = study.design == "saltelli" ? 2 * study.samples / blocks : study.samples;
+  return std::min(own, static_cast<long>(kMostRanked));
 }
 
 }  // namespace

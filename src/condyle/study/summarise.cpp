@@ -1,12 +1,15 @@
 #include "condyle/study/summarise.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "condyle/calibration/in_parallel.h"
+#include "condyle/design/permutation.h"
 #include "condyle/study/quantiles.h"
 #include "condyle/study/sobol_indices.h"
 
@@ -49,12 +52,16 @@ double deviation(const std::vector<double>& values, double mean) {
   return std::sqrt(squares / static_cast<double>(values.size() - 1));
 }
 
-/// To kMostRanked at most, evenly.
+/// To kMostRanked at most, which are drawn: every fourth of a grid, or of Sobol's points, would hold some
+/// of what varies fixed.
 void thin_out(std::vector<std::uint32_t>& samples) {
-  const std::size_t all = samples.size();
-  if (all <= kMostRanked) return;
-  for (std::size_t i = 0; i < kMostRanked; ++i) samples[i] = samples[i * all / kMostRanked];
-  samples.resize(kMostRanked);
+  if (samples.size() <= kMostRanked) return;
+  constexpr std::uint64_t kSeed = 1, kOfNoDesign = ~std::uint64_t{0};
+  const Permutation order(samples.size(), kSeed, kOfNoDesign);
+  std::vector<std::uint32_t> drawn(kMostRanked);
+  for (std::size_t i = 0; i < kMostRanked; ++i) drawn[i] = samples[order(i)];
+  std::sort(drawn.begin(), drawn.end());
+  samples = std::move(drawn);
 }
 
 std::vector<double> correlations_at(const OutputSamples& samples,

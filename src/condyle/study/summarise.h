@@ -29,7 +29,7 @@ inline constexpr std::size_t kMostRanked = 65536;
 struct RankedParameters {
   bool saltelli = false;
   std::vector<std::uint32_t>
-      samples;                 ///< that are ranked, evenly over all; kSaltelli: over A and B
+      samples;  ///< that are ranked, in order, drawn from all; kSaltelli: from A and B
   std::vector<Places> places;  ///< by parameters, of these samples
 };
 
