@@ -50,10 +50,10 @@ void add_band(const Run& run, const std::string& place, double unit, Curve& curv
   if (!run.uncertainty) return;
   const std::vector<double>* sd = inside_sd(*run.uncertainty, place);
   if (sd == nullptr) return;
-  const double times = interval_of(*run.uncertainty);
   for (std::size_t i = 0; i < curve.y.size(); ++i) {
-    curve.low.push_back(curve.y[i] - times * unit * (*sd)[i]);
-    curve.high.push_back(curve.y[i] + times * unit * (*sd)[i]);
+    const double half = interval_of(run.uncertainty->converged.at(i)) * unit * (*sd)[i];
+    curve.low.push_back(curve.y[i] - half);
+    curve.high.push_back(curve.y[i] + half);
   }
 }
 

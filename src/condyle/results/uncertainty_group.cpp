@@ -114,9 +114,11 @@ const std::vector<double>* inside_sd(const MeshUncertainty& uncertainty, const s
   return nullptr;
 }
 
-double interval_of(const MeshUncertainty& uncertainty) {
+double interval_of(int sweeps) {
+  constexpr double kOfTwo = 12.706;  // too far from the normal one
+  if (sweeps <= 2) return kOfTwo;
   // Cornish and Fisher's expansion of Student's t about the normal quantile, [Abramowitz 26.7.5].
-  const double z = 1.959964, n = std::max(1, uncertainty.sweeps - 1);
+  const double z = 1.959964, n = sweeps - 1;
   const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
   return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n) +
          (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * n * n * n);

@@ -23,8 +23,9 @@ void write_uncertainty(const Hdf5Group& group, const MeshUncertainty& uncertaint
 [[nodiscard]] const std::vector<double>* inside_sd(const MeshUncertainty& uncertainty,
                                                    const std::string& place);
 
-/// Half the width of an interval of 95 %, in standard deviations: Student's t for so few sweeps.
-[[nodiscard]] double interval_of(const MeshUncertainty& uncertainty);
+/// Half the width of an interval of 95 %, in standard deviations: Student's t for so few sweeps, 2 or
+/// more, that found the pose.
+[[nodiscard]] double interval_of(int sweeps);
 
 /// One line: what the meshes leave beside their patches, and how far the poses that it does the most to
 /// scatter.
