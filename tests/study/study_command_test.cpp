@@ -115,6 +115,18 @@ TEST_F(StudyCommandLine, AnInterruptKeepsTheChunksAndResumeGoesOn) {
                    "expected the same or another output");
 }
 
+TEST_F(StudyCommandLine, ResumeOfWhatIsCompleteComputesNothing) {
+  ASSERT_EQ(study("-o s.h5 --quiet").code, 0);
+  const std::string before = contents(folder_ / "s.h5");
+  const Outcome again = study("-o s.h5 --resume --bands b.csv");
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_NE(again.out.find("s.h5 holds all of this study already\n"), std::string::npos);
+  EXPECT_TRUE(there("b.csv"));
+  EXPECT_EQ(contents(folder_ / "s.h5"), before);
+  EXPECT_EQ(study("-o s.h5 --resume --seed 2 --quiet").code, 0);
+  EXPECT_NE(contents(folder_ / "s.h5"), before);
+}
+
 TEST_F(StudyCommandLine, MergesOnlyWhatIsThere) {
   const Outcome nothing = study("-o s.h5 --merge --quiet");
   EXPECT_EQ(nothing.code, 1);

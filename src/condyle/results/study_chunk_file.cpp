@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -172,6 +173,14 @@ ChunkWriter::ChunkWriter(const std::filesystem::path& folder,
 
 ChunkWriter::~ChunkWriter() { ::close(descriptor_); }
 
+void ChunkWriter::sync_now_and_then() {
+  constexpr std::chrono::seconds kBetween(1);
+  const auto now = std::chrono::steady_clock::now();
+  if (now - synced_ < kBetween) return;
+  ::fdatasync(descriptor_);  // what a disk refuses is met by the next write
+  synced_ = now;
+}
+
 std::uint64_t ChunkWriter::append(const std::string& bytes) {
   ssize_t written = -1;
   do written = ::write(descriptor_, bytes.data(), bytes.size());
@@ -183,6 +192,7 @@ std::uint64_t ChunkWriter::append(const std::string& bytes) {
   }
   const std::uint64_t at = size_;
   size_ += bytes.size();
+  sync_now_and_then();
   return at;
 }
 

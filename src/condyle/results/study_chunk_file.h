@@ -6,6 +6,7 @@
 ///     payload: status (8 bits each), values (64 or, of a study in single precision, 32 bits each)
 ///     checksum of all before it in the record (64 bits, FNV-1a)
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -61,14 +62,18 @@ class ChunkWriter {
   ChunkWriter& operator=(const ChunkWriter&) = delete;
   ~ChunkWriter();
 
-  /// In one write; returns where it begins. Throws InputError, and then the file is as before.
+  /// In one write, which is on the disk a second later at most where more follow; returns where it
+  /// begins. Throws InputError, and then the file is as before.
   std::uint64_t append(const std::string& bytes);
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
+  void sync_now_and_then();
+
   std::filesystem::path path_;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
+  std::chrono::steady_clock::time_point synced_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace condyle

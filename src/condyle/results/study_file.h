@@ -40,6 +40,9 @@ StudySummary write_study(const std::filesystem::path& path,
                          const StudyProvenance& provenance = {},
                          const OnProgress& on_output = {});
 
+/// Whether that file is the whole result of this study.
+[[nodiscard]] bool holds_study(const std::filesystem::path& path, const StudyPlan& plan);
+
 /// What there is to show of a study: all but the samples.
 struct StudyView {
   std::string title, text;  ///< of the study file

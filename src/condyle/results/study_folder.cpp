@@ -90,9 +90,15 @@ int StudyFolder::lock(const std::string& name, int how, const std::string& refus
     if (descriptor < 0)
       throw InputError(fmt::format("{}: cannot be written: {}", file.string(),
                                    std::generic_category().message(errno)));
-    if (::flock(descriptor, how | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    if (::flock(descriptor, how | LOCK_NB) != 0) {
+      const int code = errno;
       ::close(descriptor);
-      throw InputError(folder_.string() + ": " + refusal);
+      if (code == EINTR) continue;
+      throw InputError(code == EWOULDBLOCK
+                           ? fmt::format("{}: {}", folder_.string(), refusal)
+                           : fmt::format("{}: cannot be locked: {}, expected a file system with "
+                                         "locks (flock)",
+                                         file.string(), std::generic_category().message(code)));
     }
     if (still_there(descriptor)) return locks_.emplace_back(descriptor);
     ::close(descriptor);

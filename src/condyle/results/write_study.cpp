@@ -62,6 +62,7 @@ void write_study_head(const Hdf5Group& root, const StudyPlan& plan) {
     files.push_back(knee.scene.file.filename().string());
     texts.push_back(knee.scene.text);
   }
+  root.write("identity", std::vector<std::string>{head_of(study_identity(plan))});
   const Hdf5Group scenes = root.create("scenes");
   scenes.write("knee", knee_names(plan));
   scenes.write("file", files);
@@ -196,6 +197,15 @@ void write_provenance(const Hdf5Group& root, const StudyProvenance& provenance) 
 }
 
 }  // namespace
+
+bool holds_study(const std::filesystem::path& path, const StudyPlan& plan) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown) || !is_study_file(path)) return false;
+  const Hdf5Reader file(path);
+  const Hdf5Group root = file.root();
+  return root.has("identity") &&
+         root.read_texts("identity") == std::vector<std::string>{head_of(study_identity(plan))};
+}
 
 StudySummary write_study(const std::filesystem::path& path,
                          const StudyPlan& plan,

@@ -1,0 +1,34 @@
+#pragma once
+
+/// A study that is being computed by one process of a team.
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "condyle/app/run_study.h"
+#include "condyle/app/summary.h"
+#include "condyle/results/study_journal.h"
+#include "condyle/study/study_worker.h"
+
+namespace condyle {
+
+struct StudyWork {
+  const StudyCommand& command;
+  const StudyTeam& team;
+  CommandClock clock = {};
+  StudyPlan plan = {};
+  std::shared_ptr<const StudyModels> models = {};
+
+  [[nodiscard]] const Talk& talk() const { return command.talk; }
+  [[nodiscard]] std::filesystem::path folder() const {
+    return StudyJournals::folder(command.output);
+  }
+  [[nodiscard]] int threads() const {
+    return command.threads > 0 ? command.threads
+                               : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  }
+};
+
+}  // namespace condyle
