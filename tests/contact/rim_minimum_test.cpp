@@ -26,14 +26,14 @@ TEST(RimMinimum, OfATiltedDiscIsItsLowestPoint) {
   constexpr double kTilt = 0.2, kHeight = 3;
   const auto disc = make_plane(kOrigin, kUp, kRadius), plane = make_plane(kOrigin, -kUp, 100);
   const RigidTransform X{exp_rotation({0, kTilt, 0}), {0, 0, -kHeight}};
-  const Place start(-11 * std::cos(0.1), 11 * std::sin(0.1), 0);
-  const auto rim = rim_minimum(*disc, start, *plane, kOrigin, X, kReach, kAnyGap);
+  const Place start{{-11 * std::cos(0.1), 11 * std::sin(0.1), 0}};
+  const auto rim = rim_minimum(*disc, start, *plane, {kOrigin}, X, kReach, kAnyGap);
   ASSERT_TRUE(rim.has_value());
   EXPECT_NEAR(rim->gap, kHeight - kRadius * std::sin(kTilt), 1e-7);
   EXPECT_NEAR(disc->edge_distance(rim->on_rim), 0, 1e-8);
-  EXPECT_LT((rim->on_rim - Vector3d(-kRadius, 0, 0)).norm(), 2e-3);
+  EXPECT_LT((rim->on_rim.numbers - Vector3d(-kRadius, 0, 0)).norm(), 2e-3);
   const auto below = [&](double cutoff) {
-    return rim_minimum(*disc, start, *plane, kOrigin, X, kReach, cutoff);
+    return rim_minimum(*disc, start, *plane, {kOrigin}, X, kReach, cutoff);
   };
   EXPECT_EQ(below(rim->gap + 1e-9)->gap, rim->gap);
   EXPECT_FALSE(below(rim->gap - 0.1).has_value());
@@ -41,7 +41,8 @@ TEST(RimMinimum, OfATiltedDiscIsItsLowestPoint) {
 
 TEST(RimMinimum, ASurfaceWithoutAnEdgeHasNone) {
   const auto ball = make_sphere(kOrigin, 20, true), plane = make_plane(kOrigin, -kUp, 100);
-  EXPECT_FALSE(rim_minimum(*ball, {0, 0, 20}, *plane, kOrigin, {}, kReach, kAnyGap).has_value());
+  EXPECT_FALSE(
+      rim_minimum(*ball, {{0, 0, 20}}, *plane, {kOrigin}, {}, kReach, kAnyGap).has_value());
 }
 
 // The disc's plane would be nearest to the ball 5 mm beyond the disc's edge: no minimum of the gap

@@ -271,9 +271,9 @@ TEST(LineContact, AFlatPointThatIsIsolatedIsNoLine) {
                               true, 15);
   const RigidTransform X;
   const ContactLinearization at =
-      linearize_contact(*pair.on_B, {0, 0, 0}, *pair.on_A, {0, 0, 0}, X);
+      linearize_contact(*pair.on_B, {{0, 0, 0}}, *pair.on_A, {{0, 0, 0}}, X);
   ASSERT_NEAR(at.relative_curvature[0], 0, 1e-15);
-  EXPECT_EQ(examine_touch(pair, at, {0, 0, 0}, {0, 0, 0}, X, 15).kind, Touch::kPoint);
+  EXPECT_EQ(examine_touch(pair, at, {{0, 0, 0}}, {{0, 0, 0}}, X, 15).kind, Touch::kPoint);
 }
 
 // A torus lies on a plane along a ring.

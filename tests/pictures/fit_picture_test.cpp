@@ -75,7 +75,7 @@ TEST(FitMap, CurvaturesAreThoseOfABall) {
   const auto& patch = dynamic_cast<const Patch&>(*surface.surface);
   for (const Principal which : {Principal::kGreatest, Principal::kLeast}) {
     const FitMap map = curvature_map(patch, which);
-    EXPECT_NEAR(map.value(patch.evaluate({0, 0, 0})), -1 / kRadius, 5e-4);
+    EXPECT_NEAR(map.value(patch.evaluate(Patch::place(0, 0))), -1 / kRadius, 5e-4);
     EXPECT_NEAR(map.limit, 0.045, 0.0051) << "1/25, rounded up";
     EXPECT_EQ(map.unit, "1/mm");
   }

@@ -110,9 +110,9 @@ class BruteForce {
       sheet.places.emplace_back();
       sheet.points.emplace_back();
       for (int j = 0; j <= nv; ++j) {
-        sheet.places.back().emplace_back(patch.u_min() + (patch.u_max() - patch.u_min()) * i / nu,
-                                         patch.v_min() + (patch.v_max() - patch.v_min()) * j / nv,
-                                         0);
+        sheet.places.back().push_back(
+            Patch::place(patch.u_min() + (patch.u_max() - patch.u_min()) * i / nu,
+                         patch.v_min() + (patch.v_max() - patch.v_min()) * j / nv));
         sheet.points.back().push_back(patch.evaluate_frame(sheet.places.back().back()).c);
       }
       sheet.gaps.emplace_back(sheet.places.back().size());

@@ -27,7 +27,7 @@ std::shared_ptr<const Surface> patch_through(
   const std::vector<CellMetric> cells(static_cast<std::size_t>(grid.cells_u() * grid.cells_v()));
   PatchData data =
       patch_data(grid, solve_fit(assemble_data(grid, points), assemble_penalty(grid, cells), 1e-3));
-  const SurfacePoint middle = Patch(data).evaluate({0, 0, 0});
+  const SurfacePoint middle = Patch(data).evaluate(Patch::place(0, 0));
   if (middle.n.dot(outside - middle.c) < 0) data.orientation = -1;
   return std::make_shared<Patch>(data);
 }
@@ -51,7 +51,8 @@ std::shared_ptr<const Surface> plateau_patch(const Surface& exact,
                                              const Eigen::Vector3d& middle,
                                              const Net& net) {
   const Chart chart = [&](double u, double v) {
-    return exact.closest(middle + Eigen::Vector3d(v, u, 0), exact.seed(middle));
+    const Place there = exact.closest(middle + Eigen::Vector3d(v, u, 0), exact.seed(middle));
+    return exact.evaluate_frame(there).c;
   };
   return patch_through(chart, 22, 16, middle + Eigen::Vector3d(0, 0, 300), net);
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "condyle/input_error.h"
@@ -21,6 +22,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using test::Random;
+
+// A point is no place, and a place no point, unless somebody says so.
+static_assert(!std::is_convertible_v<Vector3d, Place> && !std::is_convertible_v<Place, Vector3d>);
 
 struct Named {
   std::string name;
@@ -67,7 +71,7 @@ TEST(ExactSurfaces, NormalIsAUnitVectorAndCurvatureIsSymmetricWithinTheTangentPl
   for (const Named& named : all_surfaces()) {
     for (const Place& place : some_places(named, 20)) {
       const SurfacePoint at = named.surface->evaluate(place);
-      EXPECT_EQ(at.c, place) << named.name;
+      EXPECT_EQ(at.c, place.numbers) << named.name;
       EXPECT_NEAR(at.n.norm(), 1, 1e-14) << named.name;
       EXPECT_LT((at.K - at.K.transpose()).norm(), 1e-15) << named.name;
       EXPECT_LT((at.K * at.n).norm(), 1e-15) << named.name;
@@ -84,7 +88,8 @@ TEST(ExactSurfaces, MovedFollowsTheTangentAndTheNormalTurnsByTheCurvature) {
       const Vector3d t = tangent(at, random.direction());
       using Step = Eigen::Matrix<double, 1, 1>;
       const Vector3d dc = test::jacobian_at_zero<3, 1>(
-          [&](const Step& s) -> Vector3d { return surface.moved(place, at, s[0] * t); }, 1e-2);
+          [&](const Step& s) -> Vector3d { return surface.moved(place, at, s[0] * t).numbers; },
+          1e-2);
       const Vector3d dn = test::jacobian_at_zero<3, 1>(
           [&](const Step& s) -> Vector3d {
             return surface.evaluate(surface.moved(place, at, s[0] * t)).n;
@@ -103,20 +108,20 @@ TEST(ExactSurfaces, NormalPointsOutOfTheSolid) {
         named.name.starts_with("torus"))
       continue;
     for (const Place& place : some_places(named, 5)) {
-      EXPECT_GT(named.sign * named.surface->evaluate(place).n.dot(place - named.center), 0)
+      EXPECT_GT(named.sign * named.surface->evaluate(place).n.dot(place.numbers - named.center), 0)
           << named.name;
     }
   }
   EXPECT_LT(
-      (make_plane(Vector3d::Zero(), {0, 0, 2})->evaluate(Vector3d::Zero()).n - Vector3d::UnitZ())
+      (make_plane(Vector3d::Zero(), {0, 0, 2})->evaluate({Vector3d::Zero()}).n - Vector3d::UnitZ())
           .norm(),
       1e-15);
   // Below the height polynomial lies the solid "inside".
   const auto hill = make_polynomial(Vector3d::Zero(), Matrix3d::Identity(), {{2, 0, -0.1}}, true);
-  EXPECT_LT((hill->evaluate(Vector3d::Zero()).n - Vector3d::UnitZ()).norm(), 1e-15);
+  EXPECT_LT((hill->evaluate({Vector3d::Zero()}).n - Vector3d::UnitZ()).norm(), 1e-15);
   // The inner equator of a torus faces the axis.
   const auto ring = make_torus(Vector3d::Zero(), Vector3d::UnitZ(), 40, 10, true);
-  EXPECT_LT((ring->evaluate({30, 0, 0}).n + Vector3d::UnitX()).norm(), 1e-15);
+  EXPECT_LT((ring->evaluate({{30, 0, 0}}).n + Vector3d::UnitX()).norm(), 1e-15);
 }
 
 TEST(ExactSurfaces, CurvaturesOfClosedFormsAreMet) {
@@ -126,26 +131,27 @@ TEST(ExactSurfaces, CurvaturesOfClosedFormsAreMet) {
   const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ(),
                  zero = Vector3d::Zero();
   // A ball of radius r has K = -(I - nn)/r, a socket +(I - nn)/r.
-  EXPECT_LT((make_sphere(zero, 20, true)->evaluate(20 * x).K + projector(x) / 20).norm(), 1e-16);
-  EXPECT_LT((make_sphere(zero, 20, false)->evaluate(20 * x).K - projector(x) / 20).norm(), 1e-16);
-  EXPECT_LT((make_cylinder(zero, z, 5, true)->evaluate({5, 0, 7}).K + y * y.transpose() / 5).norm(),
-            1e-16);
+  EXPECT_LT((make_sphere(zero, 20, true)->evaluate({20 * x}).K + projector(x) / 20).norm(), 1e-16);
+  EXPECT_LT((make_sphere(zero, 20, false)->evaluate({20 * x}).K - projector(x) / 20).norm(), 1e-16);
+  EXPECT_LT(
+      (make_cylinder(zero, z, 5, true)->evaluate({{5, 0, 7}}).K + y * y.transpose() / 5).norm(),
+      1e-16);
   // Torus 40, 10: 1/10 round the tube everywhere; round the axis 1/50 outside, -1/30 inside, 0 on
   // top.
   const auto torus = make_torus(zero, z, 40, 10, true);
-  EXPECT_LT((torus->evaluate(50 * x).K + z * z.transpose() / 10 + y * y.transpose() / 50).norm(),
+  EXPECT_LT((torus->evaluate({50 * x}).K + z * z.transpose() / 10 + y * y.transpose() / 50).norm(),
             1e-16);
-  EXPECT_LT((torus->evaluate(30 * x).K + z * z.transpose() / 10 - y * y.transpose() / 30).norm(),
+  EXPECT_LT((torus->evaluate({30 * x}).K + z * z.transpose() / 10 - y * y.transpose() / 30).norm(),
             1e-16);
-  EXPECT_LT((torus->evaluate({40, 0, 10}).K + x * x.transpose() / 10).norm(), 1e-16);
+  EXPECT_LT((torus->evaluate({{40, 0, 10}}).K + x * x.transpose() / 10).norm(), 1e-16);
   // Ellipsoid at the end of its semi-axis a: curvatures a/b² and a/c².
   const auto ellipsoid = make_ellipsoid(zero, Matrix3d::Identity(), {20, 30, 25}, true);
-  const Matrix3d K = ellipsoid->evaluate(20 * x).K;
+  const Matrix3d K = ellipsoid->evaluate({20 * x}).K;
   EXPECT_LT((K + 20. / 900 * y * y.transpose() + 20. / 625 * z * z.transpose()).norm(), 1e-16);
   // A paraboloid x²/(2 r) over the solid is a cup of radius r at its lowest point.
   const auto cup =
       make_polynomial(zero, Matrix3d::Identity(), {{2, 0, 1. / 40}, {0, 2, 1. / 40}}, true);
-  EXPECT_LT((cup->evaluate(zero).K - projector(z) / 20).norm(), 1e-16);
+  EXPECT_LT((cup->evaluate({zero}).K - projector(z) / 20).norm(), 1e-16);
 }
 
 /// How far a point is from the surface by the surface's own equation, relative to its size.
@@ -174,8 +180,10 @@ TEST(ExactSurfaces, PlacesStayOnTheSurfaceHoweverFarTheyMove) {
       // A walk of steps from 1e-3 mm to a metre; every fourth starts anew near the surface.
       const double length = std::pow(10.0, random.between(-3, 3));
       place = surface->moved(place, at, length * tangent(at, random.direction()));
-      ASSERT_TRUE(place.allFinite()) << name;
-      EXPECT_LT(std::abs(off_surface(name, place)), 1e-13 * (1 + place.norm() / 100)) << name;
+      ASSERT_TRUE(place.numbers.allFinite()) << name;
+      EXPECT_LT(std::abs(off_surface(name, place.numbers)),
+                1e-13 * (1 + place.numbers.norm() / 100))
+          << name;
     }
   }
 }
@@ -185,20 +193,21 @@ TEST(ExactSurfaces, EverythingIsFiniteWhereAnEquationDegenerates) {
     const Surface& surface = *named.surface;
     // The centre of a ball, the axis of a cylinder, centre and middle of the tube of a torus.
     for (const Vector3d& p : {named.center, Vector3d(named.center + Vector3d(0, 0, 1e-170))}) {
-      const SurfacePoint at = surface.evaluate(p);
+      const SurfacePoint at = surface.evaluate({p});
       EXPECT_TRUE(at.n.allFinite() && at.K.allFinite()) << named.name;
       EXPECT_NEAR(at.n.norm(), 1, 1e-12) << named.name;
       const Place seed = surface.seed(p);
-      EXPECT_TRUE(seed.allFinite()) << named.name;
-      EXPECT_TRUE(surface.closest(p, seed).allFinite()) << named.name;
-      EXPECT_TRUE(surface.closest(p, p).allFinite()) << named.name;
-      EXPECT_TRUE(surface.moved(seed, surface.evaluate(seed), named.center - seed).allFinite())
+      EXPECT_TRUE(seed.numbers.allFinite()) << named.name;
+      EXPECT_TRUE(surface.closest(p, seed).numbers.allFinite()) << named.name;
+      EXPECT_TRUE(surface.closest(p, {p}).numbers.allFinite()) << named.name;
+      EXPECT_TRUE(surface.moved(seed, surface.evaluate(seed), named.center - seed.numbers)
+                      .numbers.allFinite())
           << named.name;
     }
   }
   const auto torus = make_torus(Vector3d::Zero(), Vector3d::UnitZ(), 40, 10, true);
-  EXPECT_TRUE(torus->evaluate({40, 0, 0}).K.allFinite());
-  EXPECT_TRUE(torus->closest({40, 0, 0}, {50, 0, 0}).isApprox(Vector3d(50, 0, 0)));
+  EXPECT_TRUE(torus->evaluate({{40, 0, 0}}).K.allFinite());
+  EXPECT_TRUE(torus->closest({40, 0, 0}, {{50, 0, 0}}).numbers.isApprox(Vector3d(50, 0, 0)));
 }
 
 TEST(ExactSurfaces, ClosestPlaceHasThePointOnItsNormal) {
@@ -209,7 +218,8 @@ TEST(ExactSurfaces, ClosestPlaceHasThePointOnItsNormal) {
       const Vector3d p = named.center + random.vector(60);
       const Place place = surface.closest(p, surface.seed(p));
       const SurfacePoint at = surface.evaluate(place);
-      EXPECT_LT(tangent(at, p - place).norm(), 1e-11 * (1 + (p - place).norm())) << named.name;
+      EXPECT_LT(tangent(at, p - place.numbers).norm(), 1e-11 * (1 + (p - place.numbers).norm()))
+          << named.name;
     }
   }
 }
@@ -221,9 +231,9 @@ TEST(ExactSurfaces, NoSampleIsCloserThanTheClosestPlace) {
     if (samples.empty()) continue;
     for (int i = 0; i < 50; ++i) {
       const Vector3d p = named.center + 150 * random.direction();  // outside every one of them
-      const double distance = (p - named.surface->closest(p, samples.front())).norm();
+      const double distance = (p - named.surface->closest(p, samples.front()).numbers).norm();
       for (const Place& sample : samples)
-        EXPECT_GE((p - sample).norm(), distance - 1e-12) << named.name;
+        EXPECT_GE((p - sample.numbers).norm(), distance - 1e-12) << named.name;
     }
   }
 }
@@ -233,12 +243,12 @@ TEST(ExactSurfaces, ClosestFromWithinAnEllipsoidIsAMinimumNearTheStart) {
   const auto ellipsoid = make_ellipsoid(Vector3d::Zero(), Matrix3d::Identity(), {20, 35, 27}, true);
   for (int i = 0; i < 200; ++i) {
     const Place start = ellipsoid->seed(random.vector(30));
-    const Vector3d p = 0.9 * start;
+    const Vector3d p = 0.9 * start.numbers;
     const Place place = ellipsoid->closest(p, start);
     const SurfacePoint at = ellipsoid->evaluate(place);
-    EXPECT_LT(tangent(at, p - place).norm(), 1e-12);
-    EXPECT_LE((p - place).norm(), (p - start).norm());
-    EXPECT_LT((place - start).norm(), 6);
+    EXPECT_LT(tangent(at, p - place.numbers).norm(), 1e-12);
+    EXPECT_LE((p - place.numbers).norm(), (p - start.numbers).norm());
+    EXPECT_LT((place.numbers - start.numbers).norm(), 6);
   }
 }
 
@@ -247,7 +257,7 @@ TEST(ExactSurfaces, ClosestLeavesAMaximumOfTheDistance) {
   // places lie aside.
   const auto ellipsoid = make_ellipsoid(Vector3d::Zero(), Matrix3d::Identity(), {20, 20, 60}, true);
   const Vector3d p(0, 0, 10);
-  EXPECT_LT((p - ellipsoid->closest(p, Vector3d(0, 0, 60))).norm(), 20);
+  EXPECT_LT((p - ellipsoid->closest(p, {{0, 0, 60}}).numbers).norm(), 20);
 }
 
 TEST(ExactSurfaces, SamplesLieOnTheSurfaceAboutASpacingApart) {
@@ -259,18 +269,22 @@ TEST(ExactSurfaces, SamplesLieOnTheSurfaceAboutASpacingApart) {
     ASSERT_EQ(samples.empty(), !bounded) << named.name;
     for (std::size_t i = 0; i < samples.size(); i += 7) {
       const SurfacePoint at = named.surface->evaluate(samples[i]);
-      EXPECT_LT((named.surface->moved(samples[i], at, Vector3d::Zero()) - samples[i]).norm(),
-                1e-12);
+      EXPECT_LT(
+          (named.surface->moved(samples[i], at, Vector3d::Zero()).numbers - samples[i].numbers)
+              .norm(),
+          1e-12);
       double nearest = 1e9;
       for (const Place& other : samples) {
-        if (&other != &samples[i]) nearest = std::min(nearest, (other - samples[i]).norm());
+        if (&other != &samples[i])
+          nearest = std::min(nearest, (other.numbers - samples[i].numbers).norm());
       }
       EXPECT_LT(nearest, 1.05 * spacing) << named.name;
       EXPECT_GT(nearest, 0.2 * spacing) << named.name;
     }
     for (const Place& place : bounded ? some_places(named, 100) : std::vector<Place>{}) {
       double nearest = 1e9;
-      for (const Place& sample : samples) nearest = std::min(nearest, (sample - place).norm());
+      for (const Place& sample : samples)
+        nearest = std::min(nearest, (sample.numbers - place.numbers).norm());
       EXPECT_LT(nearest, 0.8 * spacing)
           << named.name;  // half the diagonal of a square of that side is 0.71
     }
@@ -296,8 +310,8 @@ TEST(ExactSurfaces, EvaluatingAndMovingAllocateNothing) {
     double sum = 0;
     const test::AllocationCount count;
     const SurfacePoint at = named.surface->evaluate(place);
-    sum += named.surface->moved(place, at, at.n.unitOrthogonal()).norm();
-    sum += named.surface->closest(Vector3d(1, 2, 3), place).norm();
+    sum += named.surface->moved(place, at, at.n.unitOrthogonal()).numbers.norm();
+    sum += named.surface->closest(Vector3d(1, 2, 3), place).numbers.norm();
     EXPECT_EQ(count.since_start(), 0) << named.name;
     EXPECT_TRUE(std::isfinite(sum)) << named.name;
   }
@@ -328,12 +342,12 @@ std::vector<BoundedCase> bounded_surfaces() {
 
 TEST(ExactSurfaces, KnowTheirBounds) {
   for (const BoundedCase& c : bounded_surfaces()) {
-    EXPECT_NEAR(c.surface->edge_distance(c.within), 2, 1e-14) << c.name;
-    EXPECT_NEAR(c.surface->edge_distance(c.on_edge), 0, 1e-14) << c.name;
-    EXPECT_NEAR(c.surface->edge_distance(c.beyond), -1, 1e-14) << c.name;
+    EXPECT_NEAR(c.surface->edge_distance({c.within}), 2, 1e-14) << c.name;
+    EXPECT_NEAR(c.surface->edge_distance({c.on_edge}), 0, 1e-14) << c.name;
+    EXPECT_NEAR(c.surface->edge_distance({c.beyond}), -1, 1e-14) << c.name;
   }
-  EXPECT_EQ(make_cylinder({0, 0, 0}, {0, 0, 1}, 5, true)->edge_distance({5, 0, 1e6}), kUnbounded);
-  EXPECT_EQ(make_plane({0, 0, 0}, {0, 0, 1})->edge_distance({5, 1e6, 0}), kUnbounded);
+  EXPECT_EQ(make_cylinder({0, 0, 0}, {0, 0, 1}, 5, true)->edge_distance({{5, 0, 1e6}}), kUnbounded);
+  EXPECT_EQ(make_plane({0, 0, 0}, {0, 0, 1})->edge_distance({{5, 1e6, 0}}), kUnbounded);
 }
 
 // Every place within the bounds has a sample within the spacing, some samples lie on the edge
@@ -346,8 +360,8 @@ TEST(ExactSurfaces, AreSampledUpToTheirBounds) {
     for (const Place& place : samples) {
       EXPECT_GT(c.surface->edge_distance(place), -1e-12) << c.name;
       nearest_edge = std::min(nearest_edge, std::abs(c.surface->edge_distance(place)));
-      nearest = std::min(nearest, (place - c.within).norm());
-      EXPECT_LT((c.surface->seed(place) - place).norm(), 1e-12) << c.name;
+      nearest = std::min(nearest, (place.numbers - c.within).norm());
+      EXPECT_LT((c.surface->seed(place.numbers).numbers - place.numbers).norm(), 1e-12) << c.name;
     }
     EXPECT_LT(nearest_edge, 1e-12) << c.name;
     EXPECT_LT(nearest, kSpacing) << c.name;

@@ -68,7 +68,7 @@ Errors errors_of_fit(const Shape& shape, const ArticularRegion& region, int degr
   int count = 0;
   for (double u = -8; u <= 8; u += 0.37)
     for (double v = -8; v <= 8; v += 0.41, ++count) {
-      const SurfacePoint at = patch.evaluate({u, v, 0});
+      const SurfacePoint at = patch.evaluate(Patch::place(u, v));
       const SurfacePoint exact =
           shape.exact->evaluate(shape.exact->closest(at.c, shape.exact->seed(at.c)));
       errors.position += (at.c - exact.c).squaredNorm();

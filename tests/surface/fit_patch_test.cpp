@@ -45,7 +45,7 @@ BallErrors fit_ball(int control_points) {
   BallErrors errors;
   for (double u = -6; u <= 6; u += 0.31)
     for (double v = -6; v <= 6; v += 0.37) {
-      const SurfacePoint at = patch.evaluate({u, v, 0});
+      const SurfacePoint at = patch.evaluate(Patch::place(u, v));
       errors.position = std::max(errors.position, std::abs(at.c.norm() - kRadius));
       const Eigen::Matrix3d exact =
           (at.c.normalized() * at.c.normalized().transpose() - Eigen::Matrix3d::Identity()) /
@@ -76,11 +76,12 @@ TEST(FitPatch, ReproducesAParabolicSheetUnderAnySmoothing) {
 TEST(FitPatch, PointsItsNormalOutOfTheBone) {
   TriangleMesh up = height_sheet(24, 24, ball);
   ArticularRegion region = region_of(up);
-  EXPECT_GT(Patch(fit_patch(region).patch).evaluate({0, 0, 0}).n.z(), 0.99);
+  EXPECT_GT(Patch(fit_patch(region).patch).evaluate(Patch::place(0, 0)).n.z(), 0.99);
   for (Vector3d& n : region.normals) n = -n;
   const Patch socket(fit_patch(region, {.smoothing_length = 0.5}).patch);
-  EXPECT_LT(socket.evaluate({0, 0, 0}).n.z(), -0.99);
-  EXPECT_NEAR(socket.evaluate({0, 0, 0}).K(0, 0), 1 / kRadius, 2e-3);  // a socket is concave
+  EXPECT_LT(socket.evaluate(Patch::place(0, 0)).n.z(), -0.99);
+  EXPECT_NEAR(socket.evaluate(Patch::place(0, 0)).K(0, 0), 1 / kRadius,
+              2e-3);  // a socket is concave
 }
 
 // With texture on it, what is smoothed away must not depend on how finely the texture is sampled.
@@ -94,8 +95,9 @@ TEST(FitPatch, SmoothsTheSameOnCoarseAndFineMeshes) {
   double greatest = 0;
   for (double u = -8; u <= 8; u += 0.5)
     for (double v = -8; v <= 8; v += 0.5)
-      greatest =
-          std::max(greatest, (coarse.evaluate({u, v, 0}).c - fine.evaluate({u, v, 0}).c).norm());
+      greatest = std::max(
+          greatest,
+          (coarse.evaluate(Patch::place(u, v)).c - fine.evaluate(Patch::place(u, v)).c).norm());
   EXPECT_LT(greatest, 0.01);  // a tenth of the texture
 }
 
@@ -131,21 +133,21 @@ TEST(FitPatch, KnowsHowFarTheEdgeOfTheDataIs) {
     const PatchFit fit = fit_patch(disc(cells, 0));
     const Patch patch(fit.patch);
     const double edge = 30.0 / cells, rim = fit.rim;
-    EXPECT_NEAR(patch.edge_distance({0, 0, 0}) + rim, 12.3, edge + 0.3);
-    EXPECT_NEAR(patch.edge_distance({9, 0, 0}) + rim, 3.3, edge + 0.3);
-    EXPECT_LT(patch.edge_distance({9.6, 9.6, 0}) + rim,
+    EXPECT_NEAR(patch.edge_distance(Patch::place(0, 0)) + rim, 12.3, edge + 0.3);
+    EXPECT_NEAR(patch.edge_distance(Patch::place(9, 0)) + rim, 3.3, edge + 0.3);
+    EXPECT_LT(patch.edge_distance(Patch::place(9.6, 9.6)) + rim,
               0);  // 13.6 mm out: in the box, off the disc
     for (double r = 0; r < 12 - 1.5 * edge; r += 0.4)
       for (double a = 0; a < 6.28; a += 0.3)
-        EXPECT_GT(patch.edge_distance({r * std::cos(a), r * std::sin(a), 0}) + rim, 0)
+        EXPECT_GT(patch.edge_distance(Patch::place(r * std::cos(a), r * std::sin(a))) + rim, 0)
             << r << " " << a;
   }
 }
 
 TEST(FitPatch, BridgesASmallHoleAndLeavesAWideOneOut) {
   const PatchFit small = fit_patch(disc(60, 1)), wide = fit_patch(disc(60, 4));
-  EXPECT_GT(Patch(small.patch).edge_distance({3, 2, 0}), 5);
-  EXPECT_LT(Patch(wide.patch).edge_distance({3, 2, 0}), -2);
+  EXPECT_GT(Patch(small.patch).edge_distance(Patch::place(3, 2)), 5);
+  EXPECT_LT(Patch(wide.patch).edge_distance(Patch::place(3, 2)), -2);
   ASSERT_EQ(small.notes.size(), 1u);
   EXPECT_NE(small.notes[0].find("bridged"), std::string::npos);
   EXPECT_NE(wide.notes.at(0).find("left out"), std::string::npos);
@@ -155,7 +157,7 @@ TEST(FitPatch, BridgesASmallHoleAndLeavesAWideOneOut) {
 // the tangent cone of the ball has z = 21.93 - 0.547 * 4.97 = 19.2.
 TEST(FitPatch, GoesOnSmoothlyBeyondTheData) {
   const Patch patch(fit_patch(disc(60, 0)).patch);
-  const Vector3d corner = patch.evaluate({12, 12, 0}).c;
+  const Vector3d corner = patch.evaluate(Patch::place(12, 12)).c;
   EXPECT_NEAR(corner.x(), 12, 1);
   EXPECT_NEAR(corner.y(), 12, 1);
   EXPECT_NEAR(corner.z(), 19.2, 1);

@@ -49,7 +49,7 @@ void expect_radius(bool socket, double offset, double radius) {
     // The same part is known, seen from the centre.
     EXPECT_GT(before.edge_distance(place), -0.2);
   }
-  const Place middle(0, 0, 0);
+  const Place middle = Patch::place(0, 0);
   EXPECT_NEAR(patch.edge_distance(middle), before.edge_distance(middle) * radius / kRadius, 0.3);
   for (const Vector3d& p : moved.region.vertices) EXPECT_NEAR(p.norm(), radius, 0.02);
 }

@@ -57,11 +57,13 @@ TEST_P(PatchOfDegree, DerivativesMatchDifferences) {
 // dn = -K dc and du = g_u.dc [Dortmans 1986, 2.18-2.44].
 TEST_P(PatchOfDegree, CurvatureTensorTurnsTheNormal) {
   const Patch patch(wavy_sheet(GetParam()[0], GetParam()[1]));
-  const Place place(11.7, 6.2, 0);
-  const SurfacePoint point = patch.evaluate(place);
-  const PatchDerivatives d = patch.derivatives(place.x(), place.y());
-  const Eigen::Matrix<double, 3, 2> dn = test::jacobian_at_zero<3, 2>(
-      [&](const Eigen::Vector2d& s) { return patch.evaluate(place + Place(s.x(), s.y(), 0)).n; });
+  const double u = 11.7, v = 6.2;
+  const SurfacePoint point = patch.evaluate(Patch::place(u, v));
+  const PatchDerivatives d = patch.derivatives(u, v);
+  const Eigen::Matrix<double, 3, 2> dn =
+      test::jacobian_at_zero<3, 2>([&](const Eigen::Vector2d& s) {
+        return patch.evaluate(Patch::place(u + s.x(), v + s.y())).n;
+      });
   EXPECT_LT((dn.col(0) + point.K * d.c_u).norm() + (dn.col(1) + point.K * d.c_v).norm(), 1e-9);
   EXPECT_LT((point.K * point.n).norm(), 1e-14);
   EXPECT_NEAR(point.dual.col(0).dot(d.c_u), 1, 1e-13);
@@ -93,8 +95,8 @@ TEST(Patch, CurvatureIsContinuousAcrossKnots) {
   const Patch patch(data);
   for (std::size_t i = 4; i + 4 < data.knots_u.size(); ++i) {
     const double u = data.knots_u[i];
-    const Eigen::Matrix3d below = patch.evaluate({u - 1e-9, 4, 0}).K,
-                          above = patch.evaluate({u + 1e-9, 4, 0}).K;
+    const Eigen::Matrix3d below = patch.evaluate(Patch::place(u - 1e-9, 4)).K,
+                          above = patch.evaluate(Patch::place(u + 1e-9, 4)).K;
     EXPECT_LT((below - above).norm(), 1e-8);  // third derivatives of about 1 over 2e-9
   }
 }
@@ -111,7 +113,7 @@ TEST(Patch, ClosestPointHasTheNormalThroughThePoint) {
 
 TEST(Patch, MovedIsFirstOrderExact) {
   const Patch patch(wavy_sheet(3, 3));
-  const Place place(10, 5, 0);
+  const Place place = Patch::place(10, 5);
   const SurfacePoint at = patch.evaluate(place);
   const Eigen::Vector3d t = at.n.unitOrthogonal();
   for (const double h : {1e-2, 1e-3}) {

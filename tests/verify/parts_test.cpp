@@ -74,7 +74,8 @@ TEST(VerifySpline, AgreesWithThePatch) {
       EXPECT_LT((at.c_uu - expected.c_uu).norm() + (at.c_uv - expected.c_uv).norm() +
                     (at.c_vv - expected.c_vv).norm(),
                 1e-11);
-      EXPECT_NEAR(verification::mask_distance(data, u, v), patch.edge_distance({u, v, 0}), 1e-12);
+      EXPECT_NEAR(verification::mask_distance(data, u, v), patch.edge_distance(Patch::place(u, v)),
+                  1e-12);
     }
   }
 }

@@ -41,7 +41,7 @@ FitErrors errors_on_sheet(const Surface& exact, const Patch& patch) {
   int count = 0;
   for (double u = -kInside; u <= kInside; u += 0.37)
     for (double v = -kInside; v <= kInside; v += 0.41, ++count) {
-      const SurfacePoint at = patch.evaluate({u, v, 0});
+      const SurfacePoint at = patch.evaluate(Patch::place(u, v));
       const SurfacePoint truth = exact.evaluate(exact.closest(at.c, exact.seed(at.c)));
       sum.position += (at.c - truth.c).squaredNorm();
       sum.normal += (at.n - truth.n).squaredNorm();

@@ -9,6 +9,7 @@
 #include "condyle/elements/line_element_block.h"
 #include "condyle/equilibrium/equilibrium_solver.h"
 #include "condyle/math/small_lu.h"
+#include "condyle/surface/patch.h"
 #include "support/patch_knee.h"
 
 namespace condyle::benchmarks {
@@ -90,8 +91,8 @@ void floor_of_one_iteration(benchmark::State& state) {
     Wrench wrench;
     elements.add_to(X, {}, wrench);
     for (const ContactPair& pair : model.pairs) {
-      benchmark::DoNotOptimize(pair.on_B->evaluate({X.p.x(), 0.5, 0}));
-      benchmark::DoNotOptimize(pair.on_A->evaluate({X.p.x(), 0.5, 0}));
+      benchmark::DoNotOptimize(pair.on_B->evaluate(Patch::place(X.p.x(), 0.5)));
+      benchmark::DoNotOptimize(pair.on_A->evaluate(Patch::place(X.p.x(), 0.5)));
     }
     for (int i = 0; i < 9; ++i)
       for (int j = 0; j < 9; ++j)

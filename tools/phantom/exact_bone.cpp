@@ -22,10 +22,10 @@ Eigen::Vector3d ExactBone::near_surface(const Eigen::Vector3d& q) const {
 }
 
 SurfacePoint ExactBone::evaluate(const Place& place) const {
-  const ShapeValue s = shape_derivatives(bone_, place - origin_, knee_);
+  const ShapeValue s = shape_derivatives(bone_, place.numbers - origin_, knee_);
   const double slope = s.g.norm();
   SurfacePoint point;
-  point.c = place;
+  point.c = place.numbers;
   point.n = s.g / slope;
   const Eigen::Matrix3d P = Eigen::Matrix3d::Identity() - point.n * point.n.transpose();
   point.K = -(P * s.h * P) / slope;
@@ -36,22 +36,22 @@ SurfacePoint ExactBone::evaluate(const Place& place) const {
 Place ExactBone::moved(const Place& place,
                        const SurfacePoint& at,
                        const Eigen::Vector3d& dc) const {
-  return origin_ + project(bone_, place - origin_ + dc - dc.dot(at.n) * at.n, knee_);
+  return {origin_ + project(bone_, place.numbers - origin_ + dc - dc.dot(at.n) * at.n, knee_)};
 }
 
 Place ExactBone::closest(const Eigen::Vector3d& p, const Place&) const {
-  return origin_ + project(bone_, p - origin_, knee_);
+  return {origin_ + project(bone_, p - origin_, knee_)};
 }
 
 Place ExactBone::seed(const Eigen::Vector3d& p) const {
   const Eigen::Vector3d near = near_surface(unsized(bone_, p - origin_, knee_));
-  return origin_ + project(bone_, sized(bone_, near, knee_), knee_);
+  return {origin_ + project(bone_, sized(bone_, near, knee_), knee_)};
 }
 
 std::vector<Place> ExactBone::samples(double spacing) const {
   std::vector<Place> places;
   const auto add = [&](const Eigen::Vector3d& q) {
-    places.push_back(origin_ + project(bone_, sized(bone_, near_surface(q), knee_), knee_));
+    places.push_back({origin_ + project(bone_, sized(bone_, near_surface(q), knee_), knee_)});
   };
   for (double z = 13; z <= 33; z += spacing) {
     if (bone_ == Bone::kTibia) {
@@ -68,9 +68,9 @@ Extent ExactBone::extent() const {
   const std::vector<Place> places = samples(4);
   const auto n = static_cast<double>(places.size());
   Extent extent{Eigen::Vector3d::Zero(), 0};
-  for (const Place& place : places) extent.center += place / n;
+  for (const Place& place : places) extent.center += place.numbers / n;
   double square = 0;
-  for (const Place& place : places) square += (place - extent.center).squaredNorm() / n;
+  for (const Place& place : places) square += (place.numbers - extent.center).squaredNorm() / n;
   extent.radius = std::sqrt(square);
   return extent;
 }

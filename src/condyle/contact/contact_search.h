@@ -86,7 +86,7 @@ class ContactSearch {
   static constexpr double kBeyondEdge = 2;
   /// Where the other surface is nearest to a point, kept from pose to pose.
   struct Closest {
-    Place place = Place::Zero();
+    Place place = {Eigen::Vector3d::Zero()};
     SurfacePoint at = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(),
                        Eigen::Matrix<double, 3, 2>::Zero()};
     int near = -1;       ///< sample of the other surface

@@ -84,7 +84,7 @@ bool LayerClosestPoints::follow(const Vector3d& p,
     const bool is_off = closest.phi > kOff + 2 * newton.length && newton.length < kNear;
     if (newton.length > step && !is_off) continue;
     if (newton.length > step) closest.phi -= newton.length;
-    closest.place = {x[0], x[1], 0};
+    closest.place = Patch::place(x[0], x[1]);
     closest.at = p;
     closest.known = true;
     return true;
@@ -112,7 +112,7 @@ void LayerClosestPoints::find(const Vector3d& p,
                               LayerClosestPoint& closest) const {
   const Place start = from.place;
   if (patch_ != nullptr) {
-    const Vector2d x = start.head<2>() + from.turn.transpose() * (p - from.at);
+    const Vector2d x = start.numbers.head<2>() + from.turn.transpose() * (p - from.at);
     if (follow(p, x, step, closest)) return;
   }
   find_by_surface(p, start, closest);

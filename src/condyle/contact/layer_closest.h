@@ -16,7 +16,7 @@ namespace condyle {
 
 /// In the frame of the body that carries the surface.
 struct LayerClosestPoint {
-  Place place = Place::Zero();
+  Place place = {Eigen::Vector3d::Zero()};
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< the point whose closest point it is [mm]
   double phi = 0;                                ///< its signed distance [mm]
   Eigen::Vector3d n = Eigen::Vector3d::UnitZ();  ///< ∂φ, out of the solid

@@ -53,7 +53,7 @@ void add_point(const Patch& patch,
                double cell,
                double fade,
                LayerLattice& lattice) {
-  const double share = faded(patch.edge_distance({place.x(), place.y(), 0}), fade);
+  const double share = faded(patch.edge_distance(Patch::place(place.x(), place.y())), fade);
   if (!(share > 0)) return;
   const PatchDerivatives d = patch.derivatives(place.x(), place.y());
   const Vector3d normal = d.c_u.cross(d.c_v);
@@ -69,10 +69,10 @@ void add_point(const ExactSurface& surface,
                const SurfaceChart::At& at,
                double cell,
                LayerLattice& lattice) {
-  const double share = faded(surface.edge_distance(at.c), kFade), area = at.stretch * cell;
+  const double share = faded(surface.edge_distance({at.c}), kFade), area = at.stretch * cell;
   if (!(share * area > 0)) return;
   lattice.x.push_back(at.c);
-  lattice.n.push_back(surface.evaluate_frame(at.c).n);
+  lattice.n.push_back(surface.evaluate_frame({at.c}).n);
   lattice.area.push_back(share * area);
   lattice.faded.push_back((1 - share) * area);
   lattice.place.emplace_back(Eigen::Vector2d::Zero());

@@ -32,7 +32,7 @@ namespace condyle {
 /// A closed contact with its places on both surfaces and its force p [N], >= 0 pushes.
 struct ClosedContact {
   int pair = 0;  ///< index into Model::pairs
-  Place on_B = Place::Zero(), on_A = Place::Zero();
+  Place on_B = {Eigen::Vector3d::Zero()}, on_A = {Eigen::Vector3d::Zero()};
   double p = 0;
 };
 

@@ -128,7 +128,7 @@ struct BodyState {
 
 /// Where a contact is on its two surfaces, kept from one moment to the next.
 struct ContactPlaces {
-  Place on_ground = Place::Zero(), on_body = Place::Zero();
+  Place on_ground = {Eigen::Vector3d::Zero()}, on_body = {Eigen::Vector3d::Zero()};
   bool closed = false;
   bool followed = true;  ///< else it waits: the surfaces are not near each other anywhere new
 };

@@ -18,7 +18,7 @@ bool settle_far(const ContactComponent& contact, const RigidTransform& X, Contac
     const Eigen::Vector3d on_ground = contact.on_ground->evaluate_frame(places.on_ground).c;
     places.on_body = contact.on_body->closest(X.inverse() * on_ground, places.on_body);
   }
-  return places.on_ground.allFinite() && places.on_body.allFinite();
+  return places.on_ground.numbers.allFinite() && places.on_body.numbers.allFinite();
 }
 
 ContactLinearization linearize(const ContactComponent& contact,
@@ -86,7 +86,7 @@ bool settle_contact(const ContactComponent& contact,
   if (settle_near(contact, X, L, trial, settled.at)) {
     places = trial;
   } else {
-    settled.on_ground.setConstant(NAN);
+    settled.on_ground.numbers.setConstant(NAN);
     if (places.closed) return false;
     if (contact.scouted) {
       places.followed = false;

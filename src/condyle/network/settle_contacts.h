@@ -11,7 +11,7 @@ namespace condyle {
 struct SettledContact {
   ContactLinearization at;
   RigidTransform X;
-  Place on_ground = Place::Constant(NAN), on_body = on_ground;
+  Place on_ground = {Eigen::Vector3d::Constant(NAN)}, on_body = on_ground;
 };
 
 /// Brings the places of all contacts to where the gap is smallest near them, or only those of the

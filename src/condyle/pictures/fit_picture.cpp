@@ -45,7 +45,8 @@ std::vector<Vector3d> sides(const Patch& patch) {
   Vector3d halves[2] = {Vector3d::Zero(), Vector3d::Zero()};
   const double middle = (patch.u_min() + patch.u_max()) / 2;
   for (const Place& place : patch.samples(1.5))
-    if (patch.edge_distance(place) >= 0) halves[place.x() > middle] += patch.evaluate(place).n;
+    if (patch.edge_distance(place) >= 0)
+      halves[place.numbers.x() > middle] += patch.evaluate(place).n;
   if (halves[0].isZero() || halves[1].isZero()) return {(halves[0] + halves[1]).normalized()};
   const Vector3d a = halves[0].normalized(), b = halves[1].normalized();
   if (std::acos(std::clamp(a.dot(b), -1.0, 1.0)) < kTwoSides) return {(a + b).normalized()};

@@ -29,7 +29,7 @@ class PolynomialSurface final : public Surface {
   }
   [[nodiscard]] Place seed(const Eigen::Vector3d& p) const override { return surface_->seed(p); }
   [[nodiscard]] double edge_distance(const Place& place) const override {
-    return distance_to_outline(heights_, coordinates_of(heights_, place));
+    return distance_to_outline(heights_, coordinates_of(heights_, place.numbers));
   }
   /// As far apart on the steepest part as asked, nearer elsewhere.
   [[nodiscard]] std::vector<Place> samples(double spacing) const override {
@@ -41,7 +41,7 @@ class PolynomialSurface final : public Surface {
       steepest = std::max({steepest, point.t[0].norm(), point.t[1].norm()});
     }
     for (const Eigen::Vector2d& at : grid_within(heights_, spacing / std::min(steepest, 3.0)))
-      places.push_back(condyle::evaluate(heights_, at).c);
+      places.push_back({condyle::evaluate(heights_, at).c});
     return places;
   }
   /// Of the points that the polynomial stands for: they lie within their outline.

@@ -49,8 +49,8 @@ Distances measured(const std::vector<Vector3d>& points, const Ellipsoid& e) {
   const auto surface = make_ellipsoid(Vector3d::Zero(), Matrix3d::Identity(), e.semi_axes, true);
   for (const Vector3d& point : points) {
     const Vector3d p = e.placement.R.transpose() * (point - e.placement.p);
-    const Vector3d c = surface->closest(p, surface->seed(p));
-    const Vector3d n = surface->evaluate(c).n;
+    const SurfacePoint at = surface->evaluate(surface->closest(p, surface->seed(p)));
+    const Vector3d &c = at.c, &n = at.n;
     const double d = n.dot(p - c);
     Vector9d J;
     J << -n, n.cross(c), -n.cwiseProduct(c);

@@ -52,8 +52,8 @@ class PatchMesher {
  private:
   [[nodiscard]] Place place(int node) const {
     const int i = node / (nv_ + 1), j = node % (nv_ + 1);
-    return {patch_.u_min() + (patch_.u_max() - patch_.u_min()) * i / nu_,
-            patch_.v_min() + (patch_.v_max() - patch_.v_min()) * j / nv_, 0};
+    return Patch::place(patch_.u_min() + (patch_.u_max() - patch_.u_min()) * i / nu_,
+                        patch_.v_min() + (patch_.v_max() - patch_.v_min()) * j / nv_);
   }
 
   /// The vertex at node a, or where the edge of what is known passes between a and b.
@@ -62,7 +62,8 @@ class PatchMesher {
         numbers_.try_emplace(std::minmax(a, b), static_cast<int>(result_.mesh.vertices.size()));
     if (added) {
       const double t = a == b ? 0 : inside_[a] / (inside_[a] - inside_[b]);
-      result_.places.emplace_back(place(a) + t * (place(b) - place(a)));
+      const Eigen::Vector3d from = place(a).numbers, to = place(b).numbers;
+      result_.places.push_back({from + t * (to - from)});
       const SurfacePoint at = patch_.evaluate_frame(result_.places.back());
       result_.mesh.vertices.push_back(at.c);
       result_.normals.push_back(at.n);

@@ -29,12 +29,12 @@ class Ellipsoid final : public ExactSurface {
   /// n = M x/|M x| and, with P = I - nn, K = -P M P/|M x|; all signs turned where the solid is
   /// outside.
   [[nodiscard]] SurfacePoint evaluate(const Place& place) const override {
-    const Vector3d gradient = M_ * (place - center_);
+    const Vector3d gradient = M_ * (place.numbers - center_);
     const double size = std::max(gradient.norm(), 1e-12 / semi_axes_.maxCoeff());
     const Vector3d n = unit_or(gradient, axes_.col(0)), m = M_ * n;
     const double w = sign_ / size;
     const Vector3d side = w * (m - (n.dot(m) / 2) * n);
-    SurfacePoint at{place, sign_ * n, -w * M_, Eigen::Matrix<double, 3, 2>::Zero()};
+    SurfacePoint at{place.numbers, sign_ * n, -w * M_, Eigen::Matrix<double, 3, 2>::Zero()};
     at.K.noalias() += n * side.transpose();
     at.K.noalias() += side * n.transpose();
     return at;
@@ -43,7 +43,7 @@ class Ellipsoid final : public ExactSurface {
   [[nodiscard]] Place moved(const Place& place,
                             const SurfacePoint&,
                             const Vector3d& dc) const override {
-    return scaled(place + dc, place);
+    return scaled(place.numbers + dc, place);
   }
 
   [[nodiscard]] Place closest(const Vector3d& p, const Place& start) const override {
@@ -57,7 +57,7 @@ class Ellipsoid final : public ExactSurface {
   }
 
   [[nodiscard]] Place seed(const Vector3d& p) const override {
-    return scaled(p, center_ + semi_axes_[0] * axes_.col(0));
+    return scaled(p, {center_ + semi_axes_[0] * axes_.col(0)});
   }
   [[nodiscard]] std::vector<Place> samples(double spacing) const override {
     return ellipsoid_samples(center_, axes_, semi_axes_, spacing);
@@ -81,7 +81,7 @@ class Ellipsoid final : public ExactSurface {
     const Vector3d x = p - center_;
     const double phi = x.dot(M_ * x);
     if (!(phi > 1e-24)) return otherwise;
-    return center_ + x / std::sqrt(phi);
+    return {center_ + x / std::sqrt(phi)};
   }
 
   /// The closest point c to x outside has x - c = t M c with t >= 0 and Σ (a x/(t + a²))² = 1:

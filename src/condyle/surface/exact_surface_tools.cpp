@@ -74,12 +74,12 @@ Trial shortened_step(const Surface& surface,
                      const Place& x,
                      const SurfacePoint& at,
                      Vector3d dc) {
-  const double square = (p - x).squaredNorm();
+  const double square = (p - x.numbers).squaredNorm();
   const double round_off = 16 * std::numeric_limits<double>::epsilon() *
-                           (square + std::sqrt(square) * (p.norm() + x.norm()));
+                           (square + std::sqrt(square) * (p.norm() + x.numbers.norm()));
   for (int halvings = 0; halvings < 40; ++halvings, dc /= 2) {
     const Place y = surface.moved(x, at, dc);
-    if ((p - y).squaredNorm() <= square + round_off) return {y, dc.norm(), true};
+    if ((p - y.numbers).squaredNorm() <= square + round_off) return {y, dc.norm(), true};
   }
   return {x, 0, false};
 }
@@ -101,7 +101,7 @@ Place closest_by_newton(const Surface& surface, const Vector3d& p, const Place& 
         shortened_step(surface, p, x, at, T * model_step(hessian, gradient, r.norm()));
     if (!trial.accepted) return x;
     x = trial.place;
-    const double scale = x.norm() + p.norm();
+    const double scale = x.numbers.norm() + p.norm();
     if (trial.length <= 1e-16 * scale) return x;
     if (trial.length < 1e-10 * scale && trial.length >= last_length)
       return x;  // only round-off is left
@@ -153,9 +153,9 @@ std::vector<Place> ellipsoid_samples(const Vector3d& center,
     if (std::max(a, b) > 1e-9 * widest) ring = evenly_spaced(a, b, 0, 2 * pi, spacing, 4);
     ring.pop_back();
     for (const double angle : ring) {
-      places.push_back(center + a * std::cos(angle) * axes.col(x) +
-                       b * std::sin(angle) * axes.col(y) +
-                       semi_axes[polar] * std::cos(latitude) * axes.col(polar));
+      places.push_back({center + a * std::cos(angle) * axes.col(x) +
+                        b * std::sin(angle) * axes.col(y) +
+                        semi_axes[polar] * std::cos(latitude) * axes.col(polar)});
     }
   }
   return places;
@@ -175,8 +175,8 @@ std::vector<Place> torus_samples(
     const int along = parts(radius);
     for (int j = 0; j < along; ++j) {
       const double angle = 2 * pi * j / along;
-      places.push_back(center + radius * (std::cos(angle) * x + std::sin(angle) * y) +
-                       minor * std::sin(tube) * axis);
+      places.push_back({center + radius * (std::cos(angle) * x + std::sin(angle) * y) +
+                        minor * std::sin(tube) * axis});
     }
   }
   return places;
@@ -207,7 +207,7 @@ std::vector<Place> cylinder_samples(
     const Vector3d middle = center + length * (static_cast<double>(i) / parts - 0.5) * axis;
     for (int k = 0; k < round; ++k) {
       const double angle = 2 * std::numbers::pi * k / round;
-      places.push_back(middle + radius * (std::cos(angle) * x + std::sin(angle) * y));
+      places.push_back({middle + radius * (std::cos(angle) * x + std::sin(angle) * y)});
     }
   }
   return places;

@@ -33,19 +33,19 @@ class Plane final : public ExactSurface {
         radius_(checked_bound(radius, "plane: radius")) {}
 
   [[nodiscard]] SurfacePoint evaluate(const Place& place) const override {
-    return {place, n_, Matrix3d::Zero(), Eigen::Matrix<double, 3, 2>::Zero()};
+    return {place.numbers, n_, Matrix3d::Zero(), Eigen::Matrix<double, 3, 2>::Zero()};
   }
   [[nodiscard]] Place moved(const Place& place,
                             const SurfacePoint&,
                             const Vector3d& dc) const override {
-    return seed(place + dc);
+    return seed(place.numbers + dc);
   }
   [[nodiscard]] Place closest(const Vector3d& p, const Place&) const override { return seed(p); }
   [[nodiscard]] Place seed(const Vector3d& p) const override {
-    return p + (height_ - n_.dot(p)) * n_;
+    return {p + (height_ - n_.dot(p)) * n_};
   }
   [[nodiscard]] double edge_distance(const Place& place) const override {
-    return std::isinf(radius_) ? radius_ : radius_ - (place - point_).norm();
+    return std::isinf(radius_) ? radius_ : radius_ - (place.numbers - point_).norm();
   }
   [[nodiscard]] bool bends_evenly() const override { return true; }
   [[nodiscard]] std::vector<Place> samples(double spacing) const override {
@@ -53,7 +53,7 @@ class Plane final : public ExactSurface {
     if (std::isinf(radius_)) return places;
     const Vector3d x = n_.unitOrthogonal(), y = n_.cross(x);
     for (const Eigen::Vector2d& at : disc_samples(radius_, spacing))
-      places.push_back(point_ + at.x() * x + at.y() * y);
+      places.push_back({point_ + at.x() * x + at.y() * y});
     return places;
   }
   [[nodiscard]] std::vector<SurfaceChart> charts() const override {
@@ -86,17 +86,17 @@ class Sphere final : public ExactSurface {
         sign_(solid_inside ? 1 : -1) {}
 
   [[nodiscard]] SurfacePoint evaluate(const Place& place) const override {
-    const Vector3d away = unit_or(place - center_, Vector3d::UnitZ());
-    return {place, sign_ * away, umbilic(away, sign_ / radius_),
+    const Vector3d away = unit_or(place.numbers - center_, Vector3d::UnitZ());
+    return {place.numbers, sign_ * away, umbilic(away, sign_ / radius_),
             Eigen::Matrix<double, 3, 2>::Zero()};
   }
   [[nodiscard]] Place moved(const Place& place,
                             const SurfacePoint& at,
                             const Vector3d& dc) const override {
-    return on_sphere(place + dc, sign_ * at.n);
+    return on_sphere(place.numbers + dc, sign_ * at.n);
   }
   [[nodiscard]] Place closest(const Vector3d& p, const Place& start) const override {
-    return on_sphere(p, unit_or(start - center_, Vector3d::UnitZ()));
+    return on_sphere(p, unit_or(start.numbers - center_, Vector3d::UnitZ()));
   }
   [[nodiscard]] Place seed(const Vector3d& p) const override {
     return on_sphere(p, Vector3d::UnitZ());
@@ -117,7 +117,7 @@ class Sphere final : public ExactSurface {
 
  private:
   [[nodiscard]] Place on_sphere(const Vector3d& p, const Vector3d& otherwise) const {
-    return center_ + radius_ * unit_or(p - center_, otherwise);
+    return {center_ + radius_ * unit_or(p - center_, otherwise)};
   }
 
   Vector3d center_;
@@ -136,21 +136,21 @@ class Cylinder final : public ExactSurface {
         length_(checked_bound(length, "cylinder: length")) {}
 
   [[nodiscard]] SurfacePoint evaluate(const Place& place) const override {
-    const Vector3d away = unit_or(from_axis(place), sideways_), round = axis_.cross(away);
-    return {place, sign_ * away, (-sign_ / radius_ * round) * round.transpose(),
+    const Vector3d away = unit_or(from_axis(place.numbers), sideways_), round = axis_.cross(away);
+    return {place.numbers, sign_ * away, (-sign_ / radius_ * round) * round.transpose(),
             Eigen::Matrix<double, 3, 2>::Zero()};
   }
   [[nodiscard]] Place moved(const Place& place,
                             const SurfacePoint& at,
                             const Vector3d& dc) const override {
-    return on_cylinder(place + dc, sign_ * at.n);
+    return on_cylinder(place.numbers + dc, sign_ * at.n);
   }
   [[nodiscard]] Place closest(const Vector3d& p, const Place& start) const override {
-    return on_cylinder(p, unit_or(from_axis(start), sideways_));
+    return on_cylinder(p, unit_or(from_axis(start.numbers), sideways_));
   }
   [[nodiscard]] Place seed(const Vector3d& p) const override { return on_cylinder(p, sideways_); }
   [[nodiscard]] double edge_distance(const Place& place) const override {
-    return 0.5 * length_ - std::abs(axis_.dot(place - point_));
+    return 0.5 * length_ - std::abs(axis_.dot(place.numbers - point_));
   }
   [[nodiscard]] bool bends_evenly() const override { return true; }
   [[nodiscard]] std::vector<Place> samples(double spacing) const override {
@@ -183,7 +183,7 @@ class Cylinder final : public ExactSurface {
   }
   [[nodiscard]] Place on_cylinder(const Vector3d& p, const Vector3d& otherwise) const {
     const Vector3d away = from_axis(p);
-    return (p - away) + radius_ * unit_or(away, otherwise);
+    return {(p - away) + radius_ * unit_or(away, otherwise)};
   }
 
   Vector3d point_, axis_, sideways_;
@@ -205,24 +205,24 @@ class Torus final : public ExactSurface {
   }
 
   [[nodiscard]] SurfacePoint evaluate(const Place& place) const override {
-    const Vector3d radial = radial_at(place, sideways_);
-    const Vector3d away = unit_or(place - center_ - major_ * radial, radial),
+    const Vector3d radial = radial_at(place.numbers, sideways_);
+    const Vector3d away = unit_or(place.numbers - center_ - major_ * radial, radial),
                    round = axis_.cross(radial);
     // Curvature 1/minor round the tube, cos/(major + minor cos) round the axis, cos = away.radial.
     const double cosine = away.dot(radial);
     const double difference = 1 / minor_ - cosine / (major_ + minor_ * cosine);
     Matrix3d K = umbilic(away, sign_ / minor_);
     K += (sign_ * difference * round) * round.transpose();
-    return {place, sign_ * away, K, Eigen::Matrix<double, 3, 2>::Zero()};
+    return {place.numbers, sign_ * away, K, Eigen::Matrix<double, 3, 2>::Zero()};
   }
   [[nodiscard]] Place moved(const Place& place,
                             const SurfacePoint& at,
                             const Vector3d& dc) const override {
-    return on_torus(place + dc, radial_at(place, sideways_), sign_ * at.n);
+    return on_torus(place.numbers + dc, radial_at(place.numbers, sideways_), sign_ * at.n);
   }
   [[nodiscard]] Place closest(const Vector3d& p, const Place& start) const override {
-    const Vector3d radial = radial_at(start, sideways_);
-    return on_torus(p, radial, unit_or(start - center_ - major_ * radial, radial));
+    const Vector3d radial = radial_at(start.numbers, sideways_);
+    return on_torus(p, radial, unit_or(start.numbers - center_ - major_ * radial, radial));
   }
   [[nodiscard]] Place seed(const Vector3d& p) const override {
     return on_torus(p, sideways_, sideways_);
@@ -258,7 +258,7 @@ class Torus final : public ExactSurface {
                                const Vector3d& radial_otherwise,
                                const Vector3d& away_otherwise) const {
     const Vector3d ring = center_ + major_ * radial_at(p, radial_otherwise);
-    return ring + minor_ * unit_or(p - ring, away_otherwise);
+    return {ring + minor_ * unit_or(p - ring, away_otherwise)};
   }
 
   Vector3d center_, axis_, sideways_;

@@ -50,10 +50,10 @@ Lattice lay_lattice(const Patch& patch, FitFigures& figures) {
     for (int j = 0; j < l.nv; ++j) {
       const double u = patch.u_min() + (i + 0.5) * l.step_u,
                    v = patch.v_min() + (j + 0.5) * l.step_v;
-      const double edge = patch.edge_distance({u, v, 0});
+      const double edge = patch.edge_distance(Patch::place(u, v));
       const PatchDerivatives d = patch.derivatives(u, v);
       l.inside.push_back(edge >= 0);
-      l.points.push_back(patch.evaluate({u, v, 0}));
+      l.points.push_back(patch.evaluate(Patch::place(u, v)));
       l.along_u.push_back(d.c_u);
       l.along_v.push_back(d.c_v);
       if (edge < 0) continue;
@@ -123,7 +123,8 @@ FitFigures measure_fit(const ArticularRegion& region, const PatchFit& fit, doubl
     const double d = std::abs(fit.distance[i]);
     all.add(d, areas[i]);
     distances.push_back(d);
-    const SurfacePoint at = patch.evaluate({fit.parameters[i].x(), fit.parameters[i].y(), 0});
+    const SurfacePoint at =
+        patch.evaluate(Patch::place(fit.parameters[i].x(), fit.parameters[i].y()));
     figures.folded += at.n.dot(region.normals[i]) < 0;
     if (fit.edge_distance[i] <= core_margin) continue;
     core.add(d, areas[i]);

@@ -121,8 +121,8 @@ std::vector<CellMetric> describe_cells(const SplineGrid& grid,
   std::vector<CellMetric> cells;
   for (int i = 0; i < grid.cells_u(); ++i)
     for (int j = 0; j < grid.cells_v(); ++j) {
-      const Place place(grid.u_min + (i + 0.5) * grid.step_u(),
-                        grid.v_min + (j + 0.5) * grid.step_v(), 0);
+      const Place place = Patch::place(grid.u_min + (i + 0.5) * grid.step_u(),
+                                       grid.v_min + (j + 0.5) * grid.step_v());
       const double inside = flat.all.edge_distance(place);
       const double within = edge_fraction(edge, flat.face.edge_distance(place));
       cells.push_back({.smoothing = inside < -2 ? outside : within,
@@ -160,7 +160,7 @@ double choose_on_face(const SplineGrid& grid,
   std::size_t count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!region.face.empty() && !region.face[i]) continue;
-    const double inside = face.edge_distance({points[i].uv.x(), points[i].uv.y(), 0});
+    const double inside = face.edge_distance(Patch::place(points[i].uv.x(), points[i].uv.y()));
     on_face.push_back(points[i]);
     const double depth = std::clamp(inside / kDeep, 0.0, 1.0);
     judged.push_back({.counts = inside > kEdge,
@@ -186,14 +186,16 @@ double correct_parameters(const SplineGrid& grid,
                           std::vector<DataPoint>& points) {
   double change = 0;
   for (DataPoint& point : points) {
-    const Place before(point.uv.x(), point.uv.y(), 0);
-    Place after = patch.closest(point.p, before);
-    const double far = (patch.derivatives(before.x(), before.y()).c - point.p).norm();
-    if (!((patch.derivatives(after.x(), after.y()).c - point.p).norm() <= far))
-      after = patch.closest(point.p, patch.seed(point.p));
+    const Vector2d before = point.uv;
+    const auto off = [&](const Vector2d& uv) {
+      return (patch.derivatives(uv.x(), uv.y()).c - point.p).norm();
+    };
+    Vector2d after = patch.closest(point.p, Patch::place(before.x(), before.y())).numbers.head<2>();
+    if (!(off(after) <= off(before)))
+      after = patch.closest(point.p, patch.seed(point.p)).numbers.head<2>();
     point.uv.x() = std::clamp(after.x(), grid.u_min, grid.u_max);
     point.uv.y() = std::clamp(after.y(), grid.v_min, grid.v_max);
-    change += (point.uv - Vector2d(before.x(), before.y())).squaredNorm();
+    change += (point.uv - before).squaredNorm();
   }
   return std::sqrt(change / static_cast<double>(points.size()));
 }
@@ -219,7 +221,7 @@ void finish(const ArticularRegion& region,
   data.orientation = find_orientation(region, Patch(data), points);
   const Patch patch(data);
   for (const DataPoint& point : points) {
-    const Place place(point.uv.x(), point.uv.y(), 0);
+    const Place place = Patch::place(point.uv.x(), point.uv.y());
     const SurfacePoint at = patch.evaluate(place);
     fit.distance.push_back(std::copysign((point.p - at.c).norm(), at.n.dot(point.p - at.c)));
     fit.edge_distance.push_back(patch.edge_distance(place));

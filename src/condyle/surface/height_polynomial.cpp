@@ -56,7 +56,7 @@ class HeightPolynomial final : public ExactSurface {
   /// The gradient of z - h is (-h_x, -h_y, 1) =: w n and K = P [h_xx h_xy; h_xy h_yy] P / w, P = I
   /// - nn.
   [[nodiscard]] SurfacePoint evaluate(const Place& place) const override {
-    const Vector3d x = axes_.transpose() * (place - origin_);
+    const Vector3d x = axes_.transpose() * (place.numbers - origin_);
     const Height z = height(x[0], x[1]);
     const Vector3d gradient(-z.h_x, -z.h_y, 1);
     const double w = gradient.norm();
@@ -66,14 +66,14 @@ class HeightPolynomial final : public ExactSurface {
     const Vector3d m = hessian * n;
     const Vector3d side = m - (n.dot(m) / 2) * n;
     const Matrix3d K = (sign_ / w) * (hessian - n * side.transpose() - side * n.transpose());
-    return {place, axes_ * (sign_ * n), axes_ * K * axes_.transpose(),
+    return {place.numbers, axes_ * (sign_ * n), axes_ * K * axes_.transpose(),
             Eigen::Matrix<double, 3, 2>::Zero()};
   }
 
   [[nodiscard]] Place moved(const Place& place,
                             const SurfacePoint&,
                             const Vector3d& dc) const override {
-    return seed(place + dc);
+    return seed(place.numbers + dc);
   }
   [[nodiscard]] Place closest(const Vector3d& p, const Place& start) const override {
     return closest_by_newton(*this, p, start);
@@ -83,17 +83,17 @@ class HeightPolynomial final : public ExactSurface {
   [[nodiscard]] Place seed(const Vector3d& p) const override {
     Vector3d x = axes_.transpose() * (p - origin_);
     x[2] = height(x[0], x[1]).h;
-    return origin_ + axes_ * x;
+    return {origin_ + axes_ * x};
   }
   [[nodiscard]] double edge_distance(const Place& place) const override {
     if (std::isinf(radius_)) return radius_;
-    return radius_ - (axes_.leftCols<2>().transpose() * (place - origin_)).norm();
+    return radius_ - (axes_.leftCols<2>().transpose() * (place.numbers - origin_)).norm();
   }
   [[nodiscard]] std::vector<Place> samples(double spacing) const override {
     std::vector<Place> places;
     if (std::isinf(radius_)) return places;
     for (const Eigen::Vector2d& at : disc_samples(radius_, spacing / steepness(spacing)))
-      places.push_back(origin_ + axes_ * Vector3d(at.x(), at.y(), height(at.x(), at.y()).h));
+      places.push_back({origin_ + axes_ * Vector3d(at.x(), at.y(), height(at.x(), at.y()).h)});
     return places;
   }
   [[nodiscard]] std::vector<SurfaceChart> charts() const override {
@@ -105,7 +105,7 @@ class HeightPolynomial final : public ExactSurface {
              }}};
   }
   [[nodiscard]] Extent extent() const override {
-    return {seed(origin_), radius_ / std::numbers::sqrt2};
+    return {seed(origin_).numbers, radius_ / std::numbers::sqrt2};
   }
   [[nodiscard]] std::unique_ptr<Surface> translated(const Vector3d& d) const override {
     auto copy = std::make_unique<HeightPolynomial>(*this);

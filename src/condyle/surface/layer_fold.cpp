@@ -64,14 +64,14 @@ LayerFold layer_fold(const Surface& surface, double thickness) {
     on_cells(patch->u_min(), patch->u_max(), patch->v_min(), patch->v_max(),
              [&](double u, double v, double cell) {
                const PatchDerivatives d = patch->derivatives(u, v);
-               search.look_at({u, v, 0}, d.c_u.cross(d.c_v).norm() * cell);
+               search.look_at(Patch::place(u, v), d.c_u.cross(d.c_v).norm() * cell);
              });
   if (const auto* exact = dynamic_cast<const ExactSurface*>(&surface))
     for (const SurfaceChart& chart : exact->charts())
       on_cells(chart.u_min, chart.u_max, chart.v_min, chart.v_max,
                [&](double u, double v, double cell) {
                  const SurfaceChart::At at = chart.at(u, v);
-                 search.look_at(at.c, at.stretch * cell);
+                 search.look_at({at.c}, at.stretch * cell);
                });
   return search.found();
 }

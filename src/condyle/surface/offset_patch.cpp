@@ -46,8 +46,8 @@ Hollow sharpest_hollow(const SplineGrid& grid, const Patch& patch) {
   Hollow sharpest;
   double greatest = 0;
   on_grid(grid, 0.5, [&](double u, double v) {
-    if (patch.edge_distance({u, v, 0}) < 0) return;
-    const SurfacePoint at = patch.evaluate({u, v, 0});
+    if (patch.edge_distance(Patch::place(u, v)) < 0) return;
+    const SurfacePoint at = patch.evaluate(Patch::place(u, v));
     const double curvature = principal_curvatures(at)[1];
     if (curvature > greatest) greatest = curvature, sharpest = {1 / curvature, at.c};
   });
@@ -66,9 +66,9 @@ void refuse_cusp(const Hollow& hollow, double offset) {
 std::vector<DataPoint> moved_points(const SplineGrid& grid, const Patch& patch, double offset) {
   std::vector<DataPoint> points;
   on_grid(grid, 0.5, [&](double u, double v) {
-    const double edge = patch.edge_distance({u, v, 0});
+    const double edge = patch.edge_distance(Patch::place(u, v));
     if (edge < -kBeyond) return;
-    const SurfacePoint at = patch.evaluate({u, v, 0});
+    const SurfacePoint at = patch.evaluate(Patch::place(u, v));
     // What is only extrapolated may bend more than what was checked.
     if (edge < 0 && principal_curvatures(at)[1] * offset > 0.9) return;
     points.push_back({at.c + offset * at.n, {u, v}, 1});
@@ -82,7 +82,7 @@ std::vector<CellMetric> cells_of(const SplineGrid& grid, const Patch& patch) {
     for (int j = 0; j < grid.cells_v(); ++j) {
       const double u = grid.u_min + (i + 0.5) * grid.step_u(),
                    v = grid.v_min + (j + 0.5) * grid.step_v();
-      cells.push_back({.known = patch.edge_distance({u, v, 0}) > -kBeyond / 2});
+      cells.push_back({.known = patch.edge_distance(Patch::place(u, v)) > -kBeyond / 2});
     }
   return cells;
 }
@@ -93,7 +93,7 @@ void measure(const SplineGrid& grid, const Patch& patch, double offset, OffsetPa
   const Patch moved(result.patch);
   double square = 0, count = 0;
   on_grid(grid, 0, [&](double u, double v) {
-    const Place place(u, v, 0);
+    const Place place = Patch::place(u, v);
     if (patch.edge_distance(place) < 0) return;
     const SurfacePoint at = patch.evaluate_frame(place);
     const double d = std::abs(at.n.dot(moved.derivatives(u, v).c - at.c) - offset);
@@ -121,7 +121,7 @@ OffsetPatch offset_patch(const ArticularRegion& region, const PatchFit& fit, dou
   result.region = region.mesh;
   for (std::size_t i = 0; i < result.region.vertices.size(); ++i)
     result.region.vertices[i] +=
-        offset * patch.evaluate_frame({fit.parameters[i].x(), fit.parameters[i].y(), 0}).n;
+        offset * patch.evaluate_frame(Patch::place(fit.parameters[i].x(), fit.parameters[i].y())).n;
   fill_mask(result.patch, result.region, trace_outline(region.mesh, bridged_perimeter(region.mesh)),
             fit.parameters);
   for (double& distance : result.patch.mask) distance -= fit.rim;

@@ -51,15 +51,15 @@ Patch::Patch(PatchData data)
   const int nu = std::clamp(2 * u_.spans, 4, 60), nv = std::clamp(2 * v_.spans, 4, 60);
   for (int i = 0; i <= nu; ++i)
     for (int j = 0; j <= nv; ++j) {
-      const Place place(u_.min + (u_.max - u_.min) * i / nu, v_.min + (v_.max - v_.min) * j / nv,
-                        0);
-      if (edge_distance(place) < -3) continue;
-      seeds->places.push_back(place);
-      seeds->points.push_back(derivatives(place.x(), place.y()).c);
+      const double u = u_.min + (u_.max - u_.min) * i / nu, v = v_.min + (v_.max - v_.min) * j / nv;
+      if (edge_distance(place(u, v)) < -3) continue;
+      seeds->places.push_back(place(u, v));
+      seeds->points.push_back(derivatives(u, v).c);
     }
   if (seeds->places.empty()) {
-    seeds->places.emplace_back((u_.min + u_.max) / 2, (v_.min + v_.max) / 2, 0);
-    seeds->points.push_back(derivatives(seeds->places[0].x(), seeds->places[0].y()).c);
+    const double u = (u_.min + u_.max) / 2, v = (v_.min + v_.max) / 2;
+    seeds->places.push_back(place(u, v));
+    seeds->points.push_back(derivatives(u, v).c);
   }
   seeds->tree = std::make_unique<PointTree>(3, seeds->cloud);
   extent_ = extent_of(seeds->places, seeds->points);
@@ -266,14 +266,14 @@ PatchDerivatives Patch::derivatives(double u, double v) const {
                                           : general_derivatives(u, v);
 }
 
-SurfacePoint Patch::evaluate(const Place& place) const {
-  return point_from(derivatives(place.x(), place.y()));
+SurfacePoint Patch::evaluate(const Place& at) const {
+  return point_from(derivatives(at.numbers.x(), at.numbers.y()));
 }
 
-SurfacePoint Patch::evaluate_frame(const Place& place) const {
+SurfacePoint Patch::evaluate_frame(const Place& at) const {
   const bool cubic = u_.degree == 3 && v_.degree == 3;
-  return point_from(cubic ? bicubic_derivatives(place.x(), place.y(), false)
-                          : general_derivatives(place.x(), place.y()));
+  return point_from(cubic ? bicubic_derivatives(at.numbers.x(), at.numbers.y(), false)
+                          : general_derivatives(at.numbers.x(), at.numbers.y()));
 }
 
 /// Normal, reciprocal base g_u, g_v and K = Σ (n.c_ab) g_a g_b.
@@ -297,14 +297,15 @@ SurfacePoint Patch::point_from(const PatchDerivatives& d) const {
   return point;
 }
 
-Place Patch::moved(const Place& place, const SurfacePoint& at, const Eigen::Vector3d& dc) const {
-  return {place.x() + at.dual.col(0).dot(dc), place.y() + at.dual.col(1).dot(dc), 0};
+Place Patch::moved(const Place& from, const SurfacePoint& at, const Eigen::Vector3d& dc) const {
+  return place(from.numbers.x() + at.dual.col(0).dot(dc),
+               from.numbers.y() + at.dual.col(1).dot(dc));
 }
 
 Place Patch::closest(const Eigen::Vector3d& p, const Place& start) const {
   // Newton on grad |c(u,v) - p|²/2 = 0, Gauss-Newton where the Hessian is not positive definite.
   const double reach_u = 0.15 * (u_.max - u_.min), reach_v = 0.15 * (v_.max - v_.min);
-  Eigen::Vector2d x(start.x(), start.y());
+  Eigen::Vector2d x(start.numbers.x(), start.numbers.y());
   for (int iteration = 0; iteration < 30; ++iteration) {
     const PatchDerivatives d = derivatives(x[0], x[1]);
     const Eigen::Vector3d r = d.c - p;
@@ -315,7 +316,7 @@ Place Patch::closest(const Eigen::Vector3d& p, const Place& start) const {
     const double det = h00 * h11 - h01 * h01;
     Eigen::Vector2d step(-(h11 * g[0] - h01 * g[1]) / det, -(h00 * g[1] - h01 * g[0]) / det);
     const double length = std::sqrt(a * step[0] * step[0] + c * step[1] * step[1]);
-    if (!(length < 1e300)) return {x[0], x[1], 0};
+    if (!(length < 1e300)) return place(x[0], x[1]);
     const double longest = 0.15 * size_;
     if (length > longest) step *= longest / length;
     const Eigen::Vector2d next(std::clamp(x[0] + step[0], u_.min - reach_u, u_.max + reach_u),
@@ -324,7 +325,7 @@ Place Patch::closest(const Eigen::Vector3d& p, const Place& start) const {
     x = next;
     if (change < 1e-13 * size_ || length < 1e-13 * size_) break;
   }
-  return {x[0], x[1], 0};
+  return place(x[0], x[1]);
 }
 
 Place Patch::seed(const Eigen::Vector3d& p) const {
@@ -332,9 +333,10 @@ Place Patch::seed(const Eigen::Vector3d& p) const {
   return seeds_->places[nearest_point(*seeds_->tree, where_laid).index];
 }
 
-double Patch::edge_distance(const Place& place) const {
-  const double u = std::clamp(place.x(), u_.min, u_.max), v = std::clamp(place.y(), v_.min, v_.max);
-  const double outside = std::hypot(place.x() - u, place.y() - v);
+double Patch::edge_distance(const Place& at) const {
+  const double x = at.numbers.x(), y = at.numbers.y();
+  const double u = std::clamp(x, u_.min, u_.max), v = std::clamp(y, v_.min, v_.max);
+  const double outside = std::hypot(x - u, y - v);
   const double inside =
       std::min(std::min(u - u_.min, u_.max - u), std::min(v - v_.min, v_.max - v));
   if (data_.mask.empty()) return outside > 0 ? -outside : inside;
@@ -367,9 +369,9 @@ std::vector<Place> Patch::samples(double spacing) const {
   std::vector<Place> places;
   for (int i = 0; i <= nu; ++i)
     for (int j = 0; j <= nv; ++j) {
-      const Place place(u_.min + (u_.max - u_.min) * i / nu, v_.min + (v_.max - v_.min) * j / nv,
-                        0);
-      if (edge_distance(place) >= 0) places.push_back(place);
+      const Place at =
+          place(u_.min + (u_.max - u_.min) * i / nu, v_.min + (v_.max - v_.min) * j / nv);
+      if (edge_distance(at) >= 0) places.push_back(at);
     }
   return places;
 }

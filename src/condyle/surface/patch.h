@@ -54,17 +54,20 @@ class Patch final : public Surface {
   [[nodiscard]] double v_min() const { return v_.min; }
   [[nodiscard]] double v_max() const { return v_.max; }
 
+  /// Of a patch, any.
+  [[nodiscard]] static Place place(double u, double v) { return {{u, v, 0}}; }
+
   [[nodiscard]] PatchDerivatives derivatives(double u, double v) const;
 
-  [[nodiscard]] SurfacePoint evaluate(const Place& place) const override;
-  [[nodiscard]] SurfacePoint evaluate_frame(const Place& place) const override;
-  [[nodiscard]] Place place_of(const Eigen::Vector3d& numbers) const override { return numbers; }
-  [[nodiscard]] Place moved(const Place& place,
+  [[nodiscard]] SurfacePoint evaluate(const Place& at) const override;
+  [[nodiscard]] SurfacePoint evaluate_frame(const Place& at) const override;
+  [[nodiscard]] Place place_of(const Eigen::Vector3d& numbers) const override { return {numbers}; }
+  [[nodiscard]] Place moved(const Place& from,
                             const SurfacePoint& at,
                             const Eigen::Vector3d& dc) const override;
   [[nodiscard]] Place closest(const Eigen::Vector3d& p, const Place& start) const override;
   [[nodiscard]] Place seed(const Eigen::Vector3d& p) const override;
-  [[nodiscard]] double edge_distance(const Place& place) const override;
+  [[nodiscard]] double edge_distance(const Place& at) const override;
   [[nodiscard]] std::vector<Place> samples(double spacing) const override;
   [[nodiscard]] Extent extent() const override { return extent_; }
   [[nodiscard]] std::unique_ptr<Surface> translated(const Eigen::Vector3d& d) const override;

@@ -7,8 +7,8 @@
 /// radius r has K = -(I - nn)/r and a cup of radius r has K = +(I - nn)/r.
 ///
 /// A `Place` is whatever the surface uses to name one of its points: (u, v, 0) on a patch, the
-/// point itself on an exact surface. The mechanics only moves places by tangent displacements, so
-/// no chart has a pole for it.
+/// point itself on an exact surface. Only the surface reads its numbers. The mechanics moves places
+/// by tangent displacements, so no chart has a pole for it.
 ///
 /// All lengths in mm, in the frame of the body that carries the surface.
 
@@ -20,7 +20,11 @@
 
 namespace condyle {
 
-using Place = Eigen::Vector3d;
+struct Place {
+  Eigen::Vector3d numbers;
+
+  bool operator==(const Place&) const = default;
+};
 
 struct SurfacePoint {
   Eigen::Vector3d c;  ///< point [mm]
@@ -58,7 +62,8 @@ class Surface {
 
   /// The place that is meant by numbers computed from those of places near each other: a mean, say.
   [[nodiscard]] virtual Place place_of(const Eigen::Vector3d& numbers) const {
-    return moved(numbers, evaluate_frame(numbers), Eigen::Vector3d::Zero());
+    const Place place{numbers};
+    return moved(place, evaluate_frame(place), Eigen::Vector3d::Zero());
   }
 
   /// The place closest to point p [mm], searched locally from `start`.
