@@ -97,9 +97,9 @@ TEST(ContactSearch, AKnownContactHidesNoOverlapElsewhere) {
   const double slope = 0.04 * 7 - 0.0004 * 343;
   const Eigen::Vector3d touch(7, 0, height(7)), n = Eigen::Vector3d(-slope, 0, 1).normalized();
   const RigidTransform X{Eigen::Matrix3d::Identity(), touch + 60 * n};
-  const Place on_B = pair.on_B->closest(touch, pair.on_B->seed(touch));
-  const Place on_A = pair.on_A->closest(-60 * n, pair.on_A->seed(-60 * n));
-  const ContactLinearization at = linearize_contact(*pair.on_B, on_B, *pair.on_A, on_A, X);
+  const ContactPlaces places{pair.on_B->closest(touch, pair.on_B->seed(touch)),
+                             pair.on_A->closest(-60 * n, pair.on_A->seed(-60 * n))};
+  const ContactLinearization at = linearize_contact(pair, places, X);
   ASSERT_LT(at.g.norm(), 1e-9);
   ASSERT_GT(at.relative_curvature[0], 0);
   double lowest = 1e9;  // by a fine scan of the left ridge
@@ -148,10 +148,10 @@ TEST(RefineMinimum, IsNotHeldByASaddle) {
   const RigidTransform X{Eigen::Matrix3d::Identity(), {0, 0, 0.1}};
   for (const double x : {1e-3, -0.1, 0.3}) {
     const Eigen::Vector3d start(x, 0.2, 0);
-    Place on_hills = hills->closest(start, hills->seed(start));
-    Place on_plane = plane->closest(start, plane->seed(start));
-    ASSERT_TRUE(refine_minimum(*hills, on_hills, *plane, on_plane, X, 5)) << x;
-    const Eigen::Vector3d found = hills->evaluate(on_hills).c;
+    ContactPlaces places{hills->closest(start, hills->seed(start)),
+                         plane->closest(start, plane->seed(start))};
+    ASSERT_TRUE(refine_minimum({*hills, *plane}, places, X, 5)) << x;
+    const Eigen::Vector3d found = hills->evaluate(places.on_B).c;
     EXPECT_NEAR(found.x(), std::copysign(d, x), 1e-9);
     EXPECT_NEAR(found.y(), 0, 1e-9);
   }

@@ -19,18 +19,18 @@ struct Pair {
       make_ellipsoid({0, 0, 0}, exp_rotation({0.2, 0.1, -0.3}), {30, 22, 20}, true);
   std::unique_ptr<Surface> on_A =
       make_ellipsoid({1, -2, 3}, exp_rotation({0.5, -0.1, 0.2}), {25, 18, 21}, true);
-  Place B = on_B->seed({0, 0, 50}), A = on_A->seed({0, 0, -50});
+  ContactPlaces places{on_B->seed({0, 0, 50}), on_A->seed({0, 0, -50})};
 
   /// Newton on the two places at a fixed pose.
   ContactLinearization settle(const RigidTransform& X) {
     for (int k = 0; k < 60; ++k) {
-      const ContactLinearization contact = linearize_contact(*on_B, B, *on_A, A, X);
+      const ContactLinearization contact = linearize_contact({*on_B, *on_A}, places, X);
       const Eigen::Vector3d along = contact.gap() * contact.B.n;
-      const Place next_B = on_B->moved(B, contact.B, contact.D0());
-      A = on_A->moved(A, contact.A, X.R.transpose() * (contact.D0() - (contact.g - along)));
-      B = next_B;
+      places.on_B = on_B->moved(places.on_B, contact.B, contact.D0());
+      places.on_A = on_A->moved(places.on_A, contact.A,
+                                X.R.transpose() * (contact.D0() - (contact.g - along)));
     }
-    return linearize_contact(*on_B, B, *on_A, A, X);
+    return linearize_contact({*on_B, *on_A}, places, X);
   }
 };
 
@@ -74,8 +74,9 @@ TEST(Contact, SlidesAsDifferencesSay) {
 TEST(Contact, RelativeCurvatureOfABallOnAPlane) {
   const auto plane = make_plane({0, 0, 0}, {0, 0, 1});
   const auto ball = make_sphere({0, 0, 0}, 20, true);
-  const ContactLinearization contact = linearize_contact(*plane, {{3, 4, 0}}, *ball, {{0, 0, -20}},
-                                                         {Eigen::Matrix3d::Identity(), {3, 4, 20}});
+  const ContactLinearization contact =
+      linearize_contact({*plane, *ball}, {Place{{3, 4, 0}}, Place{{0, 0, -20}}},
+                        {Eigen::Matrix3d::Identity(), {3, 4, 20}});
   EXPECT_NEAR(contact.relative_curvature[0], 0.05, 1e-15);
   EXPECT_NEAR(contact.relative_curvature[1], 0.05, 1e-15);
   EXPECT_NEAR(contact.gap(), 0, 1e-14);
@@ -86,15 +87,16 @@ TEST(Contact, RelativeCurvatureOfABallOnAPlane) {
 TEST(Contact, StaysFiniteWhereTheCurvatureVanishes) {
   const auto socket = make_sphere({0, 0, 0}, 20, false);
   const auto ball = make_sphere({0, 0, 0}, 20, true);
-  const ContactLinearization conforming =
-      linearize_contact(*socket, {{0, 0, -20}}, *ball, {{0, 0, -20}}, RigidTransform());
+  const ContactLinearization conforming = linearize_contact(
+      {*socket, *ball}, {Place{{0, 0, -20}}, Place{{0, 0, -20}}}, RigidTransform());
   EXPECT_TRUE(conforming.D1().allFinite() && conforming.D2().allFinite() &&
               conforming.D0().allFinite());
   EXPECT_NEAR(conforming.relative_curvature[0], 0, 1e-15);
   const auto plane = make_plane({0, 0, 0}, {0, 0, 1});
   const auto roll = make_cylinder({0, 0, 0}, {1, 0, 0}, 10, true);
-  const ContactLinearization line = linearize_contact(*plane, {{0, 0, 0}}, *roll, {{0, 0, -10}},
-                                                      {Eigen::Matrix3d::Identity(), {0, 0, 10}});
+  const ContactLinearization line =
+      linearize_contact({*plane, *roll}, {Place{{0, 0, 0}}, Place{{0, 0, -10}}},
+                        {Eigen::Matrix3d::Identity(), {0, 0, 10}});
   EXPECT_TRUE(line.D1().allFinite() && line.D2().allFinite());
   EXPECT_NEAR(line.relative_curvature[0], 0, 1e-15);
   EXPECT_NEAR(line.relative_curvature[1], 0.1, 1e-15);
@@ -106,31 +108,32 @@ TEST(Contact, APointAtTheEndOfALineStaysThere) {
   const auto plane = make_plane({0, 0, 0}, {0, 0, 1});
   const auto roll = make_cylinder({0, 0, 0}, {1, 0, 0}, 10, true, 30);
   const RigidTransform X{exp_rotation({0, 0, 0.3}), {2, 3, 10}};
-  Place on_A{{15, 0, -10}}, on_B{X * on_A.numbers};
-  const ContactLinearization contact = linearize_contact(*plane, on_B, *roll, on_A, X);
+  const Eigen::Vector3d end(15, 0, -10);
+  ContactPlaces places{Place{X * end}, Place{end}};
+  const ContactLinearization contact = linearize_contact({*plane, *roll}, places, X);
   const Eigen::Vector3d da(0.2, -0.1, 0);
   const Eigen::Vector3d dpi = 0.01 * X.R.col(0) + 0.02 * Eigen::Vector3d::UnitZ();  // stays level
-  slide_contact(*plane, on_B, *roll, on_A, contact, X, da, dpi, 100);
-  EXPECT_NEAR(on_A.numbers.x(), 15, 1e-12);
+  slide_contact({*plane, *roll}, places, contact, X, da, dpi, 100);
+  EXPECT_NEAR(places.on_A.numbers.x(), 15, 1e-12);
   const RigidTransform moved = test::displaced(X, da, dpi);
-  EXPECT_LT((moved * on_A.numbers - on_B.numbers).norm(),
-            5e-3);  // of second order in the turn of 0.02
+  // Of second order in the turn of 0.02.
+  EXPECT_LT((moved * places.on_A.numbers - places.on_B.numbers).norm(), 5e-3);
   // Where the floor ends first, the point of the floor stays and that of the roller follows.
-  const auto short_floor =
-      make_plane(X * Eigen::Vector3d(10, 0, -10) - 8 * X.R.col(0), {0, 0, 1}, 8);
-  Place at_A{{10, 0, -10}}, at_B{X * at_A.numbers};
-  const Place before = at_B;
-  const ContactLinearization at = linearize_contact(*short_floor, at_B, *roll, at_A, X);
-  slide_contact(*short_floor, at_B, *roll, at_A, at, X, 0.2 * X.R.col(0), {0, 0, 0}, 100);
-  EXPECT_LT((at_B.numbers - before.numbers).norm(), 1e-12);
-  EXPECT_NEAR(at_A.numbers.x(), 9.8, 1e-12);
+  const Eigen::Vector3d inner(10, 0, -10);
+  const auto short_floor = make_plane(X * inner - 8 * X.R.col(0), {0, 0, 1}, 8);
+  places = {Place{X * inner}, Place{inner}};
+  const ContactLinearization at = linearize_contact({*short_floor, *roll}, places, X);
+  slide_contact({*short_floor, *roll}, places, at, X, 0.2 * X.R.col(0), {0, 0, 0}, 100);
+  EXPECT_LT((places.on_B.numbers - X * inner).norm(), 1e-12);
+  EXPECT_NEAR(places.on_A.numbers.x(), 9.8, 1e-12);
 }
 
 TEST(Contact, LeastCurvatureLiesAlongTheLine) {
   const auto plane = make_plane({0, 0, 0}, {0, 0, 1});
   const auto roll = make_cylinder({0, 0, 0}, {1, 0, 0}, 10, true);
   const RigidTransform X{exp_rotation({0, 0, 0.3}), {0, 0, 10}};
-  const ContactLinearization line = linearize_contact(*plane, {{0, 0, 0}}, *roll, {{0, 0, -10}}, X);
+  const ContactLinearization line =
+      linearize_contact({*plane, *roll}, {Place{{0, 0, 0}}, Place{{0, 0, -10}}}, X);
   EXPECT_NEAR(std::abs(direction_of_least_curvature(line, X.R).dot(X.R.col(0))), 1, 1e-14);
 }
 

@@ -241,7 +241,7 @@ TEST(Implants, EndsOfACondyleAreNamedAlongItsSurface) {
         const double a = end * kDegree;
         const Vector3d at = X.R * Vector3d(0, -kCondyle * std::sin(a), -kCondyle * std::cos(a));
         const std::string words =
-            edge_in_words(model, {0, pair.on_B->seed(at), pair.on_A->seed({0, 0, 0}), 0});
+            edge_in_words(model, {0, {pair.on_B->seed(at), pair.on_A->seed({0, 0, 0})}, 0});
         const char* expected = end > 0 ? " at its posterior end, " : " at its anterior end, ";
         EXPECT_NE(words.find(expected), std::string::npos) << words;
       }

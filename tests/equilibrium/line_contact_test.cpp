@@ -270,10 +270,10 @@ TEST(LineContact, AFlatPointThatIsIsolatedIsNoLine) {
   pair.on_A = make_polynomial({0, 0, 0}, exp_rotation({M_PI, 0, 0}), {{4, 0, -1e-3}, {0, 2, -0.05}},
                               true, 15);
   const RigidTransform X;
-  const ContactLinearization at =
-      linearize_contact(*pair.on_B, {{0, 0, 0}}, *pair.on_A, {{0, 0, 0}}, X);
+  const ContactLinearization at = linearize_contact(pair, {Place{{0, 0, 0}}, Place{{0, 0, 0}}}, X);
   ASSERT_NEAR(at.relative_curvature[0], 0, 1e-15);
-  EXPECT_EQ(examine_touch(pair, at, {{0, 0, 0}}, {{0, 0, 0}}, X, 15).kind, Touch::kPoint);
+  EXPECT_EQ(examine_touch(pair, at, {Place{{0, 0, 0}}, Place{{0, 0, 0}}}, X, 15).kind,
+            Touch::kPoint);
 }
 
 // A torus lies on a plane along a ring.

@@ -24,8 +24,8 @@ TEST(Newton, ReportProblem1HasTheExactAnswerInFiveIterationsPerIncrement) {
   Newton newton(model);
   EquilibriumState state;
   state.X = {exp_rotation({0, -1.3, 0}), {1, 0, 0}};
-  state.contacts = {{0, {{2, 0, 0}}, {{1, 0, 0}}, 0}};
-  state.contacts[0].on_A = {state.X.R.transpose() * Eigen::Vector3d(1, 0, 0)};
+  state.contacts = {{0, {Place{{2, 0, 0}}, Place{{1, 0, 0}}}, 0}};
+  state.contacts[0].places.on_A = {state.X.R.transpose() * Eigen::Vector3d(1, 0, 0)};
   state.sigma = {0};
   for (const double phi : {0.0, 0.5, 1.0, 1.5, 2.0, 2.5}) {
     const NewtonReport report = newton.solve(state, condition_value(0).with(drive_of(model), phi));
@@ -35,7 +35,7 @@ TEST(Newton, ReportProblem1HasTheExactAnswerInFiveIterationsPerIncrement) {
     EXPECT_NEAR(state.X.p.x(), 1, 1e-12);
     EXPECT_NEAR(state.contacts[0].p, P::p(phi), 1e-12 * 120);
     EXPECT_NEAR(state.sigma[0], P::sigma(phi), 1e-12 * 120);
-    EXPECT_NEAR(state.contacts[0].on_B.numbers.z(), phi, 1e-12);
+    EXPECT_NEAR(state.contacts[0].places.on_B.numbers.z(), phi, 1e-12);
   }
   EXPECT_NEAR(test::Problem1::p(0), 32.11453374, 1e-8);
   EXPECT_NEAR(test::Problem1::sigma(0), 119.90259274, 1e-8);
@@ -84,7 +84,8 @@ TEST(Newton, ResidualFallsQuadratically) {
   Model model = test::Problem1::model(0);
   EquilibriumState state;
   state.X = {exp_rotation({0, -1.2, 0}), {1, 0, 0}};
-  state.contacts = {{0, {{2, 0, 0}}, {state.X.R.transpose() * Eigen::Vector3d(1, 0, 0)}, 0}};
+  state.contacts = {
+      {0, {Place{{2, 0, 0}}, Place{state.X.R.transpose() * Eigen::Vector3d(1, 0, 0)}}, 0}};
   state.sigma = {0};
   std::vector<double> error;
   for (int k = 0; k < 5; ++k) {
@@ -133,7 +134,8 @@ TEST(Newton, ContactThatDependsOnAConditionIsSingular) {
   Newton newton(model);
   EquilibriumState state;
   state.X = {exp_rotation({0, -1.3, 0}), {1, 0, 0}};
-  state.contacts = {{0, {{2, 0, 0}}, {state.X.R.transpose() * Eigen::Vector3d(1, 0, 0)}, 0}};
+  state.contacts = {
+      {0, {Place{{2, 0, 0}}, Place{state.X.R.transpose() * Eigen::Vector3d(1, 0, 0)}}, 0}};
   state.sigma = {0, 0};
   EXPECT_EQ(newton.solve(state, drive_of(model)).outcome, NewtonOutcome::kSingular);
 }

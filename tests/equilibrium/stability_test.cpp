@@ -118,7 +118,7 @@ TEST(Stability, NamesAnAxisWhereThereIsNoJoint) {
 TEST(Stability, OfABallOnAFloorIsNeutral) {
   const Model model = test::ball_on_floor("weight", -10);
   EquilibriumState state = unloaded(model, {Eigen::Matrix3d::Identity(), {0, 0, 10}});
-  state.contacts = {{0, {{0, 0, 0}}, {{0, 0, -10}}, 10}};
+  state.contacts = {{0, {Place{{0, 0, 0}}, Place{{0, 0, -10}}}, 10}};
   const Judged judged = judge(model, state);
   EXPECT_TRUE(judged.stability.neutral);
   EXPECT_EQ(judged.stability.free.cols(), 5);

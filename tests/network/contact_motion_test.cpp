@@ -30,11 +30,11 @@ struct Ball {
     network.contacts = {{"contact", 0, ground, make_sphere({0, 0, 0}, 10, true), true}};
     state.bodies = {{{Eigen::Matrix3d::Identity(), center}, {0, 0, 0}, {0, 0, 0}}};
     state.contacts.resize(1);
-    state.contacts[0].on_ground = ground->seed(center);
+    state.contacts[0].places.on_B = ground->seed(center);
   }
   void touch_at(const Eigen::Vector3d& point) {
-    state.contacts[0].on_ground = network.contacts[0].on_ground->seed(point);
-    state.contacts[0].on_body =
+    state.contacts[0].places.on_B = network.contacts[0].on_ground->seed(point);
+    state.contacts[0].places.on_A =
         network.contacts[0].on_body->seed(state.bodies[0].X.inverse() * point);
   }
 };
@@ -88,7 +88,7 @@ TEST(ContactMotion, BallComesLooseInACylinder) {
 TEST(ContactMotion, DroppedBallBounces) {
   Ball ball(make_plane({0, 0, 0}, {0, 1, 0}), {0, 110, 0});
   ball.touch_at({0, 0, 0});
-  ball.state.contacts[0].on_body = ball.network.contacts[0].on_body->seed({0, -10, 0});
+  ball.state.contacts[0].places.on_A = ball.network.contacts[0].on_body->seed({0, -10, 0});
   IntegrationOptions o = options(1.2, 0.01, 1e-10);
   o.restitution = 0.6;
   o.least_rebound = 5;
@@ -116,7 +116,7 @@ TEST(ContactMotion, DroppedBallBounces) {
 TEST(ContactMotion, PlasticImpactStays) {
   Ball ball(make_plane({0, 0, 0}, {0, 1, 0}), {0, 30, 0});
   ball.touch_at({0, 0, 0});
-  ball.state.contacts[0].on_body = ball.network.contacts[0].on_body->seed({0, -10, 0});
+  ball.state.contacts[0].places.on_A = ball.network.contacts[0].on_body->seed({0, -10, 0});
   ball.state.bodies[0].v = {40, 0, 0};
   const Motion motion = integrate(ball.network, ball.state, options(0.3, 0.01, 1e-9));
   ASSERT_EQ(motion.events.size(), 1U);

@@ -54,13 +54,13 @@ TEST(ContactScout, FollowsAnUnseenPlaceAndDropsADouble) {
   state.bodies.resize(1);
   state.bodies[0].X = model.start;
   state.contacts.resize(knee.places.size());
-  for (ContactPlaces& places : state.contacts) places.followed = false;
+  for (MovingContact& contact : state.contacts) contact.followed = false;
   PairScout scout(model, cover_pairs(model), knee);
 
   EXPECT_TRUE(scout(state).overlapping.empty());
   const auto followed = [&] {
     return std::count_if(state.contacts.begin(), state.contacts.end(),
-                         [](const ContactPlaces& places) { return places.followed; });
+                         [](const MovingContact& contact) { return contact.followed; });
   };
   const auto places = followed();
   ASSERT_GE(places, 2);
@@ -68,7 +68,7 @@ TEST(ContactScout, FollowsAnUnseenPlaceAndDropsADouble) {
   EXPECT_EQ(followed(), places);
 
   const auto waiting = std::find_if(state.contacts.begin(), state.contacts.end(),
-                                    [](const ContactPlaces& p) { return !p.followed; });
+                                    [](const MovingContact& c) { return !c.followed; });
   ASSERT_NE(waiting, state.contacts.end());
   const std::size_t pair_first =
       static_cast<std::size_t>(waiting - state.contacts.begin()) / kPointsPerPair * kPointsPerPair;

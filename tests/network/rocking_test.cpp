@@ -41,8 +41,8 @@ struct BallsOnPlane {
     for (std::size_t i = 0; i < closed.size(); ++i) {
       const Surface& ball = *network.contacts[i].on_body;
       const Eigen::Vector3d lowest = X * ball.extent().center - kRadius * up;
-      state.contacts[i].on_ground = network.contacts[i].on_ground->seed(lowest);
-      state.contacts[i].on_body = ball.seed(X.inverse() * lowest);
+      state.contacts[i].places.on_B = network.contacts[i].on_ground->seed(lowest);
+      state.contacts[i].places.on_A = ball.seed(X.inverse() * lowest);
       state.contacts[i].closed = closed[i];
     }
   }

@@ -57,8 +57,7 @@ TEST(Statics, NetworkWithoutInertiaHasTheEnginesResidual) {
     for (std::size_t i = 0; i < knee.places.size(); ++i)
       for (ClosedContact& contact : state.contacts)
         if (at.contacts[i].closed && contact.pair == knee.places[i]) {
-          contact.on_B = at.contacts[i].on_ground;
-          contact.on_A = at.contacts[i].on_body;
+          contact.places = at.contacts[i].places;
         }
     NewtonSystem system(model);
     ASSERT_TRUE(system.assemble(state, drive_of(model)));

@@ -152,26 +152,25 @@ class BruteForce {
     for (std::size_t i = 0; i < sheet.places.size(); ++i)
       for (std::size_t j = 0; j < sheet.places[i].size(); ++j) {
         if (sheet.gaps[i][j] > cutoff + 0.01 || !lowest(i, j)) continue;
-        add(from_A ? sheet.opposite[i][j] : sheet.places[i][j],
-            from_A ? sheet.places[i][j] : sheet.opposite[i][j], X, cutoff, margin, minima);
+        const Place &own = sheet.places[i][j], &there = sheet.opposite[i][j];
+        add(from_A ? ContactPlaces{there, own} : ContactPlaces{own, there}, X, cutoff, margin,
+            minima);
       }
   }
 
-  void add(Place B,
-           Place A,
+  void add(ContactPlaces places,
            const RigidTransform& X,
            double cutoff,
            double margin,
            std::vector<GapMinimum>& minima) const {
-    if (!refine_minimum(*pair_.on_B, B, *pair_.on_A, A, X, 2)) return;
+    if (!refine_minimum(pair_, places, X, 2)) return;
     GapMinimum minimum;
-    const SurfacePoint at = pair_.on_B->evaluate_frame(B);
-    minimum.on_B = B;
-    minimum.on_A = A;
+    const SurfacePoint at = pair_.on_B->evaluate_frame(places.on_B);
+    minimum.places = places;
     minimum.point_B = at.c;
     minimum.n = at.n;
-    minimum.gap = at.n.dot(X * pair_.on_A->evaluate_frame(A).c - at.c);
-    minimum.edge = std::min(pair_.on_B->edge_distance(B), pair_.on_A->edge_distance(A));
+    minimum.gap = at.n.dot(X * pair_.on_A->evaluate_frame(places.on_A).c - at.c);
+    minimum.edge = edge_distance(pair_, places);
     const bool same = std::any_of(minima.begin(), minima.end(), [&](const GapMinimum& known) {
       return (known.point_B - minimum.point_B).norm() < 1e-5;
     });

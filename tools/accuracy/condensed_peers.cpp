@@ -56,10 +56,9 @@ class CondensedKnee {
     good_ = true;
     for (int k = 0; k < 2; ++k) {
       ClosedContact& contact = state_.contacts[k];
-      const ContactPair& pair = model_.pairs[contact.pair];
       contact.p = x[6 + k];
-      good_ = good_ && refine_minimum(*pair.on_B, contact.on_B, *pair.on_A, contact.on_A, state_.X,
-                                      model_.length);
+      good_ = good_ &&
+              refine_minimum(model_.pairs[contact.pair], contact.places, state_.X, model_.length);
     }
     good_ = good_ && system_.assemble(state_, drive_);
     if (!good_) {

@@ -16,9 +16,9 @@ void describe(const Linearization& at, PoseResult& pose) {
       pose);
   for (std::size_t c = 0; c < at.contacts().size(); ++c) {
     const ClosedContact& contact = at.state.contacts[c];
-    add_closed_point(describe_point(at.contacts()[c], contact.p,
-                                    edge_distance(at.pair(c), contact.on_B, contact.on_A)),
-                     pose.contacts[static_cast<std::size_t>(contact.pair)]);
+    add_closed_point(
+        describe_point(at.contacts()[c], contact.p, edge_distance(at.pair(c), contact.places)),
+        pose.contacts[static_cast<std::size_t>(contact.pair)]);
   }
   for (std::size_t k = 0; k < at.conditions().size(); ++k)
     pose.conditions.push_back({at.conditions()[k].coordinate, at.state.sigma[k]});

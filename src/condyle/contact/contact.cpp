@@ -67,14 +67,12 @@ double inverse_unless_flat(double curvature, double flat) {
 }  // namespace
 
 CONDYLE_FMA_CLONE
-ContactLinearization linearize_contact(const Surface& on_B,
-                                       const Place& place_B,
-                                       const Surface& on_A,
-                                       const Place& place_A,
+ContactLinearization linearize_contact(const SurfacePair& surfaces,
+                                       const ContactPlaces& places,
                                        const RigidTransform& X_BA) {
   ContactLinearization contact;
-  contact.B = on_B.evaluate(place_B);
-  contact.A = on_A.evaluate(place_A);
+  contact.B = surfaces.on_B.evaluate(places.on_B);
+  contact.A = surfaces.on_A.evaluate(places.on_A);
   const Eigen::Matrix3d& R = X_BA.R;
   const Eigen::Vector3d& n = contact.B.n;
   const Eigen::Vector3d s = R * contact.A.c, m = R * contact.A.n;
@@ -108,7 +106,8 @@ ContactLinearization linearize_contact(const Surface& on_B,
     const double d = 1 / (q00 * q11 - q01 * q01);
     Q_inverse << q11 * d, -q01 * d, -q01 * d, q00 * d;
   } else {
-    const Edges edges{on_B.edge_distance(place_B), on_A.edge_distance(place_A)};
+    const Edges edges{surfaces.on_B.edge_distance(places.on_B),
+                      surfaces.on_A.edge_distance(places.on_A)};
     const double at_edge = kEdgeReach / std::max(std::abs(Q.low), kFlatCurvature);
     const double flat = edges.nearest() < at_edge
                             ? std::max(kFlatCurvature, kFlatAtEdge * std::abs(Q.low))
@@ -171,10 +170,8 @@ void add_contact_force(const ContactLinearization& contact, double p, Wrench& wr
 }
 
 CONDYLE_FMA_CLONE
-void slide_contact(const Surface& on_B,
-                   Place& place_B,
-                   const Surface& on_A,
-                   Place& place_A,
+void slide_contact(const SurfacePair& surfaces,
+                   ContactPlaces& places,
                    const ContactLinearization& contact,
                    const RigidTransform& X_BA,
                    const Eigen::Vector3d& da,
@@ -188,8 +185,8 @@ void slide_contact(const Surface& on_B,
     dc *= longest_slide / longest;
     dc_A *= longest_slide / longest;
   }
-  place_B = on_B.moved(place_B, contact.B, dc);
-  place_A = on_A.moved(place_A, contact.A, X_BA.R.transpose() * dc_A);
+  places.on_B = surfaces.on_B.moved(places.on_B, contact.B, dc);
+  places.on_A = surfaces.on_A.moved(places.on_A, contact.A, X_BA.R.transpose() * dc_A);
 }
 
 }  // namespace condyle

@@ -13,9 +13,9 @@
 
 #include <array>
 
+#include "condyle/contact/contact_places.h"
 #include "condyle/elements/wrench.h"
 #include "condyle/math/rigid_transform.h"
-#include "condyle/surface/surface.h"
 
 namespace condyle {
 
@@ -55,10 +55,8 @@ inline constexpr double kFlatAtEdge = 1e-3;
 [[nodiscard]] Eigen::Vector3d direction_of_least_curvature(const ContactLinearization& contact,
                                                            const Eigen::Matrix3d& R_BA);
 
-[[nodiscard]] ContactLinearization linearize_contact(const Surface& on_B,
-                                                     const Place& place_B,
-                                                     const Surface& on_A,
-                                                     const Place& place_A,
+[[nodiscard]] ContactLinearization linearize_contact(const SurfacePair& surfaces,
+                                                     const ContactPlaces& places,
                                                      const RigidTransform& X_BA);
 
 /// Adds the contact force p [N] with its derivatives, and the part of the force that the residual
@@ -67,10 +65,8 @@ void add_contact_force(const ContactLinearization& contact, double p, Wrench& wr
 
 /// Moves both places by what a step (da, dπ) of the pose asks for (call before the pose is
 /// updated).
-void slide_contact(const Surface& on_B,
-                   Place& place_B,
-                   const Surface& on_A,
-                   Place& place_A,
+void slide_contact(const SurfacePair& surfaces,
+                   ContactPlaces& places,
                    const ContactLinearization& contact,
                    const RigidTransform& X_BA,
                    const Eigen::Vector3d& da,

@@ -87,12 +87,10 @@ ContactCover::ContactCover(const ContactPair& pair, Samples samples)
                         : SurfaceCover(*pair.on_B, spacing, std::move(samples.on_B))),
       on_A(sampled_on_A ? SurfaceCover(*pair.on_A, spacing, std::move(samples.on_A))
                         : SurfaceCover(*pair.on_A, kFacingSpacing * spacing)),
-      lines(have_straight_lines(*pair.on_B, *pair.on_A, spacing)) {}
+      lines(have_straight_lines(pair, spacing)) {}
 
 ContactSearch::ContactSearch(std::shared_ptr<const ContactCover> cover)
     : cover_(std::move(cover)),
-      on_B_(cover_->surface_B.get()),
-      on_A_(cover_->surface_A.get()),
       spacing_(cover_->spacing),
       sampled_on_A_(cover_->sampled_on_A),
       deepest_(has_edge(other().surface()) ? kDeepest * spacing_ : kInfinity),
@@ -179,29 +177,29 @@ std::optional<GapMinimum> ContactSearch::refine(int sample,
                                                 const RigidTransform& X_BA,
                                                 double cutoff) const {
   GapMinimum minimum;
+  ContactPlaces& places = minimum.places;
+  const SurfacePair surfaces = this->surfaces();
   const Place& own = sampled().place(sample);
-  minimum.on_A = sampled_on_A_ ? own : closest(sample).place;
-  minimum.on_B = sampled_on_A_ ? closest(sample).place : own;
-  Place refined_B = minimum.on_B, refined_A = minimum.on_A;
-  const Refinement outcome =
-      refine_minimum_below(cutoff, *on_B_, refined_B, *on_A_, refined_A, X_BA, 4 * spacing_);
+  places.on_A = sampled_on_A_ ? own : closest(sample).place;
+  places.on_B = sampled_on_A_ ? closest(sample).place : own;
+  ContactPlaces refined = places;
+  const Refinement outcome = refine_minimum_below(cutoff, surfaces, refined, X_BA, 4 * spacing_);
   if (outcome == Refinement::kAbove) return std::nullopt;
   minimum.refined =
-      outcome == Refinement::kSettled && edge_of(refined_B, refined_A) > -kBeyondEdge * spacing_;
+      outcome == Refinement::kSettled && edge_distance(surfaces, refined) > -kBeyondEdge * spacing_;
   if (minimum.refined) {
-    minimum.on_B = refined_B;
-    minimum.on_A = refined_A;
+    places = refined;
   } else if (sampled_on_A_) {
-    minimum.on_B = on_B_->closest(X_BA * sampled().sample(sample).c, minimum.on_B);
+    places.on_B = surfaces.on_B.closest(X_BA * sampled().sample(sample).c, places.on_B);
   } else {
-    minimum.on_A = on_A_->closest(X_BA.inverse() * sampled().sample(sample).c, minimum.on_A);
+    places.on_A = surfaces.on_A.closest(X_BA.inverse() * sampled().sample(sample).c, places.on_A);
   }
-  const SurfacePoint B = on_B_->evaluate(minimum.on_B);
-  const SurfacePoint A = on_A_->evaluate(minimum.on_A);
+  const SurfacePoint B = surfaces.on_B.evaluate(places.on_B);
+  const SurfacePoint A = surfaces.on_A.evaluate(places.on_A);
   minimum.point_B = B.c;
   minimum.n = B.n;
   minimum.gap = B.n.dot(X_BA * A.c - B.c);
-  minimum.edge = edge_of(minimum.on_B, minimum.on_A);
+  minimum.edge = edge_distance(surfaces, places);
   return minimum;
 }
 
@@ -217,8 +215,7 @@ void ContactSearch::add_minimum(int sample,
   // A sample stands for a minimum of its own only where it is the lowest and faces what is known.
   if (!minimum->refined && !(lowest && seen(sample).faces)) return;
   found_.push_back(sampled_on_A_ ? minimum->point_B : X_BA.inverse() * minimum->point_B);
-  if (cover_->lines && add_line_ends(*on_B_, *on_A_, X_BA, *minimum, spacing_, cutoff, minima))
-    return;
+  if (cover_->lines && add_line_ends(surfaces(), X_BA, *minimum, spacing_, cutoff, minima)) return;
   if (minimum->gap < cutoff) minima.push_back(*minimum);
 }
 
@@ -241,9 +238,9 @@ void ContactSearch::add_rims(const RigidTransform& X_BA,
     if (!rim || !(rim->gap < cutoff)) continue;
     GapMinimum minimum;
     const bool rim_of_A = of_own == sampled_on_A_;
-    minimum.on_A = rim_of_A ? rim->on_rim : rim->facing;
-    minimum.on_B = rim_of_A ? rim->facing : rim->on_rim;
-    const SurfacePoint B = on_B_->evaluate_frame(minimum.on_B);
+    minimum.places.on_A = rim_of_A ? rim->on_rim : rim->facing;
+    minimum.places.on_B = rim_of_A ? rim->facing : rim->on_rim;
+    const SurfacePoint B = surfaces().on_B.evaluate_frame(minimum.places.on_B);
     minimum.point_B = B.c;
     minimum.n = B.n;
     minimum.gap = rim->gap;
@@ -274,10 +271,6 @@ bool ContactSearch::leads_elsewhere(int sample, const RigidTransform& X_BA, doub
 
 RigidTransform ContactSearch::from_to(const RigidTransform& X_BA) const {
   return sampled_on_A_ ? X_BA : X_BA.inverse();
-}
-
-double ContactSearch::edge_of(const Place& on_B, const Place& on_A) const {
-  return std::min(on_B_->edge_distance(on_B), on_A_->edge_distance(on_A));
 }
 
 /// The samples that are lower than all their neighbours, measured.

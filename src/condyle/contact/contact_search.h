@@ -168,11 +168,11 @@ class ContactSearch {
                    bool lowest,
                    std::vector<GapMinimum>& minima);
   [[nodiscard]] RigidTransform from_to(const RigidTransform& X_BA) const;
-  [[nodiscard]] double edge_of(const Place& on_B, const Place& on_A) const;
   /// Nothing where the minimum near the sample lies above the cutoff.
   [[nodiscard]] std::optional<GapMinimum> refine(int sample,
                                                  const RigidTransform& X_BA,
                                                  double cutoff) const;
+  [[nodiscard]] SurfacePair surfaces() const { return {*cover_->surface_B, *cover_->surface_A}; }
   [[nodiscard]] const SurfaceCover& sampled() const {
     return sampled_on_A_ ? cover_->on_A : cover_->on_B;
   }
@@ -191,8 +191,6 @@ class ContactSearch {
   }
 
   std::shared_ptr<const ContactCover> cover_;
-  const Surface* on_B_;
-  const Surface* on_A_;
   double spacing_;
   bool sampled_on_A_;
   double deepest_;  ///< overlap that is still taken for one [mm]

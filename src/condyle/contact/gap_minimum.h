@@ -2,14 +2,13 @@
 
 /// A place where the gap between two surfaces is smallest at a pose.
 
-#include "condyle/math/rigid_transform.h"
-#include "condyle/surface/surface.h"
+#include "condyle/contact/contact_places.h"
 
 namespace condyle {
 
 /// A local minimum of the gap, or, where the refinement did not settle, the lowest sample.
 struct GapMinimum {
-  Place on_B, on_A;
+  ContactPlaces places;
   double gap = 0;              ///< [mm], < 0 overlap
   Eigen::Vector3d point_B, n;  ///< point and normal on B, ground frame
   bool refined = false;  ///< normals parallel, an isolated minimum (relative curvature positive)

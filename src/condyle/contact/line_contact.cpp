@@ -36,37 +36,35 @@ bool is_ruled(const Surface& surface, double spacing) {
 /// The pair of places that lies t [mm] along a line.
 class Line {
  public:
-  Line(const Surface& on_B,
-       const Place& place_B,
-       const Surface& on_A,
-       const Place& place_A,
+  Line(const SurfacePair& surfaces,
+       const ContactPlaces& start,
        const ContactLinearization& at,
        const Eigen::Vector3d& direction,
        const RigidTransform& X_BA)
-      : on_B_(on_B), on_A_(on_A), place_B_(place_B), place_A_(place_A), B_(at.B), A_(at.A) {
+      : surfaces_(surfaces), start_(start), B_(at.B), A_(at.A) {
     direction_B_ = direction;
     direction_A_ = X_BA.R.transpose() * (direction - direction.dot(at.m) * at.m).normalized();
   }
-  [[nodiscard]] Place on_B(double t) const { return on_B_.moved(place_B_, B_, t * direction_B_); }
-  [[nodiscard]] Place on_A(double t) const { return on_A_.moved(place_A_, A_, t * direction_A_); }
+  [[nodiscard]] ContactPlaces at(double t) const {
+    return {surfaces_.on_B.moved(start_.on_B, B_, t * direction_B_),
+            surfaces_.on_A.moved(start_.on_A, A_, t * direction_A_)};
+  }
   /// The parallel line through two other places.
-  [[nodiscard]] Line from(const Place& place_B, const Place& place_A) const {
+  [[nodiscard]] Line from(const ContactPlaces& start) const {
     Line line = *this;
-    line.place_B_ = place_B;
-    line.place_A_ = place_A;
-    line.B_ = on_B_.evaluate(place_B);
-    line.A_ = on_A_.evaluate(place_A);
+    line.start_ = start;
+    line.B_ = surfaces_.on_B.evaluate(start.on_B);
+    line.A_ = surfaces_.on_A.evaluate(start.on_A);
     return line;
   }
   /// Distance of both places from the edges of their surfaces.
   [[nodiscard]] double within(double t) const {
-    return std::min(on_B_.edge_distance(on_B(t)), on_A_.edge_distance(on_A(t))) - kWithinEdge;
+    return edge_distance(surfaces_, at(t)) - kWithinEdge;
   }
 
  private:
-  const Surface& on_B_;
-  const Surface& on_A_;
-  Place place_B_, place_A_;
+  SurfacePair surfaces_;
+  ContactPlaces start_;
   SurfacePoint B_, A_;
   Eigen::Vector3d direction_B_, direction_A_;
 };
@@ -114,14 +112,12 @@ bool find_end(const Line& line, double start, double sign, double spacing, doubl
 
 }  // namespace
 
-GapMinimum settle_across(const Surface& on_B,
-                         Place place_B,
-                         const Surface& on_A,
-                         Place place_A,
+GapMinimum settle_across(const SurfacePair& surfaces,
+                         ContactPlaces places,
                          const RigidTransform& X_BA) {
   GapMinimum end;
   for (int k = 0;; ++k) {
-    const ContactLinearization at = linearize_contact(on_B, place_B, on_A, place_A, X_BA);
+    const ContactLinearization at = linearize_contact(surfaces, places, X_BA);
     const Eigen::Vector3d beside = at.g - at.gap() * at.B.n;
     const Eigen::Vector3d dc = at.D0(), dc_A = dc - beside;
     const double slide = std::max(dc.norm(), dc_A.norm());
@@ -131,17 +127,16 @@ GapMinimum settle_across(const Surface& on_B,
     end.refined = at.h.norm() < kAligned;
     if (k == 12 || slide < 1e-13 * (1 + at.B.c.norm())) break;
     const double shorter = std::min(1.0, 0.5 / (slide * at.relative_curvature[1]));
-    place_B = on_B.moved(place_B, at.B, shorter * dc);
-    place_A = on_A.moved(place_A, at.A, X_BA.R.transpose() * (shorter * dc_A));
+    places.on_B = surfaces.on_B.moved(places.on_B, at.B, shorter * dc);
+    places.on_A = surfaces.on_A.moved(places.on_A, at.A, X_BA.R.transpose() * (shorter * dc_A));
   }
-  end.on_B = place_B;
-  end.on_A = place_A;
-  end.edge = std::min(on_B.edge_distance(place_B), on_A.edge_distance(place_A));
+  end.places = places;
+  end.edge = edge_distance(surfaces, places);
   return end;
 }
 
-bool have_straight_lines(const Surface& on_B, const Surface& on_A, double spacing) {
-  return is_ruled(on_B, spacing) && is_ruled(on_A, spacing);
+bool have_straight_lines(const SurfacePair& surfaces, double spacing) {
+  return is_ruled(surfaces.on_B, spacing) && is_ruled(surfaces.on_A, spacing);
 }
 
 bool is_line(const ContactLinearization& contact, const Eigen::Matrix3d& R_BA) {
@@ -156,56 +151,50 @@ bool is_line(const ContactLinearization& contact, const Eigen::Matrix3d& R_BA) {
 namespace {
 
 /// The end of a line near two places, settled across the line and back at the edge.
-GapMinimum settled_end(const Surface& on_B,
-                       const Surface& on_A,
+GapMinimum settled_end(const SurfacePair& surfaces,
                        const Line& line,
                        double t,
                        double outwards,
                        const RigidTransform& X_BA) {
-  GapMinimum end = settle_across(on_B, line.on_B(t), on_A, line.on_A(t), X_BA);
+  GapMinimum end = settle_across(surfaces, line.at(t), X_BA);
   for (int k = 0; k < 8; ++k) {
     const double beside = end.edge - kWithinEdge;
     if (std::abs(beside) < kFound) break;
-    const Line here = line.from(end.on_B, end.on_A);
-    end =
-        settle_across(on_B, here.on_B(outwards * beside), on_A, here.on_A(outwards * beside), X_BA);
+    end = settle_across(surfaces, line.from(end.places).at(outwards * beside), X_BA);
   }
   return end;
 }
 
 }  // namespace
 
-bool find_line_ends(const Surface& on_B,
-                    const Place& place_B,
-                    const Surface& on_A,
-                    const Place& place_A,
+bool find_line_ends(const SurfacePair& surfaces,
+                    const ContactPlaces& places,
                     const RigidTransform& X_BA,
                     double spacing,
                     std::array<GapMinimum, 2>& ends) {
-  const ContactLinearization at = linearize_contact(on_B, place_B, on_A, place_A, X_BA);
+  const ContactLinearization at = linearize_contact(surfaces, places, X_BA);
   if (!is_line(at, X_BA.R)) return false;
-  const Line line(on_B, place_B, on_A, place_A, at, direction_of_least_curvature(at, X_BA.R), X_BA);
+  const Line line(surfaces, places, at, direction_of_least_curvature(at, X_BA.R), X_BA);
   double start = 0;
   if (!find_within(line, spacing, start)) return false;
   for (const int k : {0, 1}) {
     double t = 0;
     const double outwards = k == 0 ? -1 : 1;
     if (!find_end(line, start, outwards, spacing, t)) return false;
-    ends[static_cast<std::size_t>(k)] = settled_end(on_B, on_A, line, t, outwards, X_BA);
+    ends[static_cast<std::size_t>(k)] = settled_end(surfaces, line, t, outwards, X_BA);
   }
   if (ends[1].gap < ends[0].gap) std::swap(ends[0], ends[1]);
   return true;
 }
 
-bool add_line_ends(const Surface& on_B,
-                   const Surface& on_A,
+bool add_line_ends(const SurfacePair& surfaces,
                    const RigidTransform& X_BA,
                    const GapMinimum& minimum,
                    double spacing,
                    double cutoff,
                    std::vector<GapMinimum>& minima) {
   std::array<GapMinimum, 2> ends;
-  if (!find_line_ends(on_B, minimum.on_B, on_A, minimum.on_A, X_BA, spacing, ends)) return false;
+  if (!find_line_ends(surfaces, minimum.places, X_BA, spacing, ends)) return false;
   for (const GapMinimum& end : ends)
     if (end.gap < cutoff) minima.push_back(end);
   // Where the surfaces cross a little, the lowest point between the ends counts as well.

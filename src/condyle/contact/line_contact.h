@@ -20,32 +20,27 @@ inline constexpr double kWithinEdge = 5e-10;
 
 /// Do both surfaces consist of straight lines, so far as their samples tell? Others need not be
 /// asked for the ends of a line.
-[[nodiscard]] bool have_straight_lines(const Surface& on_B, const Surface& on_A, double spacing);
+[[nodiscard]] bool have_straight_lines(const SurfacePair& surfaces, double spacing);
 
 /// The relative curvature nearly vanishes in one direction, in which neither surface bends.
 [[nodiscard]] bool is_line(const ContactLinearization& contact, const Eigen::Matrix3d& R_BA);
 
 /// Slides two places across a line until the normals are opposite but for the tilt along it.
-[[nodiscard]] GapMinimum settle_across(const Surface& on_B,
-                                       Place place_B,
-                                       const Surface& on_A,
-                                       Place place_A,
+[[nodiscard]] GapMinimum settle_across(const SurfacePair& surfaces,
+                                       ContactPlaces places,
                                        const RigidTransform& X_BA);
 
 /// The ends of the line through a place, lowest first; false where there is no line or where it has
 /// no ends. `spacing` of the samples of the search [mm].
-bool find_line_ends(const Surface& on_B,
-                    const Place& place_B,
-                    const Surface& on_A,
-                    const Place& place_A,
+bool find_line_ends(const SurfacePair& surfaces,
+                    const ContactPlaces& places,
                     const RigidTransform& X_BA,
                     double spacing,
                     std::array<GapMinimum, 2>& ends);
 
 /// For the search: puts the ends that lie below `cutoff` into `minima`; true where they stand for
 /// `minimum`, false where it counts itself.
-bool add_line_ends(const Surface& on_B,
-                   const Surface& on_A,
+bool add_line_ends(const SurfacePair& surfaces,
                    const RigidTransform& X_BA,
                    const GapMinimum& minimum,
                    double spacing,

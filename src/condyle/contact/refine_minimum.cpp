@@ -30,27 +30,22 @@ Eigen::Vector3d slide_downhill(const ContactLinearization& contact, const RigidT
 
 }  // namespace
 
-bool refine_minimum(const Surface& on_B,
-                    Place& place_B,
-                    const Surface& on_A,
-                    Place& place_A,
+bool refine_minimum(const SurfacePair& surfaces,
+                    ContactPlaces& places,
                     const RigidTransform& X_BA,
                     double reach) {
   constexpr double kAnyGap = std::numeric_limits<double>::infinity();
-  return refine_minimum_below(kAnyGap, on_B, place_B, on_A, place_A, X_BA, reach) ==
-         Refinement::kSettled;
+  return refine_minimum_below(kAnyGap, surfaces, places, X_BA, reach) == Refinement::kSettled;
 }
 
 Refinement refine_minimum_below(double cutoff,
-                                const Surface& on_B,
-                                Place& place_B,
-                                const Surface& on_A,
-                                Place& place_A,
+                                const SurfacePair& surfaces,
+                                ContactPlaces& places,
                                 const RigidTransform& X_BA,
                                 double reach) {
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   for (int iteration = 0; iteration < 30; ++iteration) {
-    const ContactLinearization contact = linearize_contact(on_B, place_B, on_A, place_A, X_BA);
+    const ContactLinearization contact = linearize_contact(surfaces, places, X_BA);
     if (iteration == 0) start = contact.B.c;
     if (!contact.g.allFinite() || (contact.B.c - start).norm() > reach) return Refinement::kLost;
     // At a finite gap only the tangential part of g is an error.
@@ -68,8 +63,8 @@ Refinement refine_minimum_below(double cutoff,
       dc *= reach / longest;
       dc_A *= reach / longest;
     }
-    place_B = on_B.moved(place_B, contact.B, dc);
-    place_A = on_A.moved(place_A, contact.A, X_BA.R.transpose() * dc_A);
+    places.on_B = surfaces.on_B.moved(places.on_B, contact.B, dc);
+    places.on_A = surfaces.on_A.moved(places.on_A, contact.A, X_BA.R.transpose() * dc_A);
   }
   return Refinement::kLost;
 }

@@ -2,17 +2,15 @@
 
 /// From two places to the minimum of the gap near them.
 
+#include "condyle/contact/contact_places.h"
 #include "condyle/math/rigid_transform.h"
-#include "condyle/surface/surface.h"
 
 namespace condyle {
 
 /// Refines two places to a local minimum of the gap at a fixed pose: Newton on g tangential = 0, h
 /// = 0. False where it does not settle on an isolated minimum within `reach` [mm] of the start.
-bool refine_minimum(const Surface& on_B,
-                    Place& place_B,
-                    const Surface& on_A,
-                    Place& place_A,
+bool refine_minimum(const SurfacePair& surfaces,
+                    ContactPlaces& places,
                     const RigidTransform& X_BA,
                     double reach);
 
@@ -24,10 +22,8 @@ enum class Refinement {
 
 /// The same, but given up where the gap does not fall below `cutoff` [mm] any more.
 Refinement refine_minimum_below(double cutoff,
-                                const Surface& on_B,
-                                Place& place_B,
-                                const Surface& on_A,
-                                Place& place_A,
+                                const SurfacePair& surfaces,
+                                ContactPlaces& places,
                                 const RigidTransform& X_BA,
                                 double reach);
 

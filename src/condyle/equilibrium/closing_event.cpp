@@ -12,10 +12,10 @@ namespace {
 /// Does the state carry at that place of that pair?
 bool carries_at(const Model& model, const EquilibriumState& state, const ClosedContact& contact) {
   const Surface& on_B = *model.pairs[static_cast<std::size_t>(contact.pair)].on_B;
-  const Eigen::Vector3d point = on_B.evaluate(contact.on_B).c;
+  const Eigen::Vector3d point = on_B.evaluate(contact.places.on_B).c;
   return std::any_of(state.contacts.begin(), state.contacts.end(), [&](const ClosedContact& c) {
     return c.pair == contact.pair &&
-           (on_B.evaluate(c.on_B).c - point).norm() < kMerge * model.length;
+           (on_B.evaluate(c.places.on_B).c - point).norm() < kMerge * model.length;
   });
 }
 
@@ -24,11 +24,10 @@ std::optional<double> gap_near(const Model& model,
                                const ClosedContact& contact,
                                const RigidTransform& X_BA) {
   const ContactPair& pair = model.pairs[static_cast<std::size_t>(contact.pair)];
-  Place on_B = contact.on_B, on_A = contact.on_A;
-  if (!refine_minimum(*pair.on_B, on_B, *pair.on_A, on_A, X_BA, 0.1 * model.length))
-    return std::nullopt;
-  const SurfacePoint B = pair.on_B->evaluate(on_B);
-  return B.n.dot(X_BA * pair.on_A->evaluate(on_A).c - B.c);
+  ContactPlaces places = contact.places;
+  if (!refine_minimum(pair, places, X_BA, 0.1 * model.length)) return std::nullopt;
+  const SurfacePoint B = pair.on_B->evaluate(places.on_B);
+  return B.n.dot(X_BA * pair.on_A->evaluate(places.on_A).c - B.c);
 }
 
 }  // namespace

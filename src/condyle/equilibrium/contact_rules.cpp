@@ -46,12 +46,12 @@ bool is_contact_of(const Model& model,
                    const GapMinimum& minimum) {
   const double near = kMerge * model.length;
   return minimum.gap > -kLeftByNewton * near &&
-         std::any_of(state.contacts.begin(), state.contacts.end(),
-                     [&](const ClosedContact& contact) {
-                       const Surface& on_B = *pair_of(model, contact).on_B;
-                       return contact.pair == pair &&
-                              (on_B.evaluate(contact.on_B).c - minimum.point_B).norm() < near;
-                     });
+         std::any_of(
+             state.contacts.begin(), state.contacts.end(), [&](const ClosedContact& contact) {
+               const Surface& on_B = *pair_of(model, contact).on_B;
+               return contact.pair == pair &&
+                      (on_B.evaluate(contact.places.on_B).c - minimum.point_B).norm() < near;
+             });
 }
 
 struct Overlaps {
@@ -62,7 +62,7 @@ struct Overlaps {
   void add(int pair, const GapMinimum& minimum) {
     if (minimum.gap < lowest) deepest = contacts.size();
     lowest = std::min(lowest, minimum.gap);
-    contacts.push_back({pair, minimum.on_B, minimum.on_A, 0});
+    contacts.push_back({pair, minimum.places, 0});
   }
 };
 

@@ -19,14 +19,13 @@ constexpr double kTilted = 1e-9;    // sine between two normals that are not par
 /// Do the surfaces still touch t beside a contact?
 bool touch_beside(const ContactPair& pair,
                   const ContactLinearization& contact,
-                  const Place& on_B,
-                  const Place& on_A,
+                  const ContactPlaces& places,
                   const RigidTransform& X_BA,
                   const Eigen::Vector3d& t,
                   double no_gap) {
-  const Place beside_A = pair.on_A->moved(on_A, contact.A, X_BA.R.transpose() * t);
-  const Place beside_B = pair.on_B->moved(on_B, contact.B, t);
-  const GapMinimum at = settle_across(*pair.on_B, beside_B, *pair.on_A, beside_A, X_BA);
+  const ContactPlaces beside{pair.on_B->moved(places.on_B, contact.B, t),
+                             pair.on_A->moved(places.on_A, contact.A, X_BA.R.transpose() * t)};
+  const GapMinimum at = settle_across(pair, beside, X_BA);
   return std::abs(at.gap) < no_gap && (at.point_B - contact.B.c).norm() > 0.5 * t.norm();
 }
 
@@ -36,8 +35,7 @@ std::string named(const std::string& contact) { return "contact " + quoted(conta
 
 TouchReport examine_touch(const ContactPair& pair,
                           const ContactLinearization& contact,
-                          const Place& on_B,
-                          const Place& on_A,
+                          const ContactPlaces& places,
                           const RigidTransform& X_BA,
                           double L) {
   TouchReport report;
@@ -46,14 +44,13 @@ TouchReport examine_touch(const ContactPair& pair,
   if (std::abs(least) > kFlatCurvature) return report;
   const Eigen::Vector3d e = direction_of_least_curvature(contact, X_BA.R);
   const auto flat_along = [&](const Eigen::Vector3d& t) {
-    return touch_beside(pair, contact, on_B, on_A, X_BA, kBeside * L * t, kNoGap * L) &&
-           touch_beside(pair, contact, on_B, on_A, X_BA, -kBeside * L * t, kNoGap * L);
+    return touch_beside(pair, contact, places, X_BA, kBeside * L * t, kNoGap * L) &&
+           touch_beside(pair, contact, places, X_BA, -kBeside * L * t, kNoGap * L);
   };
   if (!flat_along(e)) return report;
   if (greatest < kFlatCurvature) {
     if (flat_along(contact.B.n.cross(e))) report.kind = Touch::kConforming;
-  } else if (find_line_ends(*pair.on_B, on_B, *pair.on_A, on_A, X_BA, kSampleSpacing * L,
-                            report.ends)) {
+  } else if (find_line_ends(pair, places, X_BA, kSampleSpacing * L, report.ends)) {
     report.kind = Touch::kLine;
   } else {
     report.kind = Touch::kEndlessLine;
@@ -99,8 +96,7 @@ std::optional<std::size_t> conforming_pair(const Model& model,
     searches[p].find(X_BA, kFarthest * L, minima, kMerge * L);
     if (minima.empty() || minima.front().gap < -kDeepest * L) continue;
     const GapMinimum& at = minima.front();
-    const auto [least, greatest] =
-        linearize_contact(*pair.on_B, at.on_B, *pair.on_A, at.on_A, X_BA).relative_curvature;
+    const auto [least, greatest] = linearize_contact(pair, at.places, X_BA).relative_curvature;
     if (std::abs(least) < kFlatCurvature && std::abs(greatest) < kFlatCurvature) return p;
   }
   return std::nullopt;
@@ -116,17 +112,14 @@ std::optional<Objection> objection_at(const Model& model,
     if (pair.mode == ContactMode::kOpen) continue;
     searches[p].find(X_BA, 1e-6 * L, minima, kMerge * L);
     for (const GapMinimum& at : minima) {
-      const ContactLinearization contact =
-          linearize_contact(*pair.on_B, at.on_B, *pair.on_A, at.on_A, X_BA);
+      const ContactLinearization contact = linearize_contact(pair, at.places, X_BA);
       if (contact.h.norm() < kTilted) {
-        const TouchReport touch = examine_touch(pair, contact, at.on_B, at.on_A, X_BA, L);
+        const TouchReport touch = examine_touch(pair, contact, at.places, X_BA, L);
         if (touch.kind == Touch::kConforming || touch.kind == Touch::kEndlessLine)
           return objection(touch.kind, pair.name);
       }
       std::array<GapMinimum, 2> ends;
-      if (find_line_ends(*pair.on_B, at.on_B, *pair.on_A, at.on_A, X_BA, kSampleSpacing * L,
-                         ends) &&
-          ends[1].gap > 1e-6 * L)
+      if (find_line_ends(pair, at.places, X_BA, kSampleSpacing * L, ends) && ends[1].gap > 1e-6 * L)
         return tips_over(pair.name);
     }
   }

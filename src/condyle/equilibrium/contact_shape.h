@@ -28,8 +28,7 @@ struct TouchReport {
 /// Of a point of contact that is solved: gap zero, normals opposite. `L` is the model's length.
 [[nodiscard]] TouchReport examine_touch(const ContactPair& pair,
                                         const ContactLinearization& contact,
-                                        const Place& on_B,
-                                        const Place& on_A,
+                                        const ContactPlaces& places,
                                         const RigidTransform& X_BA,
                                         double L);
 

@@ -175,12 +175,11 @@ Descent::Vector6 Descent::step_within_reach(Programme& programme) const {
 }
 
 Descent::Constraint Descent::constrain(int pair,
-                                       const Place& on_B,
-                                       const Place& on_A,
+                                       const ContactPlaces& places,
                                        const RigidTransform& X) const {
-  const SurfacePoint B = model_.pairs[pair].on_B->evaluate(on_B);
-  const Eigen::Vector3d s = X.R * model_.pairs[pair].on_A->evaluate(on_A).c;
-  Constraint constraint{pair, on_B, on_A, B.n.dot(X.p + s - B.c), Vector6(), false, false};
+  const SurfacePoint B = model_.pairs[pair].on_B->evaluate(places.on_B);
+  const Eigen::Vector3d s = X.R * model_.pairs[pair].on_A->evaluate(places.on_A).c;
+  Constraint constraint{pair, places, B.n.dot(X.p + s - B.c), Vector6(), false, false};
   constraint.row << B.n, s.cross(B.n) / model_.length;
   return constraint;
 }
@@ -211,7 +210,7 @@ void Descent::gather_within(double ahead,
     minima_.resize(std::min(minima_.size(), held ? 1 : kMostMinima));
     const std::size_t first = constraints.size();
     for (const GapMinimum& minimum : minima_) {
-      constraints.push_back(constrain(p, minimum.on_B, minimum.on_A, X));
+      constraints.push_back(constrain(p, minimum.places, X));
       constraints.back().refined = minimum.refined;
       constraints.back().bilateral = held;
     }
@@ -232,10 +231,10 @@ void Descent::add_memory(int pair,
     if (on_B.edge_distance(opposite) < 0) continue;
     const bool isolated = std::all_of(constraints.begin() + static_cast<std::ptrdiff_t>(first),
                                       constraints.end(), [&](const Constraint& c) {
-                                        return (X * on_A.evaluate(c.on_A).c - point).norm() >
+                                        return (X * on_A.evaluate(c.places.on_A).c - point).norm() >
                                                kSamePoint * model_.length;
                                       });
-    const Constraint constraint = constrain(pair, opposite, place, X);
+    const Constraint constraint = constrain(pair, {opposite, place}, X);
     if (isolated && constraint.gap < kLookAhead * options_.longest_step * model_.length) {
       constraints.push_back(constraint);
     }
@@ -247,14 +246,14 @@ void Descent::remember(const std::vector<Constraint>& constraints) {
     if (constraint.bilateral || !constraint.refined || constraint.gap > kNearPoint * model_.length)
       continue;
     const Surface& on_A = *model_.pairs[constraint.pair].on_A;
-    const Eigen::Vector3d c = on_A.evaluate(constraint.on_A).c;
+    const Eigen::Vector3d c = on_A.evaluate(constraint.places.on_A).c;
     const bool known = std::any_of(memory_.begin(), memory_.end(), [&](const auto& entry) {
       return entry.first == constraint.pair &&
              (on_A.evaluate(entry.second).c - c).norm() < kPointsApart * model_.length;
     });
     if (known) continue;
     if (memory_.size() == kMemorySize) memory_.erase(memory_.begin());
-    memory_.emplace_back(constraint.pair, constraint.on_A);
+    memory_.emplace_back(constraint.pair, constraint.places.on_A);
   }
 }
 
@@ -355,8 +354,7 @@ bool Descent::try_newton(const Multipliers& multipliers,
   trial.paths = paths_;
   for (std::size_t k = 0; k < constraints.size(); ++k) {
     if (!constraints[k].bilateral && multipliers.p[k] <= kCarries * multipliers.largest) continue;
-    trial.contacts.push_back(
-        {constraints[k].pair, constraints[k].on_B, constraints[k].on_A, multipliers.p[k]});
+    trial.contacts.push_back({constraints[k].pair, constraints[k].places, multipliers.p[k]});
   }
   if (trial.sigma.size() > kMaxConstraints) return false;
   if (trial.contacts.size() > kMaxConstraints - trial.sigma.size()) {  // the strongest ones

@@ -65,7 +65,7 @@ class Descent {
   /// A gap that must not become negative (or, for a contact held closed, must vanish).
   struct Constraint {
     int pair;
-    Place on_B, on_A;
+    ContactPlaces places;
     double gap;      ///< [mm]
     Vector6 row;     ///< ∂gap in scaled components (da, L dπ)
     bool refined;    ///< an isolated minimum of the gap, else a material point
@@ -94,8 +94,7 @@ class Descent {
                   std::vector<Constraint>& constraints);
   void remember(const std::vector<Constraint>& constraints);
   [[nodiscard]] Constraint constrain(int pair,
-                                     const Place& on_B,
-                                     const Place& on_A,
+                                     const ContactPlaces& places,
                                      const RigidTransform& X) const;
   void set_forces(Programme& programme);
   void set_rows(Programme& programme) const;

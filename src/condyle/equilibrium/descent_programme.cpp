@@ -87,11 +87,9 @@ bool Descent::add_contact_curvature(Programme& programme, const SmallQpSolution&
     const Constraint& constraint = constraints_[programme.one_sided[j]];
     const double p = solution.lambda[static_cast<Eigen::Index>(j)];
     if (p <= 0 || !constraint.refined) continue;
-    const ContactPair& pair = model_.pairs[constraint.pair];
     Wrench of_contact;
-    add_contact_force(
-        linearize_contact(*pair.on_B, constraint.on_B, *pair.on_A, constraint.on_A, X_), p,
-        of_contact);
+    add_contact_force(linearize_contact(model_.pairs[constraint.pair], constraint.places, X_), p,
+                      of_contact);
     const Matrix6 K = symmetric_stiffness(of_contact, model_.length);
     if (!K.allFinite()) continue;
     programme.qp.H += K;

@@ -50,8 +50,7 @@ void carry_by_ends(const ContactPair& pair,
   const double share = way.dot(contact.resultant_ground - ends[0].point_B) / way.squaredNorm();
   contact.points.clear();
   for (const std::size_t k : {0, 1}) {
-    const ContactLinearization at =
-        linearize_contact(*pair.on_B, ends[k].on_B, *pair.on_A, ends[k].on_A, X_BA);
+    const ContactLinearization at = linearize_contact(pair, ends[k].places, X_BA);
     add_closed_point(describe_point(at, force * (k == 0 ? 1 - share : share), ends[k].edge),
                      contact);
     contact.points.back().on_edge = ends[k].edge < 0;
@@ -62,8 +61,7 @@ void carry_by_ends(const ContactPair& pair,
 
 TouchReport touch_of(const Linearization& at, std::size_t k) {
   const ClosedContact& closed = at.state.contacts[k];
-  return examine_touch(at.pair(k), at.contacts()[k], closed.on_B, closed.on_A, at.state.X,
-                       at.model.length);
+  return examine_touch(at.pair(k), at.contacts()[k], closed.places, at.state.X, at.model.length);
 }
 
 void describe_closed_point(const Linearization& pose,
@@ -73,7 +71,7 @@ void describe_closed_point(const Linearization& pose,
   const ClosedContact& closed = pose.state.contacts[k];
   const ContactPair& pair = pose.pair(k);
   const ContactLinearization& at = pose.contacts()[k];
-  const double edge = edge_distance(pair, closed.on_B, closed.on_A);
+  const double edge = edge_distance(pair, closed.places);
   const Touch touch = touch_of(pose, k).kind;
   ContactResult& contact = result.contacts[static_cast<std::size_t>(closed.pair)];
   // A line lies at edges by its nature.
@@ -145,8 +143,7 @@ void describe_open(const ContactPair& pair,
     result.status = PoseStatus::kOverlap;
     result.reason = "contact \"" + pair.name + "\": one body is buried in the other";
   }
-  const ContactLinearization at =
-      linearize_contact(*pair.on_B, lowest.on_B, *pair.on_A, lowest.on_A, state.X);
+  const ContactLinearization at = linearize_contact(pair, lowest.places, state.X);
   set_nearest_point(describe_point(at, 0, lowest.edge), contact);
   contact.points.back().on_edge = lowest.edge < options.edge_margin;
   contact.closed = pair.law && lowest.gap < 0;

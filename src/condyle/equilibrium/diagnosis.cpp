@@ -31,13 +31,11 @@ EquilibriumState with_all_contacts(const Model& model,
     const double L = model.length;
     searches[p].find(state.X, held ? kAnywhere * L : kTouching * L, minima, kMerge * L);
     for (const GapMinimum& minimum : minima) {
-      ClosedContact contact{static_cast<int>(p), minimum.on_B, minimum.on_A, 0};
+      ClosedContact contact{static_cast<int>(p), minimum.places, 0};
       // Deep inside a body the search keeps to its samples.
       for (int k = 0; k < 20; ++k)  // each step leaves less than half
-        slide_contact(
-            *pair.on_B, contact.on_B, *pair.on_A, contact.on_A,
-            linearize_contact(*pair.on_B, contact.on_B, *pair.on_A, contact.on_A, state.X), state.X,
-            Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), L);
+        slide_contact(pair, contact.places, linearize_contact(pair, contact.places, state.X),
+                      state.X, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), L);
       all.contacts.push_back(contact);
       if (held) break;
     }
@@ -192,10 +190,9 @@ std::string at_an_edge(const Failure& f) {
     for (const GapMinimum& minimum : minima) {
       const ContactPair& pair = f.model.pairs[p];
       if (minimum.edge > kNear * f.model.length ||
-          is_line(linearize_contact(*pair.on_B, minimum.on_B, *pair.on_A, minimum.on_A, f.state.X),
-                  f.state.X.R))
+          is_line(linearize_contact(pair, minimum.places, f.state.X), f.state.X.R))
         continue;
-      return edge_in_words(f.model, {static_cast<int>(p), minimum.on_B, minimum.on_A, 0}) + kNone;
+      return edge_in_words(f.model, {static_cast<int>(p), minimum.places, 0}) + kNone;
     }
   }
   return {};

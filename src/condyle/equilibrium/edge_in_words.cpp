@@ -115,9 +115,10 @@ struct At {
 };
 At nearer_edge(const Model& model, const ClosedContact& contact) {
   const ContactPair& pair = model.pairs[static_cast<std::size_t>(contact.pair)];
-  const bool on_A = pair.on_A->edge_distance(contact.on_A) < pair.on_B->edge_distance(contact.on_B);
+  const bool on_A =
+      pair.on_A->edge_distance(contact.places.on_A) < pair.on_B->edge_distance(contact.places.on_B);
   const Seen seen = see(model, pair, on_A);
-  return {on_A, seen, on_A ? contact.on_A : contact.on_B, quoted(pair.name),
+  return {on_A, seen, on_A ? contact.places.on_A : contact.places.on_B, quoted(pair.name),
           seen.name.empty() ? "its surface" : quoted(seen.name)};
 }
 

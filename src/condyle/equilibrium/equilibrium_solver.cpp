@@ -28,7 +28,7 @@ struct Failed {
 
 bool same_state(const EquilibriumState& a, const EquilibriumState& b) {
   const auto same_contact = [](const ClosedContact& x, const ClosedContact& y) {
-    return x.pair == y.pair && x.on_B == y.on_B && x.on_A == y.on_A && x.p == y.p;
+    return x.pair == y.pair && x.places == y.places && x.p == y.p;
   };
   return a.X.p == b.X.p && a.X.R == b.X.R && a.sigma == b.sigma && a.paths == b.paths &&
          std::equal(a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(),
@@ -126,11 +126,11 @@ std::pair<int, double> EquilibriumSolver::farthest_beyond(const EquilibriumState
   for (std::size_t k = 0; k < state.contacts.size(); ++k) {
     const ClosedContact& contact = state.contacts[k];
     const ContactPair& pair = model_->pairs[static_cast<std::size_t>(contact.pair)];
-    const double beyond = -edge_distance(pair, contact.on_B, contact.on_A);
+    const double beyond = -edge_distance(pair, contact.places);
     if (beyond <= farthest.second) continue;
-    const Touch touch = examine_touch(pair, newton_.system().contacts()[k], contact.on_B,
-                                      contact.on_A, state.X, model_->length)
-                            .kind;
+    const Touch touch =
+        examine_touch(pair, newton_.system().contacts()[k], contact.places, state.X, model_->length)
+            .kind;
     if (touch != Touch::kLine) farthest = {static_cast<int>(k), beyond};
   }
   return farthest;
@@ -169,8 +169,7 @@ void EquilibriumSolver::note_rim(const EquilibriumState& state,
   if (rims.off_minimum || farthest_beyond(state).first >= 0) return;
   const ClosedContact& rim = rims.closes[rims.deepest];
   const ContactPair& pair = model_->pairs[static_cast<std::size_t>(rim.pair)];
-  const double depth =
-      -linearize_contact(*pair.on_B, rim.on_B, *pair.on_A, rim.on_A, state.X).gap();
+  const double depth = -linearize_contact(pair, rim.places, state.X).gap();
   OffSurfaces off;
   off.state = state;
   off.beyond = depth;

@@ -107,8 +107,9 @@ bool EquilibriumSolver::settle_at_estimates(EquilibriumState& state, Attempt& at
       if (trial.contacts.size() + trial.sigma.size() >= kMaxConstraints) break;
       const Eigen::Vector3d on_A = state.X.inverse() * on_B;
       trial.contacts.push_back({static_cast<int>(p),
-                                pair.on_B->closest(on_B, pair.on_B->seed(on_B)),
-                                pair.on_A->closest(on_A, pair.on_A->seed(on_A)), 0});
+                                {pair.on_B->closest(on_B, pair.on_B->seed(on_B)),
+                                 pair.on_A->closest(on_A, pair.on_A->seed(on_A))},
+                                0});
     }
   }
   if (trial.contacts.empty() || !settle(trial, attempt)) return false;

@@ -72,9 +72,7 @@ bool NewtonSystem::assemble(const EquilibriumState& state, const Drive& drive) {
 
   contacts_.clear();
   for (const ClosedContact& contact : state.contacts) {
-    const ContactPair& pair = model_.pairs[contact.pair];
-    contacts_.push_back(
-        linearize_contact(*pair.on_B, contact.on_B, *pair.on_A, contact.on_A, state.X));
+    contacts_.push_back(linearize_contact(model_.pairs[contact.pair], contact.places, state.X));
     add_contact_force(contacts_.back(), contact.p, wrench_);
     force_scale_ += std::abs(contact.p);
   }
@@ -141,9 +139,7 @@ void NewtonSystem::move(EquilibriumState& state, const double* step) const {
   const std::size_t n = state.contacts.size();
   for (std::size_t k = 0; k < n; ++k) {
     ClosedContact& contact = state.contacts[k];
-    const ContactPair& pair = model_.pairs[contact.pair];
-    slide_contact(*pair.on_B, contact.on_B, *pair.on_A, contact.on_A, contacts_[k], state.X, da,
-                  dpi, L);
+    slide_contact(model_.pairs[contact.pair], contact.places, contacts_[k], state.X, da, dpi, L);
     contact.p += step[6 + k];
   }
   for (std::size_t k = 0; k < state.sigma.size(); ++k)

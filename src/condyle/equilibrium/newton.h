@@ -32,7 +32,7 @@ namespace condyle {
 /// A closed contact with its places on both surfaces and its force p [N], >= 0 pushes.
 struct ClosedContact {
   int pair = 0;  ///< index into Model::pairs
-  Place on_B = {Eigen::Vector3d::Zero()}, on_A = {Eigen::Vector3d::Zero()};
+  ContactPlaces places;
   double p = 0;
 };
 

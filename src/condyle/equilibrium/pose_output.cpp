@@ -34,8 +34,7 @@ std::size_t point_of(const PoseOutput& output, const Linearization& at) {
   const std::size_t k = contact_of(at, output.index, output.point);
   if (k == at.contacts().size()) refuse_contact(at, output.index, "it has no such closed point");
   const ClosedContact& closed = at.state.contacts[k];
-  if (examine_touch(at.pair(k), at.contacts()[k], closed.on_B, closed.on_A, at.state.X,
-                    at.model.length)
+  if (examine_touch(at.pair(k), at.contacts()[k], closed.places, at.state.X, at.model.length)
           .kind == Touch::kLine)
     refuse_contact(
         at, output.index,

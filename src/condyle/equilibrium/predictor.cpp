@@ -88,8 +88,9 @@ void Predictor::extrapolate(const Weights& weight, int points, EquilibriumState&
     turn += w * cayley_vector(old.X.R * newest.X.R.transpose());
     for (std::size_t c = 0; c < state.contacts.size(); ++c) {
       ClosedContact& contact = state.contacts[c];
-      contact.on_B.numbers += w * (old.contacts[c].on_B.numbers - newest.contacts[c].on_B.numbers);
-      contact.on_A.numbers += w * (old.contacts[c].on_A.numbers - newest.contacts[c].on_A.numbers);
+      const ContactPlaces &then = old.contacts[c].places, &now = newest.contacts[c].places;
+      contact.places.on_B.numbers += w * (then.on_B.numbers - now.on_B.numbers);
+      contact.places.on_A.numbers += w * (then.on_A.numbers - now.on_A.numbers);
       contact.p += w * (old.contacts[c].p - newest.contacts[c].p);
     }
     for (std::size_t i = 0; i < state.sigma.size(); ++i)
@@ -98,8 +99,8 @@ void Predictor::extrapolate(const Weights& weight, int points, EquilibriumState&
   state.X.R = cayley_rotation(turn) * newest.X.R;
   for (ClosedContact& contact : state.contacts) {
     const ContactPair& pair = model_.pairs[static_cast<std::size_t>(contact.pair)];
-    contact.on_B = pair.on_B->place_of(contact.on_B.numbers);
-    contact.on_A = pair.on_A->place_of(contact.on_A.numbers);
+    contact.places = {pair.on_B->place_of(contact.places.on_B.numbers),
+                      pair.on_A->place_of(contact.places.on_A.numbers)};
   }
 }
 

@@ -54,9 +54,10 @@ EquilibriumState restore_state(const Model& model, const PoseResult& pose) {
     const ContactPair& pair = model.pairs[i];
     if (!pose.contacts[i].closed || pair.law) continue;
     for (const ContactPointResult& point : pose.contacts[i].points) {
-      state.contacts.push_back(
-          {static_cast<int>(i), place_on(*pair.on_B, point.point_ground - model.origins.B),
-           place_on(*pair.on_A, point.point_moving - model.origins.A), point.force});
+      state.contacts.push_back({static_cast<int>(i),
+                                {place_on(*pair.on_B, point.point_ground - model.origins.B),
+                                 place_on(*pair.on_A, point.point_moving - model.origins.A)},
+                                point.force});
     }
   }
   state.paths = kept_paths(model, pose);

@@ -123,7 +123,7 @@ double change_contacts(NetworkEquations& equations,
                        std::vector<ContactEvent>& events) {
   const double at_rest = 1e-6 / 30 * equations.network().length;  // [mm/s]
   std::vector<bool> was_closed;
-  for (const ContactPlaces& places : state.contacts) was_closed.push_back(places.closed);
+  for (const MovingContact& contact : state.contacts) was_closed.push_back(contact.closed);
   equations.assemble(state);
   equations.solve();
   const double energy_before = equations.energies().kinetic;

@@ -41,10 +41,10 @@ std::string beyond_edge(const ContactPair& pair, double edge_distance) {
 
 std::string PairScout::lost_contact(const NetworkState& state) const {
   for (std::size_t i = 0; i < knee_.places.size(); ++i) {
-    const ContactPlaces& places = state.contacts[i];
-    if (!places.closed) continue;
+    const MovingContact& contact = state.contacts[i];
+    if (!contact.closed) continue;
     const ContactPair& pair = model_.pairs[knee_.places[i]];
-    std::string reason = beyond_edge(pair, edge_distance(pair, places.on_ground, places.on_body));
+    std::string reason = beyond_edge(pair, edge_distance(pair, contact.places));
     if (!reason.empty()) return reason;
   }
   return "";
@@ -77,26 +77,25 @@ void PairScout::scout_pair(int pair, NetworkState& state, ContactSighting& sight
     if (!minimum.refined && minimum.gap > -kBuried * L) continue;
     sighting.unseen = std::min(sighting.unseen, minimum.gap);
     const int waiting = waiting_contact(pair, state);
-    if (minimum.refined && waiting >= 0) state.contacts[waiting] = {minimum.on_B, minimum.on_A};
+    if (minimum.refined && waiting >= 0) state.contacts[waiting] = {minimum.places};
   }
 }
 
 /// Closed contacts are a help to the search, and need not be found.
 void PairScout::set_known(int pair, const NetworkState& state) {
   known_.clear();
-  const ContactPair& surfaces = model_.pairs[pair];
   for (std::size_t i = 0; i < knee_.places.size(); ++i) {
-    const ContactPlaces& places = state.contacts[i];
-    if (knee_.places[i] != pair || !places.closed) continue;
-    const ContactLinearization at = linearize_contact(
-        *surfaces.on_B, places.on_ground, *surfaces.on_A, places.on_body, state.bodies[0].X);
+    const MovingContact& contact = state.contacts[i];
+    if (knee_.places[i] != pair || !contact.closed) continue;
+    const ContactLinearization at =
+        linearize_contact(model_.pairs[pair], contact.places, state.bodies[0].X);
     known_.push_back({at.B.c, at.A.c, at.B.K, at.A.K, at.relative_curvature[0]});
   }
 }
 
 Eigen::Vector3d PairScout::point_of(int contact, const NetworkState& state) const {
   const ContactPair& pair = model_.pairs[knee_.places[contact]];
-  return pair.on_B->evaluate_frame(state.contacts[contact].on_ground).c;
+  return pair.on_B->evaluate_frame(state.contacts[contact].places.on_B).c;
 }
 
 int PairScout::follower_of(int pair, const GapMinimum& minimum, const NetworkState& state) const {
@@ -118,11 +117,11 @@ void PairScout::drop_doubles(int pair, NetworkState& state) const {
   const int count = static_cast<int>(knee_.places.size());
   for (int i = 0; i < count; ++i) {
     for (int k = i + 1; k < count; ++k) {
-      ContactPlaces &first = state.contacts[i], &second = state.contacts[k];
+      MovingContact &first = state.contacts[i], &second = state.contacts[k];
       if (knee_.places[i] != pair || knee_.places[k] != pair) continue;
       if (!first.followed || !second.followed) continue;
       if ((point_of(i, state) - point_of(k, state)).norm() > kDouble * model_.length) continue;
-      ContactPlaces& dropped = second.closed && !first.closed ? first : second;
+      MovingContact& dropped = second.closed && !first.closed ? first : second;
       dropped.closed = dropped.followed = false;
     }
   }

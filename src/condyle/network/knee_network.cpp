@@ -32,7 +32,7 @@ void close_next(const Model& model,
                 NetworkState& state) {
   for (std::size_t i = 0; i < knee.places.size(); ++i) {
     if (knee.places[i] != contact.pair || state.contacts[i].closed) continue;
-    state.contacts[i] = {contact.on_B, contact.on_A, true};
+    state.contacts[i] = {contact.places, true};
     return;
   }
   throw InputError(
@@ -79,10 +79,10 @@ NetworkState state_at_rest(const Model& model,
   state.contacts.resize(knee.places.size());
   for (const ClosedContact& contact : equilibrium.contacts) close_next(model, knee, contact, state);
   for (std::size_t i = 0; i < knee.places.size(); ++i) {
-    ContactPlaces& places = state.contacts[i];
-    if (places.closed) continue;
+    MovingContact& contact = state.contacts[i];
+    if (contact.closed) continue;
     if (i > 0 && knee.places[i - 1] == knee.places[i]) {
-      places.followed = false;
+      contact.followed = false;
       continue;
     }
     const ContactPair& pair = model.pairs[knee.places[i]];
@@ -91,9 +91,9 @@ NetworkState state_at_rest(const Model& model,
     ContactSearch(covers[static_cast<std::size_t>(knee.places[i])])
         .find_nearest(equilibrium.X, kReach * L, minima);
     if (!minima.empty())
-      places = {minima.front().on_B, minima.front().on_A};
+      contact = {minima.front().places};
     else
-      places.on_ground = pair.on_B->seed(equilibrium.X.p);
+      contact.places.on_B = pair.on_B->seed(equilibrium.X.p);
   }
   return state;
 }

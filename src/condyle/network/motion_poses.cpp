@@ -16,9 +16,8 @@ ContactPointResult point_of(const ContactPair& pair,
                             const ContactPlaces& places,
                             double force,
                             const RigidTransform& X) {
-  const ContactLinearization at =
-      linearize_contact(*pair.on_B, places.on_ground, *pair.on_A, places.on_body, X);
-  return describe_point(at, force, edge_distance(pair, places.on_ground, places.on_body));
+  const ContactLinearization at = linearize_contact(pair, places, X);
+  return describe_point(at, force, edge_distance(pair, places));
 }
 
 class FrameTeller {
@@ -62,9 +61,9 @@ class FrameTeller {
       if (!frame.state.contacts[i].closed) continue;
       const int pair = knee_.places[i];
       ContactResult& contact = pose.contacts[pair];
-      add_closed_point(
-          point_of(model_.pairs[pair], frame.state.contacts[i], frame.contact_force[i], pose.X_BA),
-          contact);
+      add_closed_point(point_of(model_.pairs[pair], frame.state.contacts[i].places,
+                                frame.contact_force[i], pose.X_BA),
+                       contact);
       check_edge(pair, contact.points.back(), pose);
     }
     for (std::size_t p = 0; p < pose.contacts.size(); ++p)
@@ -87,8 +86,7 @@ class FrameTeller {
       searches_[p].find_nearest(pose.X_BA, kAnywhere * model_.length, minima_);
       if (minima_.empty()) continue;
       const GapMinimum& nearest = minima_.front();
-      set_nearest_point(point_of(model_.pairs[p], {nearest.on_B, nearest.on_A}, 0, pose.X_BA),
-                        contact);
+      set_nearest_point(point_of(model_.pairs[p], nearest.places, 0, pose.X_BA), contact);
     }
   }
 
@@ -99,8 +97,9 @@ class FrameTeller {
           (nearest < 0 || frame.contact_gap[i] < frame.contact_gap[nearest]))
         nearest = static_cast<int>(i);
     if (nearest < 0) return;
-    set_nearest_point(point_of(model_.pairs[pair], frame.state.contacts[nearest], 0, pose.X_BA),
-                      pose.contacts[pair]);
+    set_nearest_point(
+        point_of(model_.pairs[pair], frame.state.contacts[nearest].places, 0, pose.X_BA),
+        pose.contacts[pair]);
   }
 
   void check_edge(int pair, const ContactPointResult& point, PoseResult& pose) const {

@@ -180,13 +180,13 @@ bool MovingNetwork::event_is_far(const double* values) const {
 bool MovingNetwork::set_event_values(double* values) {
   for (std::size_t k = 0; k < watched_.size(); ++k) {
     const auto contact = static_cast<std::size_t>(watched_[k]);
-    const ContactPlaces& places = state_.contacts[contact];
-    if (places.closed) {
+    const MovingContact& own = state_.contacts[contact];
+    if (own.closed) {
       values[k] = equations_.contact_force(contact);
       continue;
     }
-    if (places.followed && !equations_.settle(contact, state_)) return false;
-    values[k] = places.followed
+    if (own.followed && !equations_.settle(contact, state_)) return false;
+    values[k] = own.followed
                     ? std::max(equations_.contact(contact).gap() + kStrike * network_.length,
                                kSpeedAsLength * equations_.settled_gap_rate(contact, state_))
                     : 1;

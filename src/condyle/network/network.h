@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "condyle/contact/contact_law.h"
+#include "condyle/contact/contact_places.h"
 #include "condyle/elements/force_law.h"
 #include "condyle/elements/kinematic_condition.h"
 #include "condyle/elements/line_path.h"
 #include "condyle/elements/load.h"
 #include "condyle/network/mass_properties.h"
-#include "condyle/surface/surface.h"
 
 namespace condyle {
 
@@ -82,6 +82,9 @@ struct ContactComponent {
   /// Somebody looks where else the surfaces come near (ContactScout): one that loses its place
   /// waits for a new one instead of ending the motion.
   bool scouted = false;
+
+  /// B is the ground, A the body.
+  [[nodiscard]] SurfacePair surfaces() const { return {*on_ground, *on_body}; }
 };
 
 /// Contact of a body with the ground by a law without unknowns, such as elastic layers. Its storage is
@@ -127,8 +130,8 @@ struct BodyState {
 };
 
 /// Where a contact is on its two surfaces, kept from one moment to the next.
-struct ContactPlaces {
-  Place on_ground = {Eigen::Vector3d::Zero()}, on_body = {Eigen::Vector3d::Zero()};
+struct MovingContact {
+  ContactPlaces places;
   bool closed = false;
   bool followed = true;  ///< else it waits: the surfaces are not near each other anywhere new
 };
@@ -136,7 +139,7 @@ struct ContactPlaces {
 struct NetworkState {
   double t = 0;  ///< [s]
   std::vector<BodyState> bodies;
-  std::vector<ContactPlaces> contacts;
+  std::vector<MovingContact> contacts;
 };
 
 }  // namespace condyle

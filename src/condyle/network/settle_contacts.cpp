@@ -11,50 +11,44 @@ namespace {
 constexpr double kFar = 1.0 / 30;  // gap, of L, beyond which an open contact is only followed
 
 /// Closest points in turn: sure, and quick where the gap is wide. From moment to moment it gains.
-bool settle_far(const ContactComponent& contact, const RigidTransform& X, ContactPlaces& places) {
+bool settle_far(const SurfacePair& surfaces, const RigidTransform& X, ContactPlaces& places) {
   for (int turn = 0; turn < 3; ++turn) {
-    const Eigen::Vector3d on_body = X * contact.on_body->evaluate_frame(places.on_body).c;
-    places.on_ground = contact.on_ground->closest(on_body, places.on_ground);
-    const Eigen::Vector3d on_ground = contact.on_ground->evaluate_frame(places.on_ground).c;
-    places.on_body = contact.on_body->closest(X.inverse() * on_ground, places.on_body);
+    const Eigen::Vector3d on_body = X * surfaces.on_A.evaluate_frame(places.on_A).c;
+    places.on_B = surfaces.on_B.closest(on_body, places.on_B);
+    const Eigen::Vector3d on_ground = surfaces.on_B.evaluate_frame(places.on_B).c;
+    places.on_A = surfaces.on_A.closest(X.inverse() * on_ground, places.on_A);
   }
-  return places.on_ground.numbers.allFinite() && places.on_body.numbers.allFinite();
-}
-
-ContactLinearization linearize(const ContactComponent& contact,
-                               const RigidTransform& X,
-                               const ContactPlaces& places) {
-  return linearize_contact(*contact.on_ground, places.on_ground, *contact.on_body, places.on_body,
-                           X);
+  return places.on_B.numbers.allFinite() && places.on_A.numbers.allFinite();
 }
 
 /// Where the contact slides to, to first order, from where it was settled last.
-void extrapolate(const ContactComponent& contact,
+void extrapolate(const SurfacePair& surfaces,
                  const RigidTransform& X,
                  double L,
                  const SettledContact& last,
                  ContactPlaces& places) {
   constexpr double kLongest = 1.0 / 30;  // of L
-  if (places.on_ground != last.on_ground || places.on_body != last.on_body) return;
-  slide_contact(*contact.on_ground, places.on_ground, *contact.on_body, places.on_body, last.at,
-                last.X, X.p - last.X.p, cayley_vector(X.R * last.X.R.transpose()), kLongest * L);
+  if (places != last.places) return;
+  slide_contact(surfaces, places, last.at, last.X, X.p - last.X.p,
+                cayley_vector(X.R * last.X.R.transpose()), kLongest * L);
 }
 
 /// Newton on opposite normals and no tangential distance; it takes the surfaces to be near.
-bool settle_near(const ContactComponent& contact,
+bool settle_near(const SurfacePair& surfaces,
                  const RigidTransform& X,
                  double L,
+                 bool closed,
                  ContactPlaces& places,
                  ContactLinearization& at) {
   constexpr int kMostSteps = 20;
   constexpr double kSettled = 1e-12, kOneStepLeft = 1e-7;  // a step squares what is off
   const double unit = L / 30;                              // 1 mm on a knee
   for (int step = 0;; ++step) {
-    at = linearize(contact, X, places);
+    at = linearize_contact(surfaces, places, X);
     const double gap = at.gap();
-    if (!places.closed && gap > kFar * L) {
-      if (!settle_far(contact, X, places)) return false;
-      at = linearize(contact, X, places);
+    if (!closed && gap > kFar * L) {
+      if (!settle_far(surfaces, X, places)) return false;
+      at = linearize_contact(surfaces, places, X);
       return true;
     }
     const Eigen::Vector3d apart = at.g;
@@ -65,10 +59,9 @@ bool settle_near(const ContactComponent& contact,
       at.g = apart;
       return true;
     }
-    slide_contact(*contact.on_ground, places.on_ground, *contact.on_body, places.on_body, at, X,
-                  Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), L / 3);
+    slide_contact(surfaces, places, at, X, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), L / 3);
     if (off < kOneStepLeft) {
-      at = linearize(contact, X, places);
+      at = linearize_contact(surfaces, places, X);
       return true;
     }
   }
@@ -79,25 +72,25 @@ bool settle_near(const ContactComponent& contact,
 bool settle_contact(const ContactComponent& contact,
                     const RigidTransform& X,
                     double L,
-                    ContactPlaces& places,
+                    MovingContact& state,
                     SettledContact& settled) {
-  ContactPlaces trial = places;
-  extrapolate(contact, X, L, settled, trial);
-  if (settle_near(contact, X, L, trial, settled.at)) {
-    places = trial;
+  const SurfacePair surfaces = contact.surfaces();
+  ContactPlaces trial = state.places;
+  extrapolate(surfaces, X, L, settled, trial);
+  if (settle_near(surfaces, X, L, state.closed, trial, settled.at)) {
+    state.places = trial;
   } else {
-    settled.on_ground.numbers.setConstant(NAN);
-    if (places.closed) return false;
+    settled.places.on_B.numbers.setConstant(NAN);
+    if (state.closed) return false;
     if (contact.scouted) {
-      places.followed = false;
+      state.followed = false;
       return true;
     }
-    if (!settle_far(contact, X, places)) return false;
-    settled.at = linearize(contact, X, places);
+    if (!settle_far(surfaces, X, state.places)) return false;
+    settled.at = linearize_contact(surfaces, state.places, X);
   }
   settled.X = X;
-  settled.on_ground = places.on_ground;
-  settled.on_body = places.on_body;
+  settled.places = state.places;
   return true;
 }
 
@@ -107,11 +100,11 @@ bool settle_contacts(const Network& network,
                      std::vector<SettledContact>& settled) {
   settled.resize(network.contacts.size());
   for (std::size_t i = 0; i < network.contacts.size(); ++i) {
-    ContactPlaces& places = state.contacts[i];
-    if (!places.followed || !(places.closed || open_ones_too)) continue;
+    MovingContact& own = state.contacts[i];
+    if (!own.followed || !(own.closed || open_ones_too)) continue;
     const ContactComponent& contact = network.contacts[i];
     const RigidTransform& X = state.bodies[contact.body].X;
-    if (!settle_contact(contact, X, network.length, places, settled[i])) return false;
+    if (!settle_contact(contact, X, network.length, own, settled[i])) return false;
   }
   return true;
 }

@@ -11,7 +11,7 @@ namespace condyle {
 struct SettledContact {
   ContactLinearization at;
   RigidTransform X;
-  Place on_ground = {Eigen::Vector3d::Constant(NAN)}, on_body = on_ground;
+  ContactPlaces places = {{Eigen::Vector3d::Constant(NAN)}, {Eigen::Vector3d::Constant(NAN)}};
 };
 
 /// Brings the places of all contacts to where the gap is smallest near them, or only those of the
@@ -26,7 +26,7 @@ struct SettledContact {
 [[nodiscard]] bool settle_contact(const ContactComponent& contact,
                                   const RigidTransform& X,
                                   double L,
-                                  ContactPlaces& places,
+                                  MovingContact& state,
                                   SettledContact& settled);
 
 }  // namespace condyle

@@ -124,7 +124,7 @@ void keep_depths(const Model& model,
       return surface.closest(p, surface.seed(p));
     };
     state.contacts.push_back(
-        {place(*pair.on_B, deepest.point_ground), place(*pair.on_A, deepest.point_moving), true});
+        {{place(*pair.on_B, deepest.point_ground), place(*pair.on_A, deepest.point_moving)}, true});
   }
 }
 

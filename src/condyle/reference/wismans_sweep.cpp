@@ -33,7 +33,7 @@ ContactPointResult describe_point(const WismansModel& model,
   point.normal_ground = B.n;
   point.gap = B.n.dot(X_BA * A.c - B.c);
   point.relative_curvature =
-      linearize_contact(*surface(contact.on_B), {B.c}, *surface(contact.on_A), {A.c}, X_BA)
+      linearize_contact({*surface(contact.on_B), *surface(contact.on_A)}, {{B.c}, {A.c}}, X_BA)
           .relative_curvature;
   point.edge_distance =
       std::min(distance_to_outline(contact.on_B, at_B), distance_to_outline(contact.on_A, at_A));
