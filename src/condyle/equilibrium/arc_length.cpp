@@ -32,7 +32,7 @@ class PathFollower {
         options_(options),
         system_(model_, swept, drive, std::abs(to - from)),
         searches_(make_searches(model_, solver.covers())),
-        rules_(model_, searches_, solver.largest_overlap()) {
+        rules_(model_, searches_) {
     system_.set_parameters(solver.parameters());
   }
 

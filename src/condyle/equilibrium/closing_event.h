@@ -1,7 +1,7 @@
 #pragma once
 
 /// Where on a sweep a point of contact closes, beyond what comparing poses can tell: a contact is
-/// added from a small overlap on only (EquilibriumOptions), and until then its gap says better
+/// added from a small overlap on only (kAllowedOverlap), and until then its gap says better
 /// where it was zero.
 
 #include <optional>

@@ -74,8 +74,8 @@ void ContactChanges::apply(EquilibriumState& state) const {
   state.contacts.insert(state.contacts.end(), closes.begin(), closes.end());
 }
 
-ContactRules::ContactRules(const Model& model, std::vector<ContactSearch>& searches, double overlap)
-    : model_(model), searches_(searches), overlap_(overlap) {
+ContactRules::ContactRules(const Model& model, std::vector<ContactSearch>& searches)
+    : model_(model), searches_(searches) {
   changes_.closes.reserve(kMinimaOfAPair);
   rims_.reserve(kMinimaOfAPair);
   known_.reserve(kMaxConstraints);
@@ -120,6 +120,7 @@ void ContactRules::set_known(int pair, const Linearization& at) {
 void ContactRules::find_overlaps(const Linearization& at) {
   const EquilibriumState& state = at.state;
   Overlaps inner{changes_.closes}, rims{rims_};
+  const double overlap = kAllowedOverlap * model_.length;
   for (std::size_t p = 0; p < searches_.size(); ++p) {
     if (model_.pairs[p].mode != ContactMode::kAuto) continue;
     const int pair = static_cast<int>(p);
@@ -127,7 +128,7 @@ void ContactRules::find_overlaps(const Linearization& at) {
     searches_[p].find(state.X, 0.0, minima_, kMerge * model_.length, known_);
     ++changes_.searches;
     for (const GapMinimum& minimum : minima_) {
-      if (minimum.gap > -overlap_ || is_contact_of(model_, state, pair, minimum)) continue;
+      if (minimum.gap > -overlap || is_contact_of(model_, state, pair, minimum)) continue;
       const bool at_rim = !minimum.refined && minimum.edge < kRim * model_.length;
       (at_rim ? rims : inner).add(pair, minimum);
     }

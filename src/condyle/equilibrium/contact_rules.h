@@ -33,8 +33,8 @@ struct ContactChanges {
 
 class ContactRules {
  public:
-  /// Refers to both; `searches`: one for each pair. `overlap`: the largest that is none [mm].
-  ContactRules(const Model& model, std::vector<ContactSearch>& searches, double overlap);
+  /// Refers to both; `searches`: one for each pair.
+  ContactRules(const Model& model, std::vector<ContactSearch>& searches);
 
   /// At a state that is one of equilibrium with its contacts. Where one pulls, overlaps are not
   /// looked for. Stays until the next call; allocates nothing once it has held as many.
@@ -46,7 +46,6 @@ class ContactRules {
 
   const Model& model_;
   std::vector<ContactSearch>& searches_;
-  double overlap_;
   ContactChanges changes_;
   std::vector<GapMinimum> minima_;
   std::vector<KnownContact> known_;

@@ -116,8 +116,8 @@ std::string nearly_conforming(const ContactPair& pair,
       quoted(pair.name), least, kDeviation, std::sqrt(2 * kDeviation / least));
 }
 
-/// A law that sums over points sees nothing of what touches between them: so deep at most [mm].
-constexpr double kUnseen = 0.5;
+/// A law that sums over points sees nothing of what touches between them: so deep at most [L].
+constexpr double kUnseen = 0.5 / 30;
 
 /// The nearest place of an open contact; one that is nowhere, or buried, lowers the status. One with
 /// a law of its own that touches there is closed, and carries nothing yet.
@@ -131,7 +131,7 @@ void describe_open(const ContactPair& pair,
                    PoseResult& result) {
   search.find_nearest(state.X, kAnywhere * L, minima, kMerge * L);
   const bool watched = pair.mode == ContactMode::kAuto || pair.law;
-  const double overlap = pair.law ? kUnseen : options.overlap;
+  const double overlap = pair.law ? kUnseen : kAllowedOverlap;
   if (minima.empty()) {
     if (!watched || !search.has_samples()) return;
     result.status = PoseStatus::kLeftPatch;
@@ -139,7 +139,7 @@ void describe_open(const ContactPair& pair,
     return;
   }
   const GapMinimum& lowest = minima.front();
-  if (watched && lowest.gap < -overlap * L / 30) {
+  if (watched && lowest.gap < -overlap * L) {
     result.status = PoseStatus::kOverlap;
     result.reason = "contact \"" + pair.name + "\": one body is buried in the other";
   }

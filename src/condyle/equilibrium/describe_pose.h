@@ -11,7 +11,6 @@
 namespace condyle {
 
 struct PoseDescriptionOptions {
-  double overlap = 5e-7;   ///< largest overlap of a converged pose [mm], and relative to L/30 mm
   double edge_margin = 3;  ///< a contact nearer than this to the edge of its patch is flagged [mm]
   bool stability = true;
   bool joint_stiffness = false;  ///< 6x6 stiffness and compliance; needs the model's joint

@@ -44,7 +44,7 @@ EquilibriumSolver::EquilibriumSolver(std::shared_ptr<const Model> model,
       covers_(covers),
       options_(options),
       searches_(make_searches(*model_, covers_)),
-      rules_(*model_, searches_, largest_overlap()),
+      rules_(*model_, searches_),
       newton_(*model_, options_.newton),
       descent_(*model_, searches_, newton_, options_.descent),
       predictor_(*model_) {
@@ -196,7 +196,7 @@ bool EquilibriumSolver::faces(const EquilibriumState& state, Attempt& attempt) {
     }
     searches_[p].find_nearest(state.X, kAnywhere * L, minima_, kMerge * L);
     ++attempt.trace.searches;
-    if (minima_.empty() || minima_.front().gap < -largest_overlap()) return false;
+    if (minima_.empty() || minima_.front().gap < -kAllowedOverlap * L) return false;
   }
   return true;
 }

@@ -10,9 +10,9 @@
 /// does not settle, the descent looks for a way from the last pose, then the step from there is
 /// taken in parts, halved as needed; then the descent starts anew from the scene's start pose and
 /// from the last pose, both carried to the values asked for (carried_pose.h). A pose is converged
-/// only when no part of the known surfaces overlaps by more than `overlap` and every contact lies
-/// on them. An equilibrium on a surface extrapolated beyond its known part is told where no other
-/// is found, and no pose goes on from it. All ways together are bounded by counted iterations.
+/// only when no part of the known surfaces overlaps by more than kAllowedOverlap and every contact
+/// lies on them. An equilibrium on a surface extrapolated beyond its known part is told where no
+/// other is found, and no pose goes on from it. All ways together are bounded by counted iterations.
 
 #include <memory>
 #include <utility>
@@ -61,10 +61,6 @@ class EquilibriumSolver {
 
   [[nodiscard]] const Model& model() const { return *model_; }
   [[nodiscard]] const ContactCovers& covers() const { return covers_; }
-  /// Of a converged pose [mm].
-  [[nodiscard]] double largest_overlap() const {
-    return options_.description.overlap * model_->length / 30;
-  }
 
   /// Solves from the last converged state, or from the model's start when there is none. The state
   /// is kept when the pose converges. Throws std::invalid_argument for a drive that is not one of
