@@ -5,25 +5,14 @@
 #include <memory>
 
 #include "accuracy/knee_equations.h"
+#include "accuracy/peer_libraries.h"
 #include "condyle/contact/contact_search.h"
 #include "condyle/contact/refine_minimum.h"
-
-#ifdef CONDYLE_HAS_CERES
-#include <ceres/ceres.h>
-#endif
-#ifdef CONDYLE_HAS_KINSOL
-#include <kinsol/kinsol.h>
-#include <nvector/nvector_serial.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
-#endif
 
 namespace condyle::accuracy {
 namespace {
 
 constexpr int kSize = 9;  // da, turn, two contact forces, one multiplier
-constexpr int kMostIterations = 200;
-constexpr double kTolerance = 1e-9;  // of the residual [N], as of the 17 equations
 
 using Numbers = Eigen::Matrix<double, kSize, 1>;
 using Square = Eigen::Matrix<double, kSize, kSize>;
@@ -94,9 +83,9 @@ class CondensedKnee {
 };
 
 /// What a solver ended with.
-CondensedResult result_at(CondensedKnee& knee, const Numbers& x, long iterations) {
+CondensedResult result_at(CondensedKnee& knee, const Numbers& x, int iterations) {
   const bool good = knee.evaluate(x);
-  return {knee.state(), static_cast<int>(iterations),
+  return {knee.state(), iterations,
           good && knee.residual().cwiseAbs().maxCoeff() < 10 * kTolerance};
 }
 
@@ -117,50 +106,21 @@ int kinsol_jacobian(N_Vector x, N_Vector, SUNMatrix J, void* data, N_Vector, N_V
 
 class Kinsol {
  public:
-  explicit Kinsol(const Model& model) : knee_(model) {
-    SUNContext_Create(nullptr, &context_);
-    x_ = N_VNew_Serial(kSize, context_);
-    ones_ = N_VNew_Serial(kSize, context_);
-    N_VConst(1, ones_);
-    J_ = SUNDenseMatrix(kSize, kSize, context_);
-    linear_ = SUNLinSol_Dense(x_, J_, context_);
-    memory_ = KINCreate(context_);
-    KINSetErrFile(memory_, nullptr);
-    KINInit(memory_, kinsol_residual, x_);
-    KINSetUserData(memory_, &knee_);
-    KINSetLinearSolver(memory_, linear_, J_);
-    KINSetJacFn(memory_, kinsol_jacobian);
-    KINSetMaxSetupCalls(memory_, 1);
-    KINSetFuncNormTol(memory_, kTolerance);
-    KINSetScaledStepTol(memory_, 1e-16);
-  }
+  explicit Kinsol(const Model& model)
+      : knee_(model), solver_(kSize, kinsol_residual, kinsol_jacobian, &knee_) {}
   Kinsol(const Kinsol&) = delete;
   Kinsol& operator=(const Kinsol&) = delete;
-  ~Kinsol() {
-    KINFree(&memory_);
-    SUNLinSolFree(linear_);
-    SUNMatDestroy(J_);
-    N_VDestroy(ones_);
-    N_VDestroy(x_);
-    SUNContext_Free(&context_);
-  }
 
   CondensedResult solve(const EquilibriumState& start, const Drive& drive) {
-    Eigen::Map<Numbers> x(N_VGetArrayPointer(x_));
+    Eigen::Map<Numbers> x(solver_.x());
     x = knee_.begin(start, drive);
-    KINSol(memory_, x_, KIN_LINESEARCH, ones_, ones_);
-    long iterations = 0;
-    KINGetNumNonlinSolvIters(memory_, &iterations);
-    return result_at(knee_, x, iterations);
+    solver_.solve();
+    return result_at(knee_, x, solver_.iterations());
   }
 
  private:
   CondensedKnee knee_;
-  SUNContext context_ = nullptr;
-  N_Vector x_ = nullptr, ones_ = nullptr;
-  SUNMatrix J_ = nullptr;
-  SUNLinearSolver linear_ = nullptr;
-  void* memory_ = nullptr;
+  KinsolSolver solver_;
 };
 #endif
 
@@ -194,13 +154,6 @@ class Ceres {
  public:
   explicit Ceres(const Model& model) : knee_(model) {
     problem_.AddResidualBlock(new CeresResidual(knee_), nullptr, x_.data());
-    options_.linear_solver_type = ceres::DENSE_QR;
-    options_.trust_region_strategy_type = ceres::DOGLEG;
-    options_.logging_type = ceres::SILENT;
-    options_.max_num_iterations = kMostIterations;
-    options_.function_tolerance = 0;
-    options_.parameter_tolerance = 1e-15;
-    options_.gradient_tolerance = 0;
     options_.callbacks.push_back(&stop_);
   }
 
@@ -208,7 +161,7 @@ class Ceres {
     x_ = knee_.begin(start, drive);
     ceres::Solver::Summary summary;
     ceres::Solve(options_, &problem_, &summary);
-    return result_at(knee_, x_, static_cast<long>(summary.iterations.size()) - 1);
+    return result_at(knee_, x_, static_cast<int>(summary.iterations.size()) - 1);
   }
 
  private:
@@ -216,7 +169,7 @@ class Ceres {
   Numbers x_;
   StopAtTolerance stop_;
   ceres::Problem problem_;
-  ceres::Solver::Options options_;
+  ceres::Solver::Options options_ = dogleg_options();
 };
 #endif
 

@@ -6,25 +6,13 @@
 #include <cmath>
 
 #include "accuracy/dual.h"
-
-#ifdef CONDYLE_HAS_CERES
-#include <ceres/ceres.h>
-#endif
-#ifdef CONDYLE_HAS_KINSOL
-#include <kinsol/kinsol.h>
-#include <nvector/nvector_serial.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
-#endif
+#include "accuracy/peer_libraries.h"
 
 namespace condyle::accuracy {
 namespace {
 
 using Jacobian = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 using D = Dual<kUnknowns>;
-
-constexpr int kMostIterations = 200;
-constexpr double kTolerance = 1e-9;  // of the residual [N]: 1e-12 of the forces
 
 Unknowns<double> linearize(const KneeEquations& equations,
                            const Unknowns<double>& x,
@@ -85,35 +73,12 @@ int kinsol_jacobian(N_Vector x, N_Vector, SUNMatrix J, void* data, N_Vector, N_V
 }
 
 PeerResult kinsol(const KneeEquations& equations, const Unknowns<double>& start) {
-  PeerResult result{start, 0, false};
-  SUNContext context = nullptr;
-  SUNContext_Create(nullptr, &context);
-  N_Vector x = N_VMake_Serial(kUnknowns, result.x.data(), context);
-  N_Vector ones = N_VNew_Serial(kUnknowns, context);
-  N_VConst(1, ones);
-  SUNMatrix J = SUNDenseMatrix(kUnknowns, kUnknowns, context);
-  SUNLinearSolver solver = SUNLinSol_Dense(x, J, context);
-  void* memory = KINCreate(context);
-  KINSetErrFile(memory, nullptr);
-  KINInit(memory, kinsol_residual, x);
-  KINSetUserData(memory, const_cast<KneeEquations*>(&equations));
-  KINSetLinearSolver(memory, solver, J);
-  KINSetJacFn(memory, kinsol_jacobian);
-  KINSetMaxSetupCalls(memory, 1);
-  KINSetFuncNormTol(memory, kTolerance);
-  KINSetScaledStepTol(memory, 1e-16);
-  const int flag = KINSol(memory, x, KIN_LINESEARCH, ones, ones);
-  long iterations = 0;
-  KINGetNumNonlinSolvIters(memory, &iterations);
-  result.iterations = static_cast<int>(iterations);
-  result.converged = flag >= 0;
-  KINFree(&memory);
-  SUNLinSolFree(solver);
-  SUNMatDestroy(J);
-  N_VDestroy(ones);
-  N_VDestroy(x);
-  SUNContext_Free(&context);
-  return result;
+  KinsolSolver solver(kUnknowns, kinsol_residual, kinsol_jacobian,
+                      const_cast<KneeEquations*>(&equations));
+  Eigen::Map<Unknowns<double>> x(solver.x());
+  x = start;
+  const bool converged = solver.solve();
+  return {x, solver.iterations(), converged};
 }
 #endif
 
@@ -134,16 +99,8 @@ PeerResult ceres_dogleg(const KneeEquations& equations, const Unknowns<double>& 
   problem.AddResidualBlock(new ceres::AutoDiffCostFunction<CeresResidual, kUnknowns, kUnknowns>(
                                new CeresResidual{&equations}),
                            nullptr, result.x.data());
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.trust_region_strategy_type = ceres::DOGLEG;
-  options.logging_type = ceres::SILENT;
-  options.max_num_iterations = kMostIterations;
-  options.function_tolerance = 0;
-  options.parameter_tolerance = 1e-15;
-  options.gradient_tolerance = 0;
   ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  ceres::Solve(dogleg_options(), &problem, &summary);
   result.iterations = static_cast<int>(summary.iterations.size()) - 1;
   result.converged = std::sqrt(2 * summary.final_cost) < 10 * kTolerance;
   return result;
