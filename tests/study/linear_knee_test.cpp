@@ -18,7 +18,7 @@ TEST(LinearKnee, IndicesOfSmallChangesAreTheSquaresOfTheDerivatives) {
     for (std::size_t j = 0; j < knee.closed.size(); ++j)
       for (const IndexEstimate& e : {effects.first[j][p], effects.total[j][p]}) {
         EXPECT_NEAR(e.value, knee.closed[j][p], 0.15);
-        held += e.lower <= knee.closed[j][p] && knee.closed[j][p] <= e.upper;
+        held += holds(e, knee.closed[j][p]);
         ++all;
       }
   EXPECT_EQ(all, 2 * 12 * 19);

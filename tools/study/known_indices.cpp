@@ -30,7 +30,7 @@ std::string told(const IndexEstimate& e) {
 
 void count(const IndexEstimate& e, double closed, Tally& tally) {
   ++tally.all;
-  tally.held += e.lower <= closed && closed <= e.upper;
+  tally.held += holds(e, closed);
 }
 
 double ishigami(const std::vector<double>& u) {

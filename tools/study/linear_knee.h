@@ -20,6 +20,14 @@ struct LinearKnee {
 /// Of the anterior drawer, with a deviation of 1e-6 of each strain. `points`: of each block.
 [[nodiscard]] LinearKnee linear_knee(const std::filesystem::path& scene, long points);
 
+/// How far the knee is from linear, and the solver's tolerance: closed indices are known to that.
+inline constexpr double kClosedWithin = 1e-5;
+
+/// Whether the interval of an index holds its closed value.
+[[nodiscard]] inline bool holds(const IndexEstimate& e, double closed) {
+  return e.lower - kClosedWithin <= closed && closed <= e.upper + kClosedWithin;
+}
+
 /// All samples of output 0, and what they say.
 [[nodiscard]] StudyEffects effects_of(const LinearKnee& knee);
 
