@@ -84,7 +84,7 @@ class ShippedScene : public CommandLine, public testing::WithParamInterface<cons
 // All poses of ours converge: exit code 0.
 TEST_P(ShippedScene, RunsToItsEnd) {
   const std::string command = GetParam();
-  const std::size_t blank = command.find(' ');
+  const std::size_t blank = command.rfind(' ');
   const Outcome outcome = run(command.substr(0, blank) + " '" + kRoot.string() + "/data/" +
                               command.substr(blank + 1) + "' -o run.h5");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -106,6 +106,7 @@ INSTANTIATE_TEST_SUITE_P(Data,
                                          "simulate phantom/blow.toml",
                                          "simulate phantom/decaying-sine.toml",
                                          "study studies/roughness.toml",
+                                         "study --samples 4 studies/phantom.toml",
                                          "sweep wismans-type/knee.toml",
                                          "compare wismans-type/knee.toml",
                                          "laxity wismans-type/drawer.toml"));

@@ -7,7 +7,8 @@
 #include <memory>
 #include <thread>
 
-#include "condyle/app/run_study.h"
+#include "condyle/app/study_options.h"
+#include "condyle/app/study_team.h"
 #include "condyle/app/summary.h"
 #include "condyle/results/study_journal.h"
 #include "condyle/study/study_worker.h"
