@@ -158,6 +158,12 @@ HeatMap map_of(const StudyView& study, const char* what, const At& at) {
   return map;
 }
 
+/// NaN where its interval says nothing.
+double known_value(const IndexEstimate& index) {
+  constexpr double kSaysNothing = 1;
+  return index.upper - index.lower < kSaysNothing ? index.value : std::nan("");
+}
+
 /// How many correlations are of; of a design of Saltelli blocks A and B have numbers of their own.
 long ranked_samples(const StudyView& study) {
   const long blocks = static_cast<long>(study.parameters.size()) + 2;
@@ -208,8 +214,9 @@ std::vector<NamedMap> study_maps(const StudyView& study) {
   if (!has_indices(study)) return maps;
   HeatMap totals = map_of(
       study, "total index", [](const StudyEffects& effects, std::size_t row, std::size_t pose) {
-        return effects.total.empty() ? std::nan("") : effects.total.at(row).at(pose).value;
+        return effects.total.empty() ? std::nan("") : known_value(effects.total.at(row).at(pose));
       });
+  totals.notes.push_back("Grey: nothing varies, or the interval of 95 % is wider than 1.");
   double most = 0;
   for (const HeatMap::Panel& panel : totals.panels)
     for (const double value : panel.values)

@@ -45,7 +45,8 @@ std::string cells(const std::vector<std::vector<IndexEstimate>>& estimates,
 
 std::string head_of_samples(const StudyPlan& plan, const SweptQuantity& swept) {
   std::string head = "sample,knee";
-  for (const StudyParameter& parameter : plan.parameters) head += "," + cell(parameter.name);
+  for (const StudyParameter& parameter : plan.parameters)
+    head.append(",").append(cell(parameter.name));
   head += fmt::format(",{},status", column_of(swept));
   for (const StudyOutput& output : plan.outputs)
     head += fmt::format(
@@ -65,7 +66,8 @@ std::string bands_csv(const StudyView& view) {
         csv += fmt::format("{},{},{},{},{},{},{},{}", cell(knee), cell(view.outputs[o].name),
                            view.outputs[o].units, view.values[p], band.samples[p],
                            cell(band.nominal[p]), cell(band.mean[p]), cell(band.sd[p]));
-        for (const std::vector<double>& quantile : band.quantiles) csv += "," + cell(quantile[p]);
+        for (const std::vector<double>& quantile : band.quantiles)
+          csv.append(",").append(cell(quantile[p]));
         csv += "\n";
       }
     }
@@ -109,11 +111,12 @@ void write_sample_table(const std::filesystem::path& path,
       const std::uint64_t sample = c * kChunkSamples + i;
       plan.theta(sample, theta);
       std::string begin = fmt::format("{},{}", sample, cell(knees[plan.knee_of(sample)]));
-      for (const double number : theta) begin += "," + cell(number);
+      for (const double number : theta) begin.append(",").append(cell(number));
       for (const double swept_value : plan.values) {
         std::string row = fmt::format("{},{},{}", begin, swept.shown(swept_value),
                                       cell(std::string(name(static_cast<PoseStatus>(*status++)))));
-        for (std::size_t o = 0; o < plan.outputs.size(); ++o) row += "," + cell(*value++);
+        for (std::size_t o = 0; o < plan.outputs.size(); ++o)
+          row.append(",").append(cell(*value++));
         stream << row << '\n';
       }
     }

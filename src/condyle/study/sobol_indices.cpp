@@ -45,12 +45,36 @@ IndexEstimate ratio_of_means(const Eigen::ArrayXd& part, const Eigen::ArrayXd& w
   return {ratio, ratio - half, ratio + half};
 }
 
-/// y and y' have parameter j in common and nothing else: cov(y, y')/var, both about the mean of all.
-/// The mean's own error is of second order.
-IndexEstimate first_order(const Eigen::ArrayXd& y, const Eigen::ArrayXd& y_j) {
-  const double mean = (y.mean() + y_j.mean()) / 2;
-  const Eigen::ArrayXd c = y - mean, c_j = y_j - mean;
-  return ratio_of_means(c * c_j, (c.square() + c_j.square()) / 2);
+/// What two columns have in common and how far they spread, both about the mean of all [Monod].
+struct Pair {
+  Eigen::ArrayXd together, squares;
+};
+
+Pair pair_of(const Eigen::ArrayXd& y, const Eigen::ArrayXd& other) {
+  const double mean = (y.mean() + other.mean()) / 2;
+  const Eigen::ArrayXd c = y - mean, c_other = other - mean;
+  return {c * c_other, (c.square() + c_other.square()) / 2};
+}
+
+/// cov(y_B, y_ABj)/var: these have parameter j in common and nothing else. y_A and y_B have nothing in
+/// common: what they seem to have is chance, which y_ABj shares where j does little, and its part that
+/// leaves the least spread is taken off (a control variate).
+IndexEstimate first_order(const Eigen::ArrayXd& a,
+                          const Eigen::ArrayXd& b,
+                          const Eigen::ArrayXd& ab) {
+  const Pair with_j = pair_of(b, ab);
+  const Eigen::ArrayXd chance = pair_of(a, b).together;
+  const double ratio = with_j.together.mean() / with_j.squares.mean();
+  const Eigen::ArrayXd error = with_j.together - ratio * with_j.squares;
+  const Eigen::ArrayXd about = chance - chance.mean();
+  const double spread = about.square().sum();
+  const double part = spread > 0 ? (error * about).sum() / spread : 0;
+  return ratio_of_means(with_j.together - part * chance, with_j.squares);
+}
+
+/// y_A and y_ABj have all but parameter j in common.
+IndexEstimate total(const Eigen::ArrayXd& a, const Eigen::ArrayXd& ab) {
+  return ratio_of_means((a - ab).square() / 2, pair_of(a, ab).squares);
 }
 
 }  // namespace
@@ -70,15 +94,14 @@ SobolIndices sobol_indices(const double* y,
 
   const auto a = rows.col(0), b = rows.col(1);
   indices.mean = (a.mean() + b.mean()) / 2;
-  const Eigen::ArrayXd squares = ((a - indices.mean).square() + (b - indices.mean).square()) / 2;
-  indices.variance = squares.mean();
+  indices.variance = ((a - indices.mean).square() + (b - indices.mean).square()).mean() / 2;
   const double largest = rows.leftCols(2).abs().maxCoeff();
   if (indices.points < 4 || !(std::sqrt(indices.variance) > kLeastDeviation * largest))
     return indices;
   for (std::size_t j = 0; j < parameters; ++j) {
     const auto ab = rows.col(static_cast<Eigen::Index>(j) + 2);
-    indices.first[j] = first_order(b, ab);
-    indices.total[j] = ratio_of_means((a - ab).square() / 2, squares);
+    indices.first[j] = first_order(a, b, ab);
+    indices.total[j] = total(a, ab);
   }
   return indices;
 }

@@ -2,9 +2,10 @@
 
 /// Sobol's first-order and total indices of one number from a design of Saltelli, each with an interval.
 ///
-/// First order: the estimator of Monod, asymptotically efficient [Janon 2014]; total: [Jansen 1999]. Both
-/// are ratios of means, so that the intervals of 95 % follow from the spread of the ratio's error over
-/// base points (delta method). They hold for independent base points; Sobol points are spread more
+/// First order: the estimator of Monod, asymptotically efficient [Janon 2014], less what blocks A and B
+/// have in common by chance; total: [Jansen 1999] over the variance of the two blocks that it compares,
+/// so that it stays between 0 and 2 where few samples have all of the variance. Both are ratios of means:
+/// the intervals of 95 % follow from the spread of the ratio's error over base points (delta method). They hold for independent base points; Sobol points are spread more
 /// evenly, and the intervals are then wider than need be. A base point of which any of the d + 2 values
 /// is missing is left out.
 
