@@ -86,7 +86,7 @@ TEST_F(StudyFile, IsReadBackAsItWasReduced) {
   EXPECT_EQ(view.swept.name, "bend");
   ASSERT_EQ(view.parameters.size(), 2U);
   EXPECT_EQ(view.parameters[0].spread, "normal, sd 0.02");
-  EXPECT_EQ(view.parameters[1].spread, "uniform, -0.2 to 0.2");
+  EXPECT_EQ(view.parameters[1].spread, "log-uniform, 0.818731 to 1.2214");
   EXPECT_NEAR(view.parameters[0].typical, 0.02, 0.005);  // 150 draws
   ASSERT_EQ(view.outputs.size(), 2U);
   EXPECT_EQ(view.outputs[1].name, "aACL.force");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <filesystem>
@@ -86,6 +87,15 @@ TEST_F(StudyJournalFolder, WhatIsTornIsComputedAgain) {
   EXPECT_EQ(open(true).count(), 0U);
   fs::resize_file(file(), 0);
   EXPECT_EQ(open(true).count(), 0U);
+}
+
+TEST_F(StudyJournalFolder, WhatIsNoJournalIsNotRead) {
+  leave_all();
+  std::ofstream(journal_ / "zeros.chunks") << "";
+  fs::resize_file(journal_ / "zeros.chunks",
+                  std::uintmax_t{1} << 32);  // of a file that has no blocks
+  ASSERT_EQ(::mkfifo((journal_ / "pipe.chunks").c_str(), 0600), 0);
+  EXPECT_TRUE(open(true).missing().empty());
 }
 
 TEST_F(StudyJournalFolder, ADamagedChunkCostsItselfAndWhatFollows) {

@@ -97,8 +97,7 @@ TEST_F(StudyCommandLine, AnInterruptKeepsTheChunksAndResumeGoesOn) {
   const Outcome stopped = study(many + "--quiet", "timeout --preserve-status -s INT 3 ");
   EXPECT_EQ(stopped.code, 2) << stopped.err;
   EXPECT_EQ(stopped.err.find("condyle: stopped: s.h5.journal holds "), 0U) << stopped.err;
-  EXPECT_NE(stopped.err.find(" of 6250 chunks, --resume goes on from there\n"),
-            std::string::npos);
+  EXPECT_NE(stopped.err.find(" of 6250 chunks, --resume goes on from there\n"), std::string::npos);
   EXPECT_FALSE(there("s.h5"));
   const Outcome again = study(many + "--resume", "timeout --preserve-status -s INT 2 ");
   EXPECT_EQ(again.code, 2) << again.err;
@@ -153,8 +152,9 @@ TEST_F(StudyCommandLine, RefusesBadInputInOneLineAndWritesNothing) {
                    "misses)");
   expect_bad_input(study("-o s.h5 --merge --part 1/2"),
                    "--merge and --part: expected one of them (parts first, then --merge)");
-  for (const char* typo : {"--thread 2", "--threads 0", "--part 4/3", "--part 0/3", "--part 2",
-                           "--part a/b", "--samples 0", "--seed -1", "--samples ''"}) {
+  for (const char* typo :
+       {"--thread 2", "--threads 0", "--part 4/3", "--part 0/3", "--part 2", "--part a/b",
+        "--samples 0", "--seed -1", "--seed 18446744073709551616", "--samples ''"}) {
     const Outcome outcome = study(std::string("-o s.h5 ") + typo);
     EXPECT_EQ(outcome.code, 1) << typo;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;

@@ -21,6 +21,14 @@ bool read_part(const std::string& text, StudyPart& part) {
   return second.ec == std::errc() && second.ptr == end && part.i >= 1 && part.i <= part.n;
 }
 
+/// Empty ones are refused with a word of their own.
+bool is_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const char* end = text.data() + text.size();
+  const auto [at, error] = std::from_chars(text.data(), end, seed);
+  return text.empty() || (error == std::errc() && at == end);
+}
+
 void add_part(CLI::App& command, StudyCommand& options) {
   command
       .add_option_function<std::string>(
@@ -46,8 +54,8 @@ void add_study_options(CLI::App& command, StudyCommand& options) {
       ->check(CLI::Range(1L, kMost));
   command.add_option("--seed", options.seed, "of all random numbers, in place of the study's")
       ->check([](const std::string& text) {
-        return text.starts_with('-') ? text + ", expected a whole number, 0 or more"
-                                     : std::string();
+        return is_seed(text) ? std::string()
+                             : text + ", expected a whole number from 0 to 2^64 - 1";
       });
   add_part(command, options);
   command.add_flag("--merge", options.merge, "make the result of what parts have left");

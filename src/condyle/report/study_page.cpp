@@ -82,7 +82,7 @@ std::string study_status_section(const StudyView& study) {
 }
 
 std::string study_parameter_section(const StudyView& study) {
-  HtmlTable table{"What varied. Of a factor spread and deviation are those of its logarithm",
+  HtmlTable table{"What varied. Of a factor (log-) sd is that of its logarithm",
                   {"number", "unit", "spread", "sd of the samples"},
                   {},
                   {0, 1, 2}};

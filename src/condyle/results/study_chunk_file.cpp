@@ -48,12 +48,17 @@ std::string read_some(std::ifstream& stream, std::size_t bytes) {
   return text;
 }
 
-/// Where the chunks begin; 0: the head is torn or damaged.
+/// Where the chunks begin; 0: the head is torn or damaged. What does not begin as one, as zeros that a
+/// crash may leave, is not read to its end.
 std::uint64_t check_head(const std::filesystem::path& file, const StudyIdentity& identity) {
   constexpr std::size_t kPiece = 1 << 14;
   std::ifstream stream(file, std::ios::binary);
-  std::string bytes;
-  while (stream && bytes.find("\n\n") == std::string::npos) bytes += read_some(stream, kPiece);
+  std::string bytes = read_some(stream, kPiece);
+  if (!begins_as_head(bytes)) return 0;
+  for (std::size_t searched = 0; stream && bytes.find("\n\n", searched) == std::string::npos;) {
+    searched = bytes.size() - 1;
+    bytes += read_some(stream, kPiece);
+  }
   const std::size_t size = head_size(bytes);
   if (size > 0)
     expect_same_study(file.parent_path().string(), std::string_view(bytes).substr(0, size),

@@ -57,7 +57,7 @@ struct StudyView {
   struct Parameter {
     std::string name, units;
     bool logarithmic = false;
-    std::string spread;  ///< in words: "normal, sd 0.02", "uniform, -0.02 to 0.02"
+    std::string spread;  ///< in words: "normal, sd 0.02", of factors "log-uniform, 0.8 to 1.2"
     double typical = 0;  ///< sd of θ over the samples
   };
   std::vector<Parameter> parameters;

@@ -61,10 +61,10 @@ StudyFolder::~StudyFolder() {
 }
 
 void StudyFolder::make() {
-  std::error_code error;
+  std::error_code error, unknown;
   fs::create_directory(folder_, error);
-  if (fs::is_directory(folder_)) return;
-  if (fs::exists(folder_))
+  if (fs::is_directory(folder_, unknown)) return;
+  if (fs::exists(folder_, unknown))
     throw InputError(folder_.string() +
                      ": is no folder of a study's chunks, expected this name to be free for one");
   throw InputError(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
@@ -107,7 +107,10 @@ int StudyFolder::lock(const std::string& name, int how, const std::string& refus
 
 std::vector<fs::path> StudyFolder::journals() const {
   std::vector<fs::path> files = files_in(folder_);
-  std::erase_if(files, [](const fs::path& file) { return !is_journal(file); });
+  std::error_code unknown;
+  std::erase_if(files, [&](const fs::path& file) {
+    return !is_journal(file) || !fs::is_regular_file(file, unknown);
+  });
   return files;
 }
 

@@ -98,9 +98,11 @@ std::string head_of(const StudyIdentity& identity) {
   return head;
 }
 
+bool begins_as_head(std::string_view bytes) { return bytes.starts_with(kStudyWords); }
+
 std::size_t head_size(std::string_view bytes) {
   const std::size_t end = bytes.find("\n\n");
-  if (!bytes.starts_with(kStudyWords) || end == std::string_view::npos) return 0;
+  if (!begins_as_head(bytes) || end == std::string_view::npos) return 0;
   const std::size_t last = bytes.rfind('\n', end - 1) + 1;
   const std::string expected = head_line(std::string(kChecksum), hash_bytes(bytes.substr(0, last)));
   return bytes.substr(last, end + 1 - last) == expected ? end + 2 : 0;

@@ -21,6 +21,8 @@ using StudyIdentity = std::vector<std::pair<std::string, std::uint64_t>>;
 
 /// The head of a journal.
 [[nodiscard]] std::string head_of(const StudyIdentity& identity);
+/// As every head, of whatever study.
+[[nodiscard]] bool begins_as_head(std::string_view bytes);
 /// The bytes of a head that `bytes` begin with; 0: it is torn or damaged.
 [[nodiscard]] std::size_t head_size(std::string_view bytes);
 /// Throws InputError naming `file` and what differs, where a head is not that of `identity`.

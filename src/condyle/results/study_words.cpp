@@ -119,7 +119,7 @@ std::vector<std::string> study_lines(const StudyView& view) {
   std::vector<std::string> lines = {line_of_size(view), line_of_failures(view.all.failures)};
   for (std::size_t i = 0; i < view.parameters.size(); ++i)
     if (failures_depend_on(view, i)) lines.push_back(line_of_quartiles(view, i));
-  if (view.outputs.empty()) return lines;
+  if (view.outputs.empty() || view.all.failures.failed == view.all.failures.poses) return lines;
   const bool indices = !view.all.effects.empty() && !view.all.effects.front().total.empty();
   lines.emplace_back();
   lines.push_back(fmt::format("where each band is widest: 5, 50 and 95 %, and the largest {}",

@@ -37,13 +37,21 @@ std::string design_word(DesignKind kind) {
   return "table";
 }
 
-std::string spread_in_words(const Spread& spread) {
+/// Ends of a factor are told as factors, its deviation as that of its logarithm.
+std::string spread_in_words(const StudyParameter& parameter) {
   constexpr double kNoBound = 1e299;
+  const Spread& spread = parameter.spread;
   const auto [low, high] = spread.bounds;
+  const auto told = [&](double end) {
+    return fmt::format("{:.6g}", parameter.logarithmic ? std::exp(end) : end);
+  };
+  const char* log = parameter.logarithmic ? "log-" : "";
   if (spread.kind == Spread::Kind::kBits) return "seed";
-  if (spread.kind == Spread::Kind::kUniform) return fmt::format("uniform, {} to {}", low, high);
-  std::string words = fmt::format("normal, sd {}", spread.sd);
-  if (low > -kNoBound || high < kNoBound) words += fmt::format(", cut at {} and {}", low, high);
+  if (spread.kind == Spread::Kind::kUniform)
+    return fmt::format("{}uniform, {} to {}", log, told(low), told(high));
+  std::string words = fmt::format("{}normal, sd {:.6g}", log, spread.sd);
+  if (low > -kNoBound || high < kNoBound)
+    words += fmt::format(", cut at {} and {}", told(low), told(high));
   return words;
 }
 
@@ -94,7 +102,7 @@ void write_parameters(const Hdf5Group& samples,
     names.push_back(parameter.name);
     units.push_back(parameter.units);
     spreads.push_back(plan.study.design == DesignKind::kTable ? "table"
-                                                              : spread_in_words(parameter.spread));
+                                                              : spread_in_words(parameter));
     logarithmic.push_back(parameter.logarithmic ? 1 : 0);
     typical.push_back(deviation(theta[i]));
   }
