@@ -9,7 +9,9 @@
 # well, or within what "made within 5 % by:" allows; a number before µs, us, ms or s is a time and only has to be there. What takes minutes is "made when asked by:",
 # that is where its page is named. A command that cannot run here (no specimens beside the project) ends with 77 and is passed over.
 #
-#     tools/figures.sh [--write] [PAGE...]       --write puts what the commands print into the pages
+#     tools/figures.sh [--write] [--only WORD] [PAGE...]
+#
+# --write puts what the commands print into the pages, --only passes over commands without that word.
 #
 # CONDYLE names the program; without it the program is built. Ends with 1 where something is out of date.
 set -euo pipefail
@@ -20,6 +22,11 @@ write=
 if [ "${1:-}" = --write ]; then
   write=1
   shift
+fi
+only=
+if [ "${1:-}" = --only ]; then
+  only=$2
+  shift 2
 fi
 asked=$#
 [ $# -gt 0 ] || set -- README.md docs/*.md
@@ -42,7 +49,7 @@ replace() {
 # check PAGE LINE MARKER: one block.
 check() {
   local page=$1 line=$2 command within status=0
-  if [ "$asked" -eq 0 ] && [[ $3 == '<!-- made when asked by:'* ]]; then
+  if { [ "$asked" -eq 0 ] && [[ $3 == '<!-- made when asked by:'* ]]; } || [[ $3 != *"$only"* ]]; then
     passed_over=$((passed_over + 1))
     return
   fi

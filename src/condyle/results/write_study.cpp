@@ -234,7 +234,9 @@ StudySummary write_study(const std::filesystem::path& path,
     write_study_head(root, plan);
     const std::vector<std::vector<double>> theta = write_samples(root, plan);
     write_outputs(root, plan, journals);
-    summary = write_summaries(root, plan, theta, nominal, provenance.threads, on_output);
+    // The other processes of a team are done: all cores of this machine are free.
+    const int threads = provenance.processes > 1 ? 0 : provenance.threads;
+    summary = write_summaries(root, plan, theta, nominal, threads, on_output);
     write_provenance(root, provenance);
   }
   hdf5.close();
