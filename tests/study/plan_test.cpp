@@ -176,6 +176,9 @@ TEST_F(StudyTable, MayHoldTheNumbersThemselves) {
 }
 
 TEST_F(StudyTable, WhatIsMissingIsNamed) {
+  EXPECT_NE(refusal("aACL.reference_strain,pACL.reference_strain,aACL.reference_strain\n1,2,3\n")
+                .find(":1: two columns \"aACL.reference_strain\", expected one"),
+            std::string::npos);
   EXPECT_NE(refusal("aACL.reference_strain\n0.1\n").find("no column \"pACL.reference_strain\""),
             std::string::npos);
   EXPECT_NE(refusal("aACL.reference_strain,pACL.reference_strain\n0.1,x\n")

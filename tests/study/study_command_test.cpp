@@ -126,6 +126,23 @@ TEST_F(StudyCommandLine, ResumeOfWhatIsCompleteComputesNothing) {
   EXPECT_NE(contents(folder_ / "s.h5"), before);
 }
 
+TEST_F(StudyCommandLine, AResultThatDoesNotFitIsToldAndTheChunksAreKept) {
+  for (const char* part : {"--part 1/4", "--part 2/4", "--part 3/4", "--part 4/4"})
+    ASSERT_EQ(study(std::string("-o s.h5 --quiet --threads 1 ") + part).code, 0);
+  ASSERT_EQ(study("-o whole.h5 --quiet").code, 0);
+  const auto kilobytes = static_cast<long>(fs::file_size(folder_ / "whole.h5") / 1024);
+  // Of the size of files, by the shell in units of 512 bytes.
+  for (const long limit : {kilobytes, kilobytes * 3 / 2, 2 * kilobytes - 20}) {
+    const Outcome full = study("-o s.h5 --merge --quiet", fmt::format("ulimit -f {} && ", limit));
+    EXPECT_EQ(full.code, 1) << limit;
+    EXPECT_EQ(full.err.find("condyle: s.h5.part: "), 0U) << full.err;
+    EXPECT_EQ(std::count(full.err.begin(), full.err.end(), '\n'), 1) << full.err;
+    EXPECT_FALSE(there("s.h5") || there("s.h5.part"));
+  }
+  EXPECT_EQ(study("-o s.h5 --merge --quiet").code, 0);
+  EXPECT_EQ(difference_to("s.h5", "whole.h5"), "");
+}
+
 TEST_F(StudyCommandLine, MergesOnlyWhatIsThere) {
   const Outcome nothing = study("-o s.h5 --merge --quiet");
   EXPECT_EQ(nothing.code, 1);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 
 #include "condyle/app/command_tree.h"
@@ -30,6 +31,8 @@ int run_program(const std::string& name,
                 const std::vector<SetupCommand>& commands,
                 int argc,
                 char** argv) {
+  // A file beyond the process's limit fails as one on a full disk does.
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App program(description, name);
   int status = 0;
   program.set_version_flag("--version", name + " " CONDYLE_VERSION);

@@ -187,11 +187,15 @@ void ChunkWriter::sync_now_and_then() {
 }
 
 std::uint64_t ChunkWriter::append(const std::string& bytes) {
-  ssize_t written = -1;
-  do written = ::write(descriptor_, bytes.data(), bytes.size());
-  while (written < 0 && errno == EINTR);
-  const int code = written < 0 ? errno : ENOSPC;
-  if (written != static_cast<ssize_t>(bytes.size())) {
+  std::size_t done = 0;
+  int code = 0;
+  while (done < bytes.size() && code == 0) {
+    const ssize_t written = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
+    if (written < 0 && errno != EINTR) code = errno;
+    if (written == 0) code = ENOSPC;
+    if (written > 0) done += static_cast<std::size_t>(written);
+  }
+  if (code != 0) {
     if (::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0) size_ = 0;  // torn: not read
     cannot_write(path_, code);
   }

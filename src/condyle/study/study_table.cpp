@@ -18,6 +18,9 @@ std::size_t column_of(const std::string& name, const CsvFile& csv) {
     throw InputError(
         fmt::format("{}:{}: no column \"{}\", expected one for each number that varies",
                     csv.file.string(), csv.header.line, name));
+  if (std::count(found, names.end(), name) > 1)
+    throw InputError(fmt::format("{}:{}: two columns \"{}\", expected one", csv.file.string(),
+                                 csv.header.line, name));
   return static_cast<std::size_t>(found - names.begin());
 }
 
