@@ -44,6 +44,14 @@ TEST(StudyOutputs, WithoutWordsAreCoordinatesAndForces) {
   EXPECT_EQ(names[7], "aACL.force");
 }
 
+TEST(StudyOutputs, AreWithoutWhatAConditionPrescribesThoughItIsNotSwept) {
+  Scene scene = wismans();
+  scene.sweep->varies_load = true;  // flexion stays as its condition says
+  const std::vector<StudyOutput> joint = study_outputs(scene, {"joint"}, "study.toml");
+  ASSERT_EQ(joint.size(), 5U);
+  EXPECT_EQ(joint[0].name, "adduction");
+}
+
 TEST(StudyOutputs, StandOnceInTheOrderAskedFor) {
   const std::vector<std::string> expected = {
       "aACL.strain", "flexion",           "medial.point.x", "medial.point.y",  "medial.point.z",

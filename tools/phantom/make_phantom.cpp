@@ -52,8 +52,8 @@ int main(int argc, char** argv) {
   Roughness& roughness = meshes.roughness;
   bool exact = false;
   int knees = 0;
-  CLI::Option* output = app.add_option("-o,--output", folder, "folder for femur.stl and tibia.stl")
-                            ->check(CLI::ExistingDirectory);
+  CLI::Option* output = app.add_option(
+      "-o,--output", folder, "folder for femur.stl and tibia.stl, made where there is none");
   app.add_option("--motion", scene, "scene to sweep on the exact surfaces, printed as a table")
       ->check(CLI::ExistingFile)
       ->excludes(output);
@@ -92,6 +92,7 @@ int main(int argc, char** argv) {
   if (exact) roughness.rms = 0;
 
   try {
+    std::filesystem::create_directories(folder);
     if (knees > 0) {
       write_population(folder, condyle::read_scene(shipped), knees, roughness.seed, meshes);
       std::printf("%s: %d knees\n", folder.string().c_str(), knees);

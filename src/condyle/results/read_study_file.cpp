@@ -47,7 +47,10 @@ StudySummary read_summary(const Hdf5Group& group, const StudyView& view) {
   StudySummary summary;
   for (const StudyView::Output& output : view.outputs) {
     summary.bands.push_back(read_band(bands, output.name, poses));
-    summary.effects.push_back(read_effects(indices, output.name, d, poses));
+    const StudyEffects& effects =
+        summary.effects.emplace_back(read_effects(indices, output.name, d, poses));
+    if (effects.total.size() != summary.effects.front().total.size())
+      indices.fail(output.name + " has no Sobol indices, or alone has some, expected all alike");
   }
   summary.failures = read_failures(group.open("failures"), d, poses);
   return summary;

@@ -109,6 +109,8 @@ StudyEffects read_effects(const Hdf5Group& indices,
   StudyEffects effects;
   effects.first = read_estimates(group, "first", parameters, poses);
   effects.total = read_estimates(group, "total", parameters, poses);
+  if (effects.first.size() != effects.total.size())
+    group.fail("holds one of first and total, expected both or none");
   if (!group.has("rank")) return effects;
   const std::vector<double> rank = group.read("rank", {parameters, poses});
   for (std::size_t i = 0; i < parameters; ++i)

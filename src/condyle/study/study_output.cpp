@@ -55,19 +55,20 @@ class OutputList {
     }
   }
 
-  /// The coordinate that the sweep prescribes is known.
-  [[nodiscard]] bool swept(std::size_t coordinate) const {
-    const SweepDescription& sweep = *scene_.sweep;
-    if (sweep.varies_load) return false;
-    const ConditionKind kind = scene_.conditions[static_cast<std::size_t>(sweep.index)].kind;
-    return static_cast<std::size_t>(kind) == coordinate;  // the first six are joint coordinates
+  /// What a condition prescribes, swept or not, is known.
+  [[nodiscard]] bool prescribed(std::size_t coordinate) const {
+    return std::any_of(scene_.conditions.begin(), scene_.conditions.end(),
+                       [&](const ConditionDescription& condition) {
+                         // The first six kinds are joint coordinates.
+                         return static_cast<std::size_t>(condition.kind) == coordinate;
+                       });
   }
 
   bool add_joint(const std::string& what) {
     bool found = false;
     for (std::size_t i = 0; scene_.joint && i < kJointCoordinates.size(); ++i) {
       const JointCoordinate& q = kJointCoordinates[i];
-      if (what.empty() ? swept(i) : what != q.name) continue;
+      if (what.empty() ? prescribed(i) : what != q.name) continue;
       found = true;
       keep(q.name, q.angle ? kDegree : kMillimetre, {OutputKind::kJointCoordinate, i});
     }
