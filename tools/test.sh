@@ -19,7 +19,7 @@ case "${1:-}" in
     install_packages
     TARGET=condyle_thread_tests build build-thread -DCMAKE_BUILD_TYPE=Release -DCONDYLE_SANITIZE=thread \
       -DCONDYLE_PICTURES=OFF -DCONDYLE_VIEWER=OFF
-    build-thread/condyle_thread_tests --gtest_filter='SharedKnee.EightThreads*:FitSurfaces.FindsTheExactPhantom*:FitSurfaces.Names*' "$@"
+    build-thread/condyle_thread_tests --gtest_filter='SharedKnee.EightThreads*:FitSurfaces.FindsTheExactPhantom*:FitSurfaces.Names*:StudyChunks.*:StudyEffects.DoNotDependOnThreads:SampleDesign.APoint*:InParallel.*:PosteriorSamples.AreTheSameBits*' "$@"
     exit
     ;;
 esac
