@@ -92,7 +92,10 @@ int main(int argc, char** argv) {
   if (exact) roughness.rms = 0;
 
   try {
-    std::filesystem::create_directories(folder);
+    std::error_code refused;
+    std::filesystem::create_directories(folder, refused);
+    if (refused)
+      throw condyle::InputError(folder.string() + ": cannot be made: " + refused.message());
     if (knees > 0) {
       write_population(folder, condyle::read_scene(shipped), knees, roughness.seed, meshes);
       std::printf("%s: %d knees\n", folder.string().c_str(), knees);
