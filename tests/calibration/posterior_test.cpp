@@ -8,9 +8,9 @@
 
 #include "condyle/calibration/agreement.h"
 #include "condyle/calibration/multi_start.h"
-#include "condyle/design/normal_draws.h"
 #include "condyle/calibration/posterior_samples.h"
 #include "condyle/calibration/profiles.h"
+#include "condyle/design/normal_draws.h"
 #include "support/random_matrix.h"
 
 namespace condyle::test {

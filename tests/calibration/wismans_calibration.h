@@ -12,8 +12,8 @@
 #include <string>
 
 #include "condyle/calibration/free_parameter.h"
-#include "condyle/design/normal_draws.h"
 #include "condyle/calibration/predictions.h"
+#include "condyle/design/normal_draws.h"
 #include "condyle/elements/joint_table.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"

@@ -70,10 +70,16 @@ void check_alike(const StudyKnee& knee, const StudyPlan& plan, const std::string
                     study, knee.scene.file.string(), plan.knees.front().scene.file.string()));
 }
 
+/// Where the words of outputs stand.
+std::string place_of_outputs(const StudyDescription& study) {
+  const std::string file = study.file.string();
+  return study.outputs_line > 0 ? fmt::format("{}:{}", file, study.outputs_line) : file;
+}
+
 /// Those of the first knee, by their names.
 std::vector<StudyOutput> outputs_of(const StudyKnee& knee, const StudyPlan& plan) {
-  const std::string file = plan.study.file.string();
-  const std::vector<StudyOutput> own = study_outputs(knee.scene, plan.study.outputs, file);
+  const std::vector<StudyOutput> own =
+      study_outputs(knee.scene, plan.study.outputs, place_of_outputs(plan.study));
   std::vector<StudyOutput> outputs;
   for (const StudyOutput& output : plan.outputs) {
     const auto found = std::find_if(own.begin(), own.end(), [&](const StudyOutput& candidate) {
@@ -81,8 +87,8 @@ std::vector<StudyOutput> outputs_of(const StudyKnee& knee, const StudyPlan& plan
     });
     if (found == own.end())
       throw InputError(fmt::format("{}: {}: no {}, expected the outputs of {} in all specimens",
-                                   file, knee.scene.file.string(), output.name,
-                                   plan.knees.front().scene.file.string()));
+                                   place_of_outputs(plan.study), knee.scene.file.string(),
+                                   output.name, plan.knees.front().scene.file.string()));
     outputs.push_back(*found);
   }
   return outputs;
@@ -159,7 +165,7 @@ StudyPlan study_plan(ReadStudy study, const OnProgress& on_knee) {
   if (on_knee) on_knee(knees, knees);
   const StudyKnee& first = plan.knees.front();
   plan.parameters = parameters_of(first.parameters, study.varied.front(), plan.study);
-  plan.outputs = study_outputs(first.scene, plan.study.outputs, file);
+  plan.outputs = study_outputs(first.scene, plan.study.outputs, place_of_outputs(plan.study));
   for (StudyKnee& knee : plan.knees) knee.outputs = outputs_of(knee, plan);
   plan.values = first.scene.sweep->values;
   set_points(plan.study, plan);
