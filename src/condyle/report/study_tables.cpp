@@ -38,13 +38,6 @@ std::string widest_in_words(const StudyView& study, const ShownOutput& output) {
   return short_number(band.sd[*pose]) + output.unit + " at " + shown_pose(study, *pose);
 }
 
-double sum_of(const std::vector<double>& parts) {
-  double sum = 0;
-  for (const double part : parts)
-    if (std::isfinite(part)) sum += part;
-  return sum;
-}
-
 /// One sentence: what explains most of most quantities.
 std::string in_one_sentence(const StudyView& study, const std::vector<ShownOutput>& outputs) {
   const std::vector<std::string> names = shown_parameters(study);
@@ -102,7 +95,7 @@ std::string study_effect_section(const StudyView& study) {
               : "Squares of rank correlations over the whole sweep, poses weighted by their "
                 "variance: the three greatest of each quantity",
       {"quantity", "sd where the band is widest", "by itself",
-       "with what it does together with others", "by themselves in all"},
+       "with what it does together with others"},
       {},
       {0, 1, 2, 3}};
   if (!indices) table.columns = {"quantity", "sd where the band is widest", "greatest"};
@@ -110,9 +103,7 @@ std::string study_effect_section(const StudyView& study) {
     const SweepEffects effects = sweep_effects(study, output.index);
     table.rows.push_back(
         {output.name, widest_in_words(study, output), greatest_in_words(names, effects.first)});
-    if (!indices) continue;
-    table.rows.back().push_back(greatest_in_words(names, effects.total));
-    table.rows.back().push_back(number(sum_of(effects.first), 2));
+    if (indices) table.rows.back().push_back(greatest_in_words(names, effects.total));
   }
   return section("effects", "What explains what",
                  (indices ? in_one_sentence(study, outputs) : "") + html(table) +
