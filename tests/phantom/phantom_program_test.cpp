@@ -55,8 +55,14 @@ TEST_F(PhantomProgram, OptionsChangeTheRoughness) {
   EXPECT_EQ(femur("--exact"), femur("--roughness 0"));
 }
 
-TEST_F(PhantomProgram, RefusesAFolderThatIsNotThereAndNonsenseNumbers) {
-  EXPECT_NE(run("-o '" + (folder_ / "absent").string() + "'"), 0);
+TEST_F(PhantomProgram, MakesItsFolder) {
+  EXPECT_EQ(run("-o '" + (folder_ / "knees" / "new").string() + "' --resolution 6"), 0);
+  EXPECT_TRUE(fs::exists(folder_ / "knees" / "new" / "tibia.stl"));
+}
+
+TEST_F(PhantomProgram, RefusesAFolderThatCannotBeMadeAndNonsenseNumbers) {
+  std::ofstream(folder_ / "file") << "no folder";
+  EXPECT_NE(run("-o '" + (folder_ / "file" / "knee").string() + "'"), 0);
   EXPECT_NE(run("-o '" + folder_.string() + "' --resolution -1"), 0);
   EXPECT_NE(run("-o '" + folder_.string() + "' --roughness nan"), 0);
   EXPECT_FALSE(fs::exists(folder_ / "femur.stl"));

@@ -28,8 +28,8 @@ ranks() {
   "${mpi[@]}" -n "$n" "$condyle_mpi" "$@"
 }
 
-# half_way RESULT: waits until a good part of its chunks is in journals.
-half_way() {
+# under_way RESULT: waits until some MB of its chunks are in journals.
+under_way() {
   for _ in $(seq 600); do
     [ "$(du -sb "$1.journal" 2>/dev/null | cut -f 1 || true)0" -lt 60000000 ] || return 0
     sleep 0.02
@@ -59,12 +59,13 @@ any_number_of_ranks() {
   same_content whole.h5 1.h5 2.h5 3.h5 7.h5 threads.h5
 }
 
-# A rank that dies ends the job; what is in journals is not computed again, by any number of ranks.
+# A rank that dies ends the job; what is in journals is not computed again, by any number of ranks. The study takes some
+# seconds: mpirun hands SIGTERM on after a second only.
 dead_rank() {
-  whole_study 6000
+  whole_study 30000
   "${mpi[@]}" -n 3 "$condyle_mpi" study study.toml -o killed.h5 >killed.log 2>&1 &
   local job=$! victim
-  half_way killed.h5
+  under_way killed.h5
   victim=$(pgrep -P "$job" | tail -n 1)
   kill -9 "$victim" || fail "there was no rank to kill"
   ! wait "$job" || fail "a dead rank did not end the job"
@@ -73,7 +74,7 @@ dead_rank() {
   same_content whole.h5 killed.h5
   "${mpi[@]}" -n 2 "$condyle_mpi" study study.toml -o again.h5 >again.log 2>&1 &
   job=$!
-  half_way again.h5
+  under_way again.h5
   kill -TERM "$job"
   ! wait "$job" || fail "SIGTERM did not end the job"
   [ -d again.h5.journal ] || fail "SIGTERM took the journals"
