@@ -127,7 +127,7 @@ std::vector<double> bands_of_texture(const Ladder& ladder, double l) {
   for (std::size_t r = 0; r < ladder.length.size(); ++r) {
     double sum = 0;
     for (const auto& [fraction, share] : ladder.fractions)
-      sum += share * over_spectrum(l, [&](double k) {
+      sum += share * over_spectrum(l, [&, fraction = fraction](double k) {
                const double above = r == 0 ? 1 : passed(fraction * ladder.length[r - 1], k);
                const double part = above - passed(fraction * ladder.length[r], k);
                return part * part;
@@ -141,7 +141,7 @@ std::vector<double> bands_of_texture(const Ladder& ladder, double l) {
 double texture_followed(const Ladder& ladder, double length, double l) {
   double sum = 0;
   for (const auto& [fraction, share] : ladder.fractions)
-    sum += share * over_spectrum(l, [&](double k) {
+    sum += share * over_spectrum(l, [&, fraction = fraction](double k) {
              const double part = passed(fraction * length, k);
              return part * part * worth(ladder.aim, k);
            });
