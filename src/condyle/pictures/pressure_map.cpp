@@ -58,7 +58,7 @@ double greatest_pressure(const Run& run) {
   return greatest;
 }
 
-PressureMap::PressureMap(const Run& run) : run_(run), gaps_(run) {
+PressureMap::PressureMap(const Run& run) : gaps_(run) {
   const auto elastic = [&](int surface) {
     return run.scene.surfaces[static_cast<std::size_t>(surface)].elastic;
   };

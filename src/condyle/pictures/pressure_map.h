@@ -40,7 +40,6 @@ class PressureMap {
                    double line_radius) const;
 
  private:
-  const Run& run_;
   GapMap gaps_;
   std::vector<std::optional<LayerLaw>> laws_;  ///< of each contact
   double top_ = 1;

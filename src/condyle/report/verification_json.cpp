@@ -8,15 +8,15 @@ namespace condyle {
 std::string json_verification(const CommandSummary& summary,
                               const Run& run,
                               const Verification& verification) {
-  using Json = nlohmann::ordered_json;
-  Json json = {{"command", summary.command},     {"version", summary.version},
-               {"exit_code", summary.exit_code}, {"seconds", summary.seconds},
-               {"run", summary.output},          {"scene", run.scene.file.string()},
-               {"title", run.scene.title},       {"verified", verification.verified()}};
+  using Document = nlohmann::ordered_json;
+  Document json = {{"command", summary.command},     {"version", summary.version},
+                   {"exit_code", summary.exit_code}, {"seconds", summary.seconds},
+                   {"run", summary.output},          {"scene", run.scene.file.string()},
+                   {"title", run.scene.title},       {"verified", verification.verified()}};
   json["counts"] = {{"poses", verification.poses},
                     {"converged", verification.converged},
                     {"false", verification.false_poses}};
-  json["checks"] = Json::array();
+  json["checks"] = Document::array();
   for (const CheckSummary& check : verification.checks) {
     if (check.count == 0) continue;
     json["checks"].push_back({{"check", check.name},
@@ -28,7 +28,7 @@ std::string json_verification(const CommandSummary& summary,
                               {"where", check.where}});
   }
   const SweptQuantity swept = swept_quantity(run);
-  json["false_poses"] = Json::array();
+  json["false_poses"] = Document::array();
   for (const Fault& fault : verification.faults)
     json["false_poses"].push_back(
         {{"value", swept.shown(run.sweep.poses[fault.pose].value)},
@@ -36,7 +36,7 @@ std::string json_verification(const CommandSummary& summary,
          {"text", fault.text}});
   json["warnings"] = verification.warnings;
   json["not_checked"] = verification.not_checked;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+  return json.dump(2, ' ', false, Document::error_handler_t::replace);
 }
 
 }  // namespace condyle
