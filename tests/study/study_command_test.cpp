@@ -114,6 +114,33 @@ TEST_F(StudyCommandLine, AnInterruptKeepsTheChunksAndResumeGoesOn) {
                    "expected the same or another output");
 }
 
+TEST_F(StudyCommandLine, SaysWhereNoPoseOfAnySampleConverges) {
+  std::string knee = contents(folder_ / "knee.toml");
+  const std::size_t first = knee.find("[[ligament]]");
+  knee.erase(first, knee.find("[[condition]]") - first);
+  write("knee.toml", knee + R"(
+[[load]]
+name = "pull"
+body = "tibia"
+kind = "force"
+vector = [0, 0, -50]
+)");
+  write("study.toml", R"(
+title = "nothing holds the tibia"
+specimens = ["knee.toml"]
+design = "monte-carlo"
+samples = 2
+[[vary]]
+what = "load"
+of = "pull"
+sd = 0.1
+)");
+  const Outcome outcome = study("-o s.h5");
+  EXPECT_EQ(outcome.code, 2) << outcome.out;
+  EXPECT_NE(outcome.err.find("condyle: no pose of any sample converged\n"), std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(StudyCommandLine, ResumeOfWhatIsCompleteComputesNothing) {
   ASSERT_EQ(study("-o s.h5 --quiet").code, 0);
   const std::string before = contents(folder_ / "s.h5");

@@ -126,7 +126,9 @@ int finished_study(const StudyWork& work, StudyJournals& journals) {
   say(work.talk(), "\nwrote {}\n", work.command.output);
   const std::vector<fs::path> files = write_study_tables(work, view, journals);
   journals.remove();
-  const std::vector<std::string> failures = nominal_failures(work);
+  std::vector<std::string> failures = nominal_failures(work);
+  if (view.all.failures.poses > 0 && view.all.failures.failed == view.all.failures.poses)
+    failures.emplace_back("no pose of any sample converged");
   for (const std::string& line : failures) fmt::print(stderr, "condyle: {}\n", line);
   CommandSummary facts =
       work.clock.summary(work.talk(), work.command.output, failures.empty() ? 0 : kSomePoseFailed);

@@ -153,8 +153,8 @@ std::uint64_t find_chunks(const std::filesystem::path& file,
     if (record.size() < kHeadOfRecord || !head_fits(record, layout)) break;
     const std::uint64_t chunk = word_at(record, 0);
     record += read_some(stream, layout.record_bytes(chunk) - kHeadOfRecord);
-    if (record.size() != layout.record_bytes(chunk) || !checksum_fits(record)) break;
-    found(chunk, at);
+    if (record.size() != layout.record_bytes(chunk)) break;
+    if (checksum_fits(record)) found(chunk, at);
     at += record.size();
   }
   return at;

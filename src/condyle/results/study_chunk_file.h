@@ -44,7 +44,8 @@ struct ChunkLayout {
                                       const ChunkLayout& layout);
 
 /// Calls `found` for each whole chunk from `at` on (0: the head, of which InputError is thrown where
-/// it is of another study) up to the first that is torn or damaged; returns where the last one ends.
+/// it is of another study), passing over those whose checksum does not fit, up to the first that is torn
+/// or does not begin as a chunk; returns where that is.
 std::uint64_t find_chunks(const std::filesystem::path& file,
                           std::uint64_t at,
                           const ChunkLayout& layout,
