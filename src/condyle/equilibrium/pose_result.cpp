@@ -1,5 +1,7 @@
 #include "condyle/equilibrium/pose_result.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <limits>
 
