@@ -8,9 +8,9 @@
 #include <system_error>
 #include <vector>
 
+#include "condyle/app/begin_study.h"
 #include "condyle/app/commands.h"
 #include "condyle/app/interrupt.h"
-#include "condyle/app/make_run.h"
 #include "condyle/app/progress.h"
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"

@@ -8,8 +8,8 @@
 #include <memory>
 #include <set>
 
+#include "condyle/app/begin_study.h"
 #include "condyle/app/commands.h"
-#include "condyle/app/make_run.h"
 #include "condyle/app/start_run.h"
 #include "condyle/network/simulate.h"
 #include "condyle/report/summary_json.h"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "condyle/app/begin_study.h"
 #include "condyle/app/commands.h"
-#include "condyle/app/make_run.h"
 #include "condyle/app/progress.h"
 #include "condyle/app/range_options.h"
 #include "condyle/app/reference_options.h"
@@ -15,6 +15,7 @@
 #include "condyle/app/talk.h"
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/input_error.h"
+#include "condyle/results/make_run.h"
 #include "condyle/results/output_file.h"
 #include "condyle/results/run_view.h"
 #include "condyle/results/sweep_table.h"

@@ -6,13 +6,14 @@
 #include <memory>
 #include <optional>
 
+#include "condyle/app/begin_study.h"
 #include "condyle/app/commands.h"
-#include "condyle/app/make_run.h"
 #include "condyle/app/print_fit.h"
 #include "condyle/app/progress.h"
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
 #include "condyle/input_error.h"
+#include "condyle/results/make_run.h"
 #include "condyle/results/output_file.h"
 #include "condyle/scene_file/read_scene.h"
 #ifdef CONDYLE_PICTURES

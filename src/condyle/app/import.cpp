@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "condyle/app/begin_study.h"
 #include "condyle/app/commands.h"
-#include "condyle/app/make_run.h"
 #include "condyle/exchange/laxity_tables.h"
 #include "condyle/exchange/osim_scene.h"
 #include "condyle/exchange/ply_file.h"

@@ -12,9 +12,9 @@
 
 #include "condyle/anatomy/knee_from_meshes.h"
 #include "condyle/anatomy/new_scene_text.h"
+#include "condyle/app/begin_study.h"
 #include "condyle/app/commands.h"
 #include "condyle/app/default_template.h"
-#include "condyle/app/make_run.h"
 #include "condyle/app/start_run.h"
 #include "condyle/input_error.h"
 #include "condyle/mesh_files/mesh_bytes.h"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <memory>
 
+#include "condyle/app/begin_study.h"
 #include "condyle/app/commands.h"
-#include "condyle/app/make_run.h"
 #include "condyle/app/progress.h"
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"

@@ -1,9 +1,9 @@
 #include "condyle/app/start_run.h"
 
-#include "condyle/app/make_run.h"
 #include "condyle/equilibrium/build_model.h"
 #include "condyle/pictures/png_file.h"
 #include "condyle/pictures/scene_page.h"
+#include "condyle/results/make_run.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/specimen/fit_wraps.h"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "condyle/app/make_run.h"
+#include "condyle/app/begin_study.h"
 #include "condyle/app/progress.h"
 #include "condyle/input_error.h"
 #include "condyle/results/output_file.h"

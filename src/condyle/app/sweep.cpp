@@ -7,8 +7,8 @@
 #include <memory>
 #include <utility>
 
+#include "condyle/app/begin_study.h"
 #include "condyle/app/commands.h"
-#include "condyle/app/make_run.h"
 #include "condyle/app/print_fit.h"
 #include "condyle/app/progress.h"
 #include "condyle/app/range_options.h"
@@ -18,6 +18,7 @@
 #include "condyle/equilibrium/sweep_sensitivities.h"
 #include "condyle/input_error.h"
 #include "condyle/results/journal.h"
+#include "condyle/results/make_run.h"
 #include "condyle/results/output_file.h"
 #include "condyle/results/run_view.h"
 #include "condyle/results/sweep_table.h"

@@ -1,22 +1,17 @@
 #pragma once
 
-/// Puts together what a result file holds.
-
-#include <vector>
+/// What a command does before it computes something from a scene.
 
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "condyle/app/talk.h"
 #include "condyle/results/run_file.h"
 #include "condyle/scene/fitted_surface.h"
 
 namespace condyle {
-
-/// Scene, patches, what there is to know of the start, and the meshes of the bodies; nothing
-/// computed yet, a sweep until it is said to be something else.
-[[nodiscard]] Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces);
 
 /// What a command starts from that computes something from a scene.
 struct Study {

@@ -1,0 +1,17 @@
+#pragma once
+
+/// What a result file holds before anything is computed.
+
+#include <vector>
+
+#include "condyle/results/run_file.h"
+#include "condyle/scene/fitted_surface.h"
+
+namespace condyle {
+
+/// Scene, patches, what there is to know of the start, and the meshes of the bodies; nothing
+/// computed yet, a sweep until it is said to be something else. `surfaces` as from fit_surfaces.
+/// Throws InputError for meshes that cannot be read.
+[[nodiscard]] Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces);
+
+}  // namespace condyle
