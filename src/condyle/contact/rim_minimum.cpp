@@ -117,6 +117,7 @@ std::optional<RimMinimum> rim_minimum(const Surface& rim,
   constexpr double kLeast = 1e-4;  // of the reach
   std::array<double, 2 * kParts + 1> gaps;
   for (int i = -kParts; i <= kParts; ++i)
+    // cppcheck-suppress containerOutOfBounds ; it takes the size for 2 (cppcheck 2.10)
     gaps[static_cast<std::size_t>(i + kParts)] = look(reach * i / kParts);
   if (!lowest || lowest->gap - kBetween * change_beside_lowest(gaps) > cutoff) return std::nullopt;
   for (double step = 0.5 * reach / kParts; step > kLeast * reach; step *= 0.5) {

@@ -51,6 +51,7 @@ void send(int pipe, const void* data, std::size_t size) {
   }
 }
 
+#ifndef __SANITIZE_ADDRESS__  // whose shadow takes all of the address space
 /// Address space in use [bytes].
 double address_space() {
   std::ifstream statm("/proc/self/statm");
@@ -58,6 +59,7 @@ double address_space() {
   statm >> pages;
   return pages * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
+#endif
 
 void limit(decltype(RLIMIT_CPU) resource, double value) {
   const auto whole = static_cast<rlim_t>(std::ceil(value));
@@ -71,7 +73,7 @@ void confine(const ImportLimits& limits) {
     std::signal(signal, SIG_DFL);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, limits.seconds);
-#ifndef __SANITIZE_ADDRESS__  // whose shadow takes all of the address space
+#ifndef __SANITIZE_ADDRESS__
   limit(RLIMIT_AS, address_space() + limits.memory);
 #endif
   const int nowhere = open("/dev/null", O_RDWR);

@@ -18,16 +18,20 @@ CONDYLE_EMBED(condyle_viewer_script, CONDYLE_VIEWER_SCRIPT);
 #endif
 
 namespace condyle {
+namespace {
 
-std::string_view page_style() {
-  return {condyle_page_style_begin,
-          static_cast<std::size_t>(condyle_page_style_end - condyle_page_style_begin)};
+/// What the assembler laid down between two of its marks.
+std::string_view between(const char* begin, const char* end) {
+  return {begin, static_cast<std::size_t>(end - begin)};
 }
+
+}  // namespace
+
+std::string_view page_style() { return between(condyle_page_style_begin, condyle_page_style_end); }
 
 std::string_view viewer_script() {
 #ifdef CONDYLE_VIEWER_SCRIPT
-  return {condyle_viewer_script_begin,
-          static_cast<std::size_t>(condyle_viewer_script_end - condyle_viewer_script_begin)};
+  return between(condyle_viewer_script_begin, condyle_viewer_script_end);
 #else
   return {};
 #endif

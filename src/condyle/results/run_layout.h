@@ -23,14 +23,15 @@ struct Column {
   double unit = 1;
 };
 
-inline constexpr std::array<Column<JointCoordinates>, 6> kJointColumns = [] {
+constexpr std::array<Column<JointCoordinates>, 6> joint_columns() {
   std::array<Column<JointCoordinates>, 6> columns{};
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const JointCoordinate& q = kJointCoordinates[i];
     columns[i] = {q.name, q.angle ? "deg" : "mm", q.member, q.angle ? kDegree : 1};
   }
   return columns;
-}();
+}
+inline constexpr std::array<Column<JointCoordinates>, 6> kJointColumns = joint_columns();
 
 inline constexpr std::array<Column<LigamentResult>, 3> kLigamentColumns = {{
     {"length", "mm", &LigamentResult::length},

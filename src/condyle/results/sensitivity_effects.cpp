@@ -166,7 +166,7 @@ std::vector<std::size_t> shown_sensitivities(const Run& run) {
   for (std::size_t pose = 0; pose < run.sensitivities->by_pose.size(); ++pose)
     if (has_derivatives(run, pose)) usable.push_back(pose);
   if (swept_quantity(run).flexion) {
-    const std::vector<std::size_t> usual = at_usual_angles(run, usable);
+    std::vector<std::size_t> usual = at_usual_angles(run, usable);
     if (usual.size() >= 2) return usual;
   }
   const std::size_t n = std::min(kMost, usable.size());

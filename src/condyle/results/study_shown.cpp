@@ -141,7 +141,7 @@ std::vector<ShownOutput> main_outputs(const StudyView& study, std::size_t ligame
 
 std::vector<std::size_t> shown_poses(const StudyView& study) {
   if (study.swept.flexion) {
-    const std::vector<std::size_t> usual = at_angles(study.values);
+    std::vector<std::size_t> usual = at_angles(study.values);
     if (usual.size() >= 2) return usual;
   }
   return evenly(study.values.size(), 4);

@@ -18,6 +18,7 @@ double smallest_convex_radius(const SurfaceDescription& surface) {
   switch (surface.kind) {
     case SurfaceKind::kSphere:
     case SurfaceKind::kCylinder:
+      // NOLINTNEXTLINE(bugprone-narrowing-conversions): it sees one from double to double.
       return surface.solid_inside ? surface.radius : kUnlimited;
     case SurfaceKind::kEllipsoid:
       return surface.solid_inside ? surface.semi_axes.minCoeff() * surface.semi_axes.minCoeff() /

@@ -89,7 +89,7 @@ void read_units(const Section& root, Scene& scene) {
 }
 
 std::string read_name(const Section& section, const std::vector<std::string>& taken) {
-  const std::string name = section.text("name", "a name");
+  std::string name = section.text("name", "a name");
   const bool usable =
       name.find('/') == std::string::npos && name != "." && name != ".." && name.size() <= 100 &&
       std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20; });

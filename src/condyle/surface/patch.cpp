@@ -215,6 +215,7 @@ int Patch::evaluate_direction(const Direction& direction, double t, Basis& basis
   const int m = direction.degree + 1;
   const double x = inside - direction.breaks[span];
   const double* c = &direction.coefficients[static_cast<std::size_t>(span) * m * m];
+  // cppcheck-suppress uninitvar ; here it is written
   horner(c, m, x, basis.b[0], basis.b[1], basis.b[2]);
   if (t != inside) {
     const double beyond = t - inside;

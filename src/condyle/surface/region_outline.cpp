@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "condyle/mesh/mesh_measures.h"
 
@@ -22,13 +23,14 @@ std::vector<std::vector<int>> boundary_loops(const TriangleMesh& region) {
     if (e.count == 1) next.emplace(e.forward[0] ? e.a : e.b, e.forward[0] ? e.b : e.a);
   std::vector<std::vector<int>> loops;
   while (!next.empty()) {
-    std::vector<int>& loop = loops.emplace_back();
+    std::vector<int> loop;
     for (auto step = next.begin(); step != next.end(); step = next.find(loop.back())) {
       if (loop.empty()) loop.push_back(step->first);
       loop.push_back(step->second);
       next.erase(step);
       if (loop.back() == loop.front()) break;
     }
+    loops.push_back(std::move(loop));
   }
   return loops;
 }

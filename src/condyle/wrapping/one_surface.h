@@ -25,10 +25,10 @@ struct ArcEnd {
 
 struct OneSurfacePath {
   double length = 0;
-  double l1, l2;                   ///< X to P, Q to Y
+  double l1 = 0, l2 = 0;           ///< X to P, Q to Y
   Eigen::Vector3d e_X, e_Y;        ///< unit tangents at X and Y, from X to Y
   Eigen::Vector3d n, b, n_Q, b_Q;  ///< at P and Q
-  double A, B, D;                  ///< B = A l1 + r + l2 r', A = a + l2 a', D = a' l1 + r'
+  double A = 0, B = 0, D = 0;      ///< B = A l1 + r + l2 r', A = a + l2 a', D = a' l1 + r'
   bool found = false;
   bool shortest = false;  ///< B > 0, no conjugate point of X before Y
 
