@@ -189,9 +189,13 @@ TEST_F(JournalFile, ThatIsSomethingElseIsNamed) {
   write("notes of mine");
   EXPECT_EQ(message(),
             path_.string() + ": is no journal of a sweep, expected this name to be free for one");
-  write("condyle journal 2 what follows\n");
+  write("condyle journal x what follows\n");
   EXPECT_EQ(message(),
             path_.string() + ": is a journal of another format, expected \"condyle journal 1\"");
+  write("condyle journal 2 what follows\n");
+  EXPECT_EQ(message(), path_.string() +
+                           ": written by a later condyle (format \"condyle journal 2\"), this one "
+                           "reads up to \"condyle journal 1\"");
 }
 
 TEST_F(JournalFile, CostsAFewMicrosecondsAPose) {

@@ -253,11 +253,20 @@ TEST_F(RunFile, ThatIsCutShortIsNamed) {
             path_.string() + ": cannot be opened, expected a run (HDF5), whole and readable");
 }
 
-TEST_F(RunFile, OfAnotherFormatIsNamed) {
+TEST_F(RunFile, OfALaterFormatSaysSo) {
   const Hdf5Builder builder("x.h5");
   builder.root().write_attribute("format", "condyle 9");
   std::ofstream(path_, std::ios::binary) << builder.bytes();
-  EXPECT_EQ(message(), path_.string() + ": /: format = \"condyle 9\", expected \"condyle 1\"");
+  EXPECT_EQ(message(), path_.string() +
+                           ": /: written by a later condyle (format \"condyle 9\"), this one "
+                           "reads up to \"condyle 1\"");
+}
+
+TEST_F(RunFile, OfAnotherFormatIsNamed) {
+  const Hdf5Builder builder("x.h5");
+  builder.root().write_attribute("format", "condyle x");
+  std::ofstream(path_, std::ios::binary) << builder.bytes();
+  EXPECT_EQ(message(), path_.string() + ": /: format = \"condyle x\", expected \"condyle 1\"");
 }
 
 TEST_F(RunFile, WithoutADatasetNamesIt) {

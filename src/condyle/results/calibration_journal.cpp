@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "condyle/input_error.h"
+#include "condyle/results/format_number.h"
 
 namespace condyle {
 namespace {
@@ -38,6 +39,8 @@ void expect_same_head(const std::string& file,
                       const std::string& line,
                       const CalibrationIdentity& identity,
                       const Scene& scene) {
+  const std::string later = later_format(line, "condyle calibration 1");
+  if (!later.empty()) throw InputError(fmt::format("{}: {}", file, later));
   std::istringstream there(line), here(head_of(identity));
   std::string a, b;
   for (const char* what : {"", "", "format", "", "text of the scene", "", "patches", "", "table"}) {

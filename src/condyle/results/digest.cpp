@@ -8,6 +8,7 @@
 #include <fstream>
 #include <memory>
 #include <stdexcept>
+#include <system_error>
 #include <vector>
 
 #include "condyle/input_error.h"
@@ -15,6 +16,10 @@
 namespace condyle {
 
 std::string sha256_of_file(const std::filesystem::path& file) {
+  // A result file may name whatever it likes: a device has no end.
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    throw InputError(file.string() + ": cannot be read, expected a file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file.string() + ": cannot be read");
   const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),

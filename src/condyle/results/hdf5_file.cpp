@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "condyle/input_error.h"
+#include "condyle/results/hdf5_own_data.h"
 
 namespace condyle {
 namespace {
@@ -22,6 +23,7 @@ void silence() {
   static const bool once = H5dont_atexit() >= 0;
   static_cast<void>(once);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  load_no_plugins();
 }
 
 std::size_t count(const Shape& shape) {
@@ -107,8 +109,9 @@ Hdf5Group Hdf5Group::create(const std::string& name) const {
 }
 
 Hdf5Group Hdf5Group::open(const std::string& name) const {
-  const hid_t id = has(name) ? H5Gopen2(handle_.id(), name.c_str(), H5P_DEFAULT) : -1;
-  return {checked(id, H5Gclose, fmt::format("group {} is missing", name)), place_ + name + "/"};
+  check_link("group", name);
+  const hid_t id = H5Gopen2(handle_.id(), name.c_str(), H5P_DEFAULT);
+  return {checked(id, H5Gclose, fmt::format("{} is no group", name)), place_ + name + "/"};
 }
 
 bool Hdf5Group::has(const std::string& name) const {
@@ -119,7 +122,14 @@ bool Hdf5Group::has_attribute(const std::string& name) const {
   return H5Aexists(handle_.id(), name.c_str()) > 0;
 }
 
+void Hdf5Group::check_link(const char* what, const std::string& name) const {
+  if (!has(name)) fail(fmt::format("{} {} is missing", what, name));
+  const std::string foreign = foreign_link(handle_.id(), name);
+  if (!foreign.empty()) fail(fmt::format("{} {}", name, foreign));
+}
+
 bool Hdf5Group::is_group(const std::string& name) const {
+  check_link("group", name);
   const Hdf5Handle object(H5Oopen(handle_.id(), name.c_str(), H5P_DEFAULT), H5Oclose);
   return H5Iget_type(object.id()) == H5I_GROUP;
 }
@@ -233,8 +243,12 @@ void Hdf5Group::write_attribute(const std::string& dataset,
 }
 
 Hdf5Handle Hdf5Group::open_dataset(const std::string& name) const {
-  const hid_t id = has(name) ? H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT) : -1;
-  return checked(id, H5Dclose, fmt::format("dataset {} is missing", name));
+  check_link("dataset", name);
+  const hid_t id = H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT);
+  Hdf5Handle dataset = checked(id, H5Dclose, fmt::format("{} is no dataset", name));
+  const std::string foreign = foreign_storage(dataset.id());
+  if (!foreign.empty()) fail(fmt::format("dataset {} {}", name, foreign));
+  return dataset;
 }
 
 Hdf5Array Hdf5Group::read(const std::string& name) const {
@@ -274,11 +288,13 @@ std::vector<std::string> Hdf5Group::read_texts(const std::string& name) const {
   const Hdf5Handle type = text_type();
   std::vector<char*> raw(count(shape_of(space)), nullptr);
   if (raw.empty()) return {};
-  check(H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()),
+  TextMemory memory(dataset.id());
+  const Hdf5Handle transfer = property_list(H5P_DATASET_XFER);
+  H5Pset_vlen_mem_manager(transfer.id(), TextMemory::allocate, &memory, TextMemory::keep, &memory);
+  check(H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, transfer.id(), raw.data()),
         fmt::format("dataset {} cannot be read as texts", name));
   std::vector<std::string> texts;
   for (const char* text : raw) texts.emplace_back(text == nullptr ? "" : text);
-  H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, raw.data());
   return texts;
 }
 
@@ -298,7 +314,10 @@ std::string Hdf5Group::read_attribute_of(const Hdf5Handle& object, const std::st
   const Hdf5Handle type = text_type();
   const Hdf5Handle space(H5Aget_space(attribute.id()), H5Sclose);
   char* raw = nullptr;
-  check(count(shape_of(space)) == 1 ? H5Aread(attribute.id(), type.id(), &raw) : -1,
+  const Shape shape = shape_of(space);
+  const bool one =
+      std::all_of(shape.begin(), shape.end(), [](std::size_t size) { return size == 1; });
+  check(one ? H5Aread(attribute.id(), type.id(), &raw) : -1,
         fmt::format("attribute {} cannot be read as a text", name));
   std::string text = raw == nullptr ? "" : raw;
   H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, &raw);

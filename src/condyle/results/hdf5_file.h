@@ -1,7 +1,8 @@
 #pragma once
 
 /// A small door to HDF5: groups, datasets with their units, attributes. Every failure throws
-/// InputError naming the file and the place in it; nothing of HDF5 is printed.
+/// InputError naming the file and the place in it; nothing of HDF5 is printed. What is read lies in the file itself
+/// (hdf5_own_data.h).
 ///
 /// Files are built in memory and handed out as bytes, so that a full disk is met by a plain write
 /// and never by HDF5 half-way through its own; those that may be larger than memory, on disk.
@@ -12,35 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "condyle/results/hdf5_handle.h"
+
 namespace condyle {
-
-/// Owns one HDF5 identifier.
-class Hdf5Handle {
- public:
-  using Close = int (*)(std::int64_t);
-  Hdf5Handle() = default;
-  Hdf5Handle(std::int64_t id, Close close) : id_(id), close_(close) {}
-  Hdf5Handle(Hdf5Handle&& other) noexcept : id_(other.id_), close_(other.close_) { other.id_ = -1; }
-  /// Closes it now; false where that fails.
-  [[nodiscard]] bool close_now() {
-    const std::int64_t id = id_;
-    id_ = -1;
-    return id < 0 || close_(id) >= 0;
-  }
-  Hdf5Handle& operator=(Hdf5Handle&& other) noexcept {
-    std::swap(id_, other.id_);
-    std::swap(close_, other.close_);
-    return *this;
-  }
-  ~Hdf5Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  [[nodiscard]] std::int64_t id() const { return id_; }
-
- private:
-  std::int64_t id_ = -1;
-  Close close_ = nullptr;
-};
 
 using Shape = std::vector<std::size_t>;
 
@@ -131,6 +106,8 @@ class Hdf5Group {
               const std::vector<std::string>& texts,
               bool scalar) const;
 
+  /// That there is something under a name, in this file.
+  void check_link(const char* what, const std::string& name) const;
   [[nodiscard]] Hdf5Handle open_dataset(const std::string& name) const;
   [[nodiscard]] std::string read_attribute_of(const Hdf5Handle& object,
                                               const std::string& name) const;

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "condyle/input_error.h"
+#include "condyle/results/format_number.h"
 #include "condyle/results/journal_line.h"
 
 namespace condyle {
@@ -40,6 +41,8 @@ bool read_head(const fs::path& path, std::string_view text, JournalContents& con
   if (torn) return false;
   std::string_view line = text.substr(0, text.find('\n'));
   contents.whole_bytes = line.size() + 1;
+  const std::string later = later_format(line, "condyle journal 1");
+  if (!later.empty()) throw InputError(path.string() + ": " + later);
   if (!take_hash(line, kFormat, contents.identity.scene) ||
       !take_hash(line, kSurfaces, contents.identity.surfaces) || !line.empty()) {
     throw InputError(path.string() + ": is a journal of another format, expected \"" +

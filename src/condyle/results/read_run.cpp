@@ -8,6 +8,7 @@
 #include "condyle/results/calibration_group.h"
 #include "condyle/results/comparison_groups.h"
 #include "condyle/results/estimates.h"
+#include "condyle/results/format_number.h"
 #include "condyle/results/hdf5_file.h"
 #include "condyle/results/layer_group.h"
 #include "condyle/results/path_group.h"
@@ -52,6 +53,8 @@ Scene read_head(const Hdf5Group& root) {
   const std::string format = root.read_attribute("format");
   if (format.starts_with("condyle study"))
     root.fail("holds a study, expected a run; condyle plot and condyle report show studies");
+  const std::string later = later_format(format, kRunFormat);
+  if (!later.empty()) root.fail(later);
   if (format != kRunFormat)
     root.fail(fmt::format("format = \"{}\", expected \"{}\"", format, kRunFormat));
   return parse_scene(root.read_attribute("scene"), root.read_attribute("scene_file"));

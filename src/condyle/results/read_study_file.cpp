@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "condyle/input_error.h"
+#include "condyle/results/format_number.h"
 #include "condyle/results/hdf5_file.h"
 #include "condyle/results/study_file.h"
 #include "condyle/results/study_groups.h"
@@ -81,7 +82,8 @@ bool is_study_file(const std::filesystem::path& path) {
   try {
     const Hdf5Reader reader(path);
     const Hdf5Group root = reader.root();
-    return root.has_attribute("format") && root.read_attribute("format") == kStudyFormat;
+    return root.has_attribute("format") &&
+           root.read_attribute("format").starts_with("condyle study ");
   } catch (const InputError&) {
     return false;
   }
@@ -91,6 +93,8 @@ StudyView read_study_file(const std::filesystem::path& path) {
   const Hdf5Reader reader(path);
   const Hdf5Group root = reader.root();
   const std::string format = root.read_attribute("format");
+  const std::string later = later_format(format, kStudyFormat);
+  if (!later.empty()) root.fail(later);
   if (format != kStudyFormat)
     root.fail(fmt::format("format = \"{}\", expected \"{}\"", format, kStudyFormat));
   StudyView view;

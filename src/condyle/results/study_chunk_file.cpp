@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "condyle/input_error.h"
+#include "condyle/results/format_number.h"
 #include "condyle/results/run_identity.h"
 
 namespace condyle {
@@ -54,6 +55,8 @@ std::uint64_t check_head(const std::filesystem::path& file, const StudyIdentity&
   constexpr std::size_t kPiece = 1 << 14;
   std::ifstream stream(file, std::ios::binary);
   std::string bytes = read_some(stream, kPiece);
+  const std::string later = later_format(bytes, "condyle study 1");
+  if (!later.empty()) throw InputError(fmt::format("{}: {}", file.string(), later));
   if (!begins_as_head(bytes)) return 0;
   for (std::size_t searched = 0; stream && bytes.find("\n\n", searched) == std::string::npos;) {
     searched = bytes.size() - 1;
