@@ -99,17 +99,39 @@ const char* const kPart =
     "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
     "\"buffers\":[{\"byteLength\":36,\"uri\":\"triangle.bin\"}]}";
 
-// Nodes of a scene move their meshes: a triangle of 10 mm, doubled and moved by 100 mm.
-TEST_F(IsolatedImport, ReadsGltfWithItsTransforms) {
+std::string triangle_of_10_mm() {
   std::string data;
   for (const float x : {0.f, 0.f, 0.f, 10.f, 0.f, 0.f, 0.f, 10.f, 0.f})
     data.append(reinterpret_cast<const char*>(&x), sizeof x);
-  write("triangle.bin", data);
+  return data;
+}
+
+// Nodes of a scene move their meshes: a triangle of 10 mm, doubled and moved by 100 mm.
+TEST_F(IsolatedImport, ReadsGltfWithItsTransforms) {
+  write("triangle.bin", triangle_of_10_mm());
   const TriangleMesh mesh = load_mesh(write("triangle.gltf", kPart), 1);
   ASSERT_EQ(mesh.triangles.size(), 1u);
   const auto box = bounds(mesh.vertices);
   EXPECT_NEAR((box.min() - Vector3d(100, 0, 0)).norm(), 0, 1e-4);
   EXPECT_NEAR((box.max() - Vector3d(120, 20, 0)).norm(), 0, 1e-4);
+}
+
+// Numbers of other files are none of a mesh's: neither by a path nor by a link.
+TEST_F(IsolatedImport, ReadsNoPartsFromElsewhere) {
+  const fs::path inner = folder_ / "inner";
+  fs::create_directories(inner);
+  write("triangle.bin", triangle_of_10_mm());
+  const auto named = [&](const std::string& uri) {
+    std::string text = kPart;
+    text.replace(text.find("triangle.bin"), 12, uri);
+    return write("inner/triangle.gltf", text);
+  };
+  fs::create_symlink(folder_ / "triangle.bin", inner / "link.bin");
+  for (const std::string& uri : {std::string("../triangle.bin"),
+                                 (folder_ / "triangle.bin").string(), std::string("link.bin")})
+    EXPECT_NE(complaint(named(uri)).find("mesh cannot be read: "), std::string::npos) << uri;
+  fs::copy_file(folder_ / "triangle.bin", inner / "own.bin");
+  EXPECT_EQ(load_mesh(named("own.bin"), 1).triangles.size(), 1u);
 }
 
 TEST_F(IsolatedImport, RefusesInOneLine) {

@@ -1,10 +1,15 @@
 #include "condyle/mesh_files/assimp_import.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
+#include <algorithm>
+#include <filesystem>
 #include <stdexcept>
+#include <string_view>
+#include <system_error>
 
 namespace condyle {
 namespace {
@@ -26,6 +31,32 @@ void append(ImportedMesh& mesh, const aiMesh& part) {
   }
 }
 
+/// Formats with parts in other files name them as they like. Those are read that lie in the file's own folder or below,
+/// links followed to where they lead; none is written.
+class OwnFolder : public Assimp::DefaultIOSystem {
+ public:
+  explicit OwnFolder(const std::string& file)
+      : folder_(std::filesystem::canonical(file).parent_path()) {}
+
+  bool Exists(const char* file) const override {
+    return own(file) && DefaultIOSystem::Exists(file);
+  }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    const bool reads = std::string_view(mode).find_first_of("wa+") == std::string_view::npos;
+    return reads && own(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+
+ private:
+  [[nodiscard]] bool own(const char* file) const {
+    std::error_code error;
+    const std::filesystem::path path = std::filesystem::canonical(file, error);
+    return !error &&
+           std::mismatch(folder_.begin(), folder_.end(), path.begin(), path.end()).first ==
+               folder_.end();
+  }
+  std::filesystem::path folder_;
+};
+
 }  // namespace
 
 bool assimp_knows(const std::string& ending) {
@@ -34,6 +65,7 @@ bool assimp_knows(const std::string& ending) {
 
 ImportedMesh import_with_assimp(const std::string& file) {
   Assimp::Importer importer;
+  importer.SetIOHandler(new OwnFolder(file));  // it takes it over
   const aiScene* scene =
       importer.ReadFile(file, aiProcess_Triangulate | aiProcess_PreTransformVertices);
   if (scene == nullptr) throw std::runtime_error(importer.GetErrorString());
