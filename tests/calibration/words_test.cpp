@@ -155,5 +155,19 @@ TEST(CalibrationTables, SamplesHaveAColumnForEachNumber) {
   EXPECT_FALSE(std::getline(csv, line));
 }
 
+/// A name is no command of LaTeX, and no option of the end of the row before it.
+TEST(CalibrationWords, NamesAreWordsToLatexAndToSpreadsheets) {
+  CalibrationResult result = made_up_calibration();
+  result.parameters[0].name = "[3cm] \\input{/etc/passwd} $x$ %_#&^~*";
+  EXPECT_TRUE(says(parameter_latex(result),
+                   "\n{[}3cm] \\textbackslash{}input\\{/etc/passwd\\} \\$x\\$ "
+                   "\\%\\_\\#\\&\\^{}\\~{}{*} & "))
+      << parameter_latex(result);
+  result.parameters[0].name = "=HYPERLINK(\"http://x\",1)";
+  EXPECT_TRUE(says(parameter_csv(result), "\n\"'=HYPERLINK(\"\"http://x\"\",1)\",%,"))
+      << parameter_csv(result);
+  EXPECT_TRUE(says(samples_csv(result), "\"'=HYPERLINK"));
+}
+
 }  // namespace
 }  // namespace condyle::test

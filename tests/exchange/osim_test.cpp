@@ -122,6 +122,41 @@ std::string with_all(std::string text, const std::string& from, const std::strin
   return text;
 }
 
+/// The model, changed, and the scene of it.
+OsimScene imported_text(const std::string& text, const std::string& name) {
+  const fs::path folder = test::fresh_folder(name);
+  std::ofstream(folder / "model.osim")
+      << with_all(text, "../../meshes", CONDYLE_SOURCE_DIR "/meshes");
+  OsimScene scene = imported(folder / "model.osim", folder / "knee.toml");
+  fs::remove_all(folder);
+  return scene;
+}
+
+std::string text_of_model() {
+  std::ifstream stream(kModel);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Names of a model stand in comments of the scene: after a line's end they would be lines of it.
+TEST(OsimImport, WritesNoLineThatANameBegins) {
+  const OsimScene scene = imported_text(with(text_of_model(), "CustomJoint name=\"knee_r\"",
+                                             "CustomJoint name=\"a&#10;[intruder]&#10;knee_r\""),
+                                        "osim_names");
+  EXPECT_NE(scene.text.find("[intruder]"), std::string::npos);
+  EXPECT_EQ(scene.text.find("\n[intruder]"), std::string::npos) << scene.text;
+}
+
+/// Neither the file of an entity nor a billion of them.
+TEST(OsimImport, KnowsNoEntities) {
+  const std::string entities =
+      "<!DOCTYPE a [<!ENTITY file SYSTEM \"file:///etc/passwd\"><!ENTITY b \"ha\"><!ENTITY c "
+      "\"&b;&b;&b;&b;&b;&b;&b;&b;\">]>\n<OpenSimDocument";
+  const std::string text = with(text_of_model(), "<OpenSimDocument", entities);
+  const OsimScene scene =
+      imported_text(with(text, "<Model name=\"phantom\"", "<Model name=\"&file;&c;\""), "osim_xml");
+  EXPECT_EQ(parse_scene(scene.text, kScene).title, "&file;&c;, right knee");
+}
+
 // Four strands of the model name an object that it does not hold. Here it does: an ellipsoid on the tibia
 // whose axes are turned about x, y and z, as turned so far, and a torus, by OpenSim's names of its radii.
 TEST(OsimImport, TakesWrapObjectsOver) {

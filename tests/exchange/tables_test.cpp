@@ -59,6 +59,9 @@ TEST(CsvOfARun, QuotesNamesThatNeedIt) {
   run.scene.ligaments[0].name = "a, \"b\"";
   const std::string text = csv_of_poses(run, shown_poses(run, "run.h5"));
   EXPECT_NE(text.find(",ligament,\"a, \"\"b\"\"\",force,14,N\n"), std::string::npos) << text;
+  run.scene.ligaments[0].name = "=1+1";
+  EXPECT_NE(csv_of_poses(run, shown_poses(run, "run.h5")).find(",ligament,\"'=1+1\",force,14,N\n"),
+            std::string::npos);                     // no formula to a spreadsheet
   EXPECT_EQ(text.find("\n1,"), std::string::npos);  // the pose that failed
   EXPECT_EQ(text.find("nan"), std::string::npos);
 }

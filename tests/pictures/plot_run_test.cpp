@@ -50,7 +50,7 @@ TEST(PlotRun, ContactsKeepTheirNames) {
 TEST(PlotRun, WritesPicturesOfEveryChart) {
   if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   auto run = block_run();
-  run.scene.title = "O'Brien's knee `date` \"x\" \\ $HOME_ {a}^2";
+  run.scene.title = "'s O'Brien's knee `date` \"x\" \\ $HOME_ {a}^2";
   run.sweep.poses[1].status = PoseStatus::kDiverged;
   const auto files =
       plot_run(run, test::fresh_folder("condyle_plots"), {PlotFormat::kPng, PlotFormat::kSvg});
@@ -146,10 +146,10 @@ TEST(PlotRun, RunsOverEachOtherShareColoursAndDifferInLines) {
   EXPECT_NE(curves[2].color, curves[0].color);
   EXPECT_EQ(forces->chart.runs, (std::vector<std::string>{"first", "second"}));
   const std::string script = gnuplot_script(forces->chart, PlotFormat::kPng);
-  EXPECT_NE(script.find("title 'first'"), std::string::npos);
-  const std::size_t once = script.find("title 'lateral'");
+  EXPECT_NE(script.find("title \"first\""), std::string::npos);
+  const std::size_t once = script.find("title \"lateral\"");
   EXPECT_NE(once, std::string::npos);
-  EXPECT_EQ(script.find("title 'lateral'", once + 1), std::string::npos);
+  EXPECT_EQ(script.find("title \"lateral\"", once + 1), std::string::npos);
 }
 
 TEST(PlotRun, ManyCurvesOfSeveralRunsAreDividedSoThatNoColourStandsForTwo) {
@@ -231,7 +231,7 @@ TEST(PlotRun, APoseBeyondAnEdgeIsAHollowPointInAGap) {
   EXPECT_NEAR(medial.hollow_x[0], 28.6478898, 1e-6);  // 0.5 rad
   const std::string script = gnuplot_script(chart, PlotFormat::kPng);
   EXPECT_NE(script.find("pointtype 6"), std::string::npos);
-  EXPECT_NE(script.find("title 'left patch'"), std::string::npos);
+  EXPECT_NE(script.find("title \"left patch\""), std::string::npos);
   run.sweep.poses[1].status = PoseStatus::kSingular;
   const std::string none = gnuplot_script(contact_force_chart(run), PlotFormat::kPng);
   EXPECT_EQ(none.find("left patch"), std::string::npos);

@@ -37,13 +37,6 @@ std::string direction(const Vector3d& v) {
   return fmt::format("[{:.12f}, {:.12f}, {:.12f}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
 
-/// As a comment: one line.
-std::string comment(const std::string& text) {
-  std::string result = "# ";
-  for (const char c : text) result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-  return result;
-}
-
 class SceneText {
  public:
   SceneText(const NewKnee& knee, const fs::path& scene) : knee_(knee), scene_(scene) {}
@@ -65,7 +58,7 @@ class SceneText {
     fmt::format_to(std::back_inserter(text_), format, std::forward<T>(values)...);
     text_ += '\n';
   }
-  void say(const std::string& remark) { line("{}", comment(remark)); }
+  void say(const std::string& remark) { line("{}", scene_comment(remark)); }
 
   [[nodiscard]] bool right() const { return knee_.shape.side == Side::kRight; }
 

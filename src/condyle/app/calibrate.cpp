@@ -14,6 +14,7 @@
 #include "condyle/app/progress.h"
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
+#include "condyle/app/tell.h"
 #include "condyle/calibration/calibration_words.h"
 #include "condyle/input_error.h"
 #include "condyle/results/calibration_journal.h"
@@ -156,7 +157,7 @@ int report_failures(const CalibrateCommand& command, const CalibrationResult& re
     if (rows->lost > 0)
       lines.push_back(
           fmt::format("{} of {} {} rows have no pose", rows->lost, rows->rows, rows->name));
-  for (const std::string& line : lines) fmt::print(stderr, "condyle: {}\n", line);
+  for (const std::string& line : lines) tell(stderr, "condyle: {}\n", line);
   return lines.empty() ? 0 : kNoWholeFit;
 }
 
@@ -209,7 +210,7 @@ int run_calibrate(const CalibrateCommand& command) {
   CommandSummary facts = clock.summary(talk, command.output, status);
   facts.files = files;
   if (!journal.failure().empty()) {
-    fmt::print(stderr, "condyle: {}\n", journal.failure());
+    tell(stderr, "condyle: {}\n", journal.failure());
     facts.warnings.push_back(journal.failure());
   }
   return finish(talk, facts, run);

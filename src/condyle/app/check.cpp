@@ -11,6 +11,7 @@
 #include "condyle/app/begin_study.h"
 #include "condyle/app/commands.h"
 #include "condyle/app/start_run.h"
+#include "condyle/app/tell.h"
 #include "condyle/network/simulate.h"
 #include "condyle/report/summary_json.h"
 #include "condyle/results/output_file.h"
@@ -38,8 +39,8 @@ Eigen::Vector3d extent(const TriangleMesh& mesh) {
 
 void print_mesh(const MeshFile& file, const TriangleMesh& mesh) {
   const Eigen::Vector3d size = extent(mesh);
-  fmt::print("mesh       {}: {} triangles, {:.4g} x {:.4g} x {:.4g} mm\n",
-             file.path.filename().string(), mesh.triangles.size(), size.x(), size.y(), size.z());
+  tell("mesh       {}: {} triangles, {:.4g} x {:.4g} x {:.4g} mm\n", file.path.filename().string(),
+       mesh.triangles.size(), size.x(), size.y(), size.z());
 }
 
 // Loading is the check: a mesh that cannot be used throws.
@@ -64,7 +65,7 @@ void print_mass(const Scene& scene) {
   const Eigen::Vector3d moments =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mass.inertia).eigenvalues();
   constexpr double kKilogram = 1e-3;  // tonne
-  fmt::print(
+  tell(
       "mass       {}: {:.4g} kg, centre ({:.4g}, {:.4g}, {:.4g}) mm, principal moments {:.4g}, "
       "{:.4g}, {:.4g} kg mm^2\n",
       scene.bodies[scene.moving_body()].name, mass.mass / kKilogram, mass.center.x(),
@@ -81,11 +82,11 @@ int run_check(const CheckOptions& options) {
   std::vector<TriangleMesh> bones;
   for (const BodyDescription& body : scene.bodies) bones.push_back(load_body_mesh(body));
   fit_wraps(scene, bones);
-  fmt::print("{}", describe(scene));
+  tell("{}", describe(scene));
   print_meshes(scene, bones);
-  for (const std::string& line : describe_wrap_fits(scene)) fmt::print("{}\n", line);
+  for (const std::string& line : describe_wrap_fits(scene)) tell("{}\n", line);
   const std::vector<std::string> warnings = wrap_warnings(scene, bones);
-  for (const std::string& line : warnings) fmt::print("{}\n", line);
+  for (const std::string& line : warnings) tell("{}\n", line);
   if (scene.simulation) print_mass(scene);
 #ifdef CONDYLE_PICTURES
   if (!options.report.empty()) {
@@ -93,7 +94,7 @@ int run_check(const CheckOptions& options) {
     std::vector<std::string> remarks;
     std::copy_if(run.start.begin(), run.start.end(), std::back_inserter(remarks), is_warning);
     write_scene_page(options.report, run, remarks);
-    fmt::print("wrote {}\n", options.report);
+    tell("wrote {}\n", options.report);
   }
 #endif
   return 0;

@@ -1,4 +1,5 @@
 #include "condyle/compare/compare.h"
+#include "condyle/app/tell.h"
 
 #include <fmt/format.h>
 
@@ -65,9 +66,9 @@ int run_compare(const CompareCommand& command) {
   write_run(command.output, run);
   say(talk, "wrote {}\n", command.output);
   const SweptQuantity swept = swept_quantity(run);
-  for (const std::string& line : failures(swept, ours)) fmt::print(stderr, "condyle: {}\n", line);
+  for (const std::string& line : failures(swept, ours)) tell(stderr, "condyle: {}\n", line);
   for (const std::string& line : failures(swept, comparison->reference))
-    fmt::print(stderr, "condyle: reference: {}\n", line);
+    tell(stderr, "condyle: reference: {}\n", line);
   const auto all = static_cast<int>(ours.poses.size());
   const bool both = ours.count_converged() == all && comparison->reference.count_converged() == all;
   return finish(talk, clock.summary(talk, command.output, both ? 0 : kSomePoseFailed), run);

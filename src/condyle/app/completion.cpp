@@ -5,6 +5,7 @@
 
 #include "condyle/app/command_tree.h"
 #include "condyle/app/commands.h"
+#include "condyle/app/tell.h"
 #include "condyle/input_error.h"
 
 namespace condyle {
@@ -188,7 +189,7 @@ void setup_completion(CLI::App& program, int& status) {
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));
   command->footer("Example: source <(condyle completion bash)");
   command->callback([&program, shell, &status] {
-    fmt::print("{}", completion_script(program_facts(program), *shell));
+    tell("{}", completion_script(program_facts(program), *shell));
     status = 0;
   });
 }

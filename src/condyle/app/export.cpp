@@ -6,10 +6,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "condyle/app/commands.h"
+#include "condyle/app/tell.h"
 #include "condyle/exchange/csv_run.h"
 #include "condyle/exchange/glb_run.h"
 #include "condyle/exchange/opensim_run.h"
@@ -83,8 +85,8 @@ int report_failures(const ExportCommand& command, const Run& run) {
     for (const PoseResult& pose : run.sweep.poses) asked.push_back(&pose);
   for (const PoseResult* pose : asked) {
     if (pose->converged()) continue;
-    fmt::print(stderr, "condyle: {} {:g} {}: {}\n", has_place(*pose) ? "marked" : "left out",
-               swept.shown(pose->value), swept.unit.name, name(pose->status));
+    tell(stderr, "condyle: {} {:g} {}: {}\n", has_place(*pose) ? "marked" : "left out",
+         swept.shown(pose->value), swept.unit.name, name(pose->status));
     status = kSomePoseFailed;
   }
   return status;
@@ -156,7 +158,19 @@ void make_folder(const fs::path& folder) {
   }
 }
 
+/// Of "a b" and "a_b" the files have one name.
+void expect_names_that_differ(const fs::path& folder, const std::vector<ExportFile>& files) {
+  std::set<fs::path> names;
+  for (const ExportFile& file : files)
+    if (!names.insert(file.path).second)
+      throw InputError(
+          fmt::format("{}: two surfaces would be in this file, expected names that differ in "
+                      "letters and digits",
+                      (folder / file.path).string()));
+}
+
 void write_folder(const fs::path& folder, const std::vector<ExportFile>& files) {
+  expect_names_that_differ(folder, files);
   make_folder(folder);
   std::size_t quiet = 0;
   for (const ExportFile& file : files) {
@@ -165,9 +179,9 @@ void write_folder(const fs::path& folder, const std::vector<ExportFile>& files) 
     if (file.path.has_parent_path())
       ++quiet;
     else
-      fmt::print("wrote {}\n", (folder / file.path).string());
+      tell("wrote {}\n", (folder / file.path).string());
   }
-  if (quiet > 0) fmt::print("wrote {} files in folders beside them\n", quiet);
+  if (quiet > 0) tell("wrote {} files in folders beside them\n", quiet);
 }
 
 int run_export(const ExportCommand& command) {
@@ -188,7 +202,7 @@ int run_export(const ExportCommand& command) {
                  exporter.folder(command.formats.empty() ? kDefaultFormats : command.formats));
   } else {
     write_output_file(command.output, exporter.bytes(ending));
-    fmt::print("wrote {}\n", command.output);
+    tell("wrote {}\n", command.output);
   }
   return report_failures(command, run);
 }

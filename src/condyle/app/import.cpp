@@ -9,6 +9,7 @@
 
 #include "condyle/app/begin_study.h"
 #include "condyle/app/commands.h"
+#include "condyle/app/tell.h"
 #include "condyle/exchange/laxity_tables.h"
 #include "condyle/exchange/osim_scene.h"
 #include "condyle/exchange/ply_file.h"
@@ -58,8 +59,8 @@ int import_tests(ImportCommand& command) {
   refuse_to_overwrite(command.output, inputs);
   const LaxityTable table = laxity_table(files, command.tests);
   write_output_file(command.output, table.text);
-  for (const std::string& note : table.notes) fmt::print("{}\n", note);
-  fmt::print("wrote {}\n", command.output);
+  for (const std::string& note : table.notes) tell("{}\n", note);
+  tell("wrote {}\n", command.output);
   return 0;
 }
 
@@ -77,12 +78,12 @@ int import_model(ImportCommand& command) {
   }
   (void)parse_scene(scene.text, command.output);  // what is written can be read
   write_output_file(command.output, scene.text);
-  fmt::print("{}: joint {}, femur {}, tibia {}, {} ligaments\n", file, knee.joint, knee.femur.name,
-             knee.tibia.name, knee.ligaments.size());
-  fmt::print("Not taken over as it is:\n");
-  for (const std::string& note : scene.notes) fmt::print("  {}\n", note);
-  for (const OsimMovedMesh& moved : scene.meshes) fmt::print("wrote {}\n", moved.file.string());
-  fmt::print("wrote {}\n", command.output);
+  tell("{}: joint {}, femur {}, tibia {}, {} ligaments\n", file, knee.joint, knee.femur.name,
+       knee.tibia.name, knee.ligaments.size());
+  tell("Not taken over as it is:\n");
+  for (const std::string& note : scene.notes) tell("  {}\n", note);
+  for (const OsimMovedMesh& moved : scene.meshes) tell("wrote {}\n", moved.file.string());
+  tell("wrote {}\n", command.output);
   return 0;
 }
 

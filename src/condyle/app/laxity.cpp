@@ -1,4 +1,5 @@
 #include "condyle/compare/laxity.h"
+#include "condyle/app/tell.h"
 
 #include <fmt/format.h>
 
@@ -31,9 +32,8 @@ int report_failures(const SweptQuantity& swept, const LaxityResult& result) {
   int status = 0;
   const auto report = [&](const LaxityCurve& curve, const SweepResult& sweep, const char* model) {
     for (const std::string& line : failures(swept, sweep)) {
-      fmt::print(stderr, "condyle: {} deg, {}{}: {}\n",
-                 std::round(1e6 * curve.flexion / kDegree) / 1e6, curve.cut ? "cut" : "intact",
-                 model, line);
+      tell(stderr, "condyle: {} deg, {}{}: {}\n", std::round(1e6 * curve.flexion / kDegree) / 1e6,
+           curve.cut ? "cut" : "intact", model, line);
       status = kSomePoseFailed;
     }
   };

@@ -8,6 +8,7 @@
 
 #include "condyle/app/commands.h"
 #include "condyle/app/program.h"
+#include "condyle/app/tell.h"
 
 namespace condyle {
 namespace {
@@ -33,7 +34,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     std::fputs("condyle: not enough memory\n", stderr);
   } catch (const std::exception& error) {  // InputError above all
-    std::fprintf(stderr, "condyle: %s\n", error.what());
+    condyle::tell(stderr, "condyle: {}\n", condyle::printable_line(error.what()));
   }
   return condyle::kBadInput;
 }

@@ -6,6 +6,7 @@
 
 #include "condyle/app/command_tree.h"
 #include "condyle/app/commands.h"
+#include "condyle/app/tell.h"
 #include "condyle/version.h"
 
 namespace condyle {
@@ -102,7 +103,7 @@ void setup_manual(CLI::App& program, int& status) {
   CLI::App* command = program.add_subcommand("manual", "Print the manual page, for man");
   command->footer("Example: condyle manual | man -l -");
   command->callback([&program, &status] {
-    fmt::print("{}", manual_page(program_facts(program), CONDYLE_VERSION));
+    tell("{}", manual_page(program_facts(program), CONDYLE_VERSION));
     status = 0;
   });
 }

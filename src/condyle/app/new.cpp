@@ -16,6 +16,7 @@
 #include "condyle/app/commands.h"
 #include "condyle/app/default_template.h"
 #include "condyle/app/start_run.h"
+#include "condyle/app/tell.h"
 #include "condyle/input_error.h"
 #include "condyle/mesh_files/mesh_bytes.h"
 #include "condyle/results/output_file.h"
@@ -66,45 +67,43 @@ void check_outputs(const NewCommand& command, const NewKneeFiles& files) {
 }
 
 void print_shape(const NewKnee& knee) {
-  fmt::print("unit       {}\n", unit_name(knee.shape.to_mm));
-  fmt::print("side       {}, {:.1f} % sure: {}\n",
-             knee.shape.side == Side::kRight ? "right" : "left", 100 * knee.shape.side_confidence,
-             knee.shape.side_evidence);
-  fmt::print("femur      {:.1f} mm wide; {}\n", knee.shape.femur.width, knee.shape.femur.rule);
-  fmt::print("tibia      {:.1f} mm wide; {}\n", knee.shape.tibia.width, knee.shape.tibia.rule);
+  tell("unit       {}\n", unit_name(knee.shape.to_mm));
+  tell("side       {}, {:.1f} % sure: {}\n", knee.shape.side == Side::kRight ? "right" : "left",
+       100 * knee.shape.side_confidence, knee.shape.side_evidence);
+  tell("femur      {:.1f} mm wide; {}\n", knee.shape.femur.width, knee.shape.femur.rule);
+  tell("tibia      {:.1f} mm wide; {}\n", knee.shape.tibia.width, knee.shape.tibia.rule);
 }
 
 void print_ligaments(const NewKnee& knee) {
-  fmt::print("template   {}: {}\n", knee.files.template_scene.string(), knee.model.scene.title);
+  tell("template   {}: {}\n", knee.files.template_scene.string(), knee.model.scene.title);
   for (const auto& [carried, bone] : {std::pair{&knee.femur, "femur"}, {&knee.tibia, "tibia"}})
-    fmt::print(
+    tell(
         "           {}: {:.2f}, {:.2f}, {:.2f} times as large (anterior, proximal, lateral), "
         "surfaces to "
         "{:.1f} mm rms\n",
         bone, carried->size.x(), carried->size.y(), carried->size.z(), carried->rms);
-  fmt::print("ligament     end    moved  sure to [mm]\n");
+  tell("ligament     end    moved  sure to [mm]\n");
   for (const NewLigament& ligament : knee.ligaments)
     for (std::size_t k = 0; k < 2; ++k)
-      fmt::print(
-          "  {:<10} {}  {:5.1f}  {:5.1f}\n",
-          k == 0 ? knee.model.scene.ligaments[static_cast<std::size_t>(ligament.of_template)].name
-                 : std::string(),
-          ligament.on_femur[k] ? "femur" : "tibia", ligament.ends[k].moved,
-          ligament.ends[k].uncertainty);
+      tell("  {:<10} {}  {:5.1f}  {:5.1f}\n",
+           k == 0 ? knee.model.scene.ligaments[static_cast<std::size_t>(ligament.of_template)].name
+                  : std::string(),
+           ligament.on_femur[k] ? "femur" : "tibia", ligament.ends[k].moved,
+           ligament.ends[k].uncertainty);
 }
 
 void print_start(const NewKnee& knee) {
   const NewStart& start = knee.start;
   const auto degrees = [](double angle) { return std::round(angle * 1800 / M_PI) / 10 + 0.0; };
-  fmt::print("scan       flexion {:.1f}, adduction {:.1f}, internal rotation {:.1f} degrees\n",
-             degrees(start.scan.flexion), degrees(start.scan.adduction),
-             degrees(start.scan.internal_rotation));
-  fmt::print(
+  tell("scan       flexion {:.1f}, adduction {:.1f}, internal rotation {:.1f} degrees\n",
+       degrees(start.scan.flexion), degrees(start.scan.adduction),
+       degrees(start.scan.internal_rotation));
+  tell(
       "start      flexed by {:.1f} degrees, {:.2f} mm along the tibia, adducted by {:.2f} "
       "degrees\n",
       degrees(-start.extended), start.shifted, degrees(start.tilted));
-  if (!knee.doubts.empty()) fmt::print("To look at:\n");
-  for (const std::string& doubt : knee.doubts) fmt::print("  {}\n", doubt);
+  if (!knee.doubts.empty()) tell("To look at:\n");
+  for (const std::string& doubt : knee.doubts) tell("  {}\n", doubt);
 }
 
 int run_new(const NewCommand& command) {
@@ -121,8 +120,8 @@ int run_new(const NewCommand& command) {
   print_shape(knee);
   print_ligaments(knee);
   print_start(knee);
-  if (!command.report.empty()) fmt::print("wrote {}\n", command.report);
-  fmt::print("wrote {}\n", command.output);
+  if (!command.report.empty()) tell("wrote {}\n", command.report);
+  tell("wrote {}\n", command.output);
   return 0;
 }
 

@@ -14,6 +14,7 @@
 #include "condyle/app/progress.h"
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
+#include "condyle/app/tell.h"
 #include "condyle/input_error.h"
 #include "condyle/pictures/knee_picture.h"
 #include "condyle/pictures/movie.h"
@@ -100,9 +101,9 @@ int keep_drawable(const Run& run, const SweptQuantity& swept, std::vector<std::s
   std::erase_if(poses, [&](std::size_t pose) {
     const PoseResult& result = run.sweep.poses[pose];
     if (result.converged()) return false;
-    fmt::print(stderr, "condyle: {} at {}: {}\n",
-               has_place(result) ? "picture with a mark" : "no picture",
-               with_unit(swept, result.value), name(result.status));
+    tell(stderr, "condyle: {} at {}: {}\n",
+         has_place(result) ? "picture with a mark" : "no picture", with_unit(swept, result.value),
+         name(result.status));
     status = kSomePoseFailed;
     return !has_place(result);
   });
@@ -165,7 +166,7 @@ class Account {
     files_.push_back(file);
     if (!talk_.plain()) return;
     progress_.clear();
-    fmt::print("wrote {}\n", file.string());
+    tell("wrote {}\n", file.string());
     std::fflush(stdout);
   }
   [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }

@@ -1,4 +1,5 @@
 #include "condyle/network/simulate.h"
+#include "condyle/app/tell.h"
 
 #include <fmt/format.h>
 
@@ -30,31 +31,31 @@ struct SimulateCommand {
 /// At most some thirty rows of the table that a sweep prints.
 void print_rows(const Scene& scene, const std::vector<PoseResult>& poses) {
   const SweepTable table(scene, quantity_of_motion());
-  fmt::print("{}", table.head());
+  tell("{}", table.head());
   const std::size_t step = std::max<std::size_t>(1, poses.size() / 30);
-  for (std::size_t i = 0; i < poses.size(); i += step) fmt::print("{}", table.row(poses[i]));
+  for (std::size_t i = 0; i < poses.size(); i += step) tell("{}", table.row(poses[i]));
 }
 
 void print_events(const MotionView& motion) {
   for (const MotionEvent& event : motion.events) {
-    fmt::print("{:.6f} s: {} {}", event.time, event.contact, event.closing ? "closes" : "opens");
-    if (event.closing && event.speed > 0) fmt::print(" at {:.4g} mm/s", event.speed);
-    fmt::print("\n");
+    tell("{:.6f} s: {} {}", event.time, event.contact, event.closing ? "closes" : "opens");
+    if (event.closing && event.speed > 0) tell(" at {:.4g} mm/s", event.speed);
+    tell("\n");
   }
 }
 
 void print_balance(const MotionView& motion, double mass) {
   if (motion.energies.empty()) return;
   const auto change = [&](double MotionEnergies::*part) { return motion.change(part) / kJoule; };
-  fmt::print("\nEnergy in J: kinetic {:+.6g}, gravity {:+.6g}, ligaments {:+.6g}, ",
-             change(&MotionEnergies::kinetic), change(&MotionEnergies::gravity),
-             change(&MotionEnergies::elastic));
-  if (motion.layered) fmt::print("layers {:+.6g}, ", change(&MotionEnergies::layers));
-  fmt::print("dissipated {:.6g}, loads gave {:.6g}\n", change(&MotionEnergies::dissipated),
-             change(&MotionEnergies::work));
-  fmt::print("Balance kept to {:.1e} of the largest of them\n", motion.imbalance);
-  fmt::print("{:.3f} s of motion of {:.4g} kg in {:.3f} s, {} steps\n",
-             motion.change(&MotionEnergies::time), mass * 1e3, motion.seconds, motion.steps);
+  tell("\nEnergy in J: kinetic {:+.6g}, gravity {:+.6g}, ligaments {:+.6g}, ",
+       change(&MotionEnergies::kinetic), change(&MotionEnergies::gravity),
+       change(&MotionEnergies::elastic));
+  if (motion.layered) tell("layers {:+.6g}, ", change(&MotionEnergies::layers));
+  tell("dissipated {:.6g}, loads gave {:.6g}\n", change(&MotionEnergies::dissipated),
+       change(&MotionEnergies::work));
+  tell("Balance kept to {:.1e} of the largest of them\n", motion.imbalance);
+  tell("{:.3f} s of motion of {:.4g} kg in {:.3f} s, {} steps\n",
+       motion.change(&MotionEnergies::time), mass * 1e3, motion.seconds, motion.steps);
 }
 
 void print_motion(const Run& run) {
@@ -67,13 +68,13 @@ void print_motion(const Run& run) {
 int report_failures(const Simulation& simulation) {
   int status = 0;
   if (!simulation.motion.completed) {
-    fmt::print(stderr, "condyle: stopped {}\n", simulation.motion.reason);
+    tell(stderr, "condyle: stopped {}\n", simulation.motion.reason);
     status = kDidNotSucceed;
   }
   const auto failed = std::find_if(simulation.poses.begin(), simulation.poses.end(),
                                    [](const PoseResult& pose) { return !pose.converged(); });
   if (failed != simulation.poses.end()) {
-    fmt::print(stderr, "condyle: at {:.6g} s: {}\n", failed->value, failed->reason);
+    tell(stderr, "condyle: at {:.6g} s: {}\n", failed->value, failed->reason);
     status = kDidNotSucceed;
   }
   return status;

@@ -7,6 +7,7 @@
 
 #include "condyle/app/commands.h"
 #include "condyle/app/progress.h"
+#include "condyle/app/tell.h"
 #include "condyle/report/study_json.h"
 #include "condyle/results/output_file.h"
 #include "condyle/results/study_file.h"
@@ -93,7 +94,7 @@ int complete_already(const StudyWork& work) {
   say(work.talk(), "{} holds all of this study already\n", work.command.output);
   CommandSummary facts = work.clock.summary(work.talk(), work.command.output, 0);
   facts.files = write_summary_tables(work, view);
-  if (work.talk().json) fmt::print("{}\n", json_study(facts, view));
+  if (work.talk().json) tell("{}\n", json_study(facts, view));
   return facts.exit_code;
 }
 
@@ -102,10 +103,10 @@ int stopped_study(const StudyWork& work, const StudyJournals& journals) {
   const std::string line =
       fmt::format("stopped: {} holds {} of {} chunks, --resume goes on from there",
                   work.folder().string(), journals.count(), chunk_count(work.plan));
-  fmt::print(stderr, "condyle: {}\n", line);
+  tell(stderr, "condyle: {}\n", line);
   facts.warnings.push_back(line);
   if (work.talk().json)
-    fmt::print("{}\n", json_part_of_study(facts, journals.count(), chunk_count(work.plan)));
+    tell("{}\n", json_part_of_study(facts, journals.count(), chunk_count(work.plan)));
   return facts.exit_code;
 }
 
@@ -115,7 +116,7 @@ int finished_part(const StudyWork& work, const StudyJournals& journals) {
       work.command.part.i, work.command.part.n, journals.count(), chunk_count(work.plan),
       work.folder().string());
   if (work.talk().json)
-    fmt::print("{}\n", json_part_of_study(facts, journals.count(), chunk_count(work.plan)));
+    tell("{}\n", json_part_of_study(facts, journals.count(), chunk_count(work.plan)));
   return 0;
 }
 
@@ -129,12 +130,12 @@ int finished_study(const StudyWork& work, StudyJournals& journals) {
   std::vector<std::string> failures = nominal_failures(work);
   if (view.all.failures.poses > 0 && view.all.failures.failed == view.all.failures.poses)
     failures.emplace_back("no pose of any sample converged");
-  for (const std::string& line : failures) fmt::print(stderr, "condyle: {}\n", line);
+  for (const std::string& line : failures) tell(stderr, "condyle: {}\n", line);
   CommandSummary facts =
       work.clock.summary(work.talk(), work.command.output, failures.empty() ? 0 : kSomePoseFailed);
   facts.files = files;
   facts.warnings = failures;
-  if (work.talk().json) fmt::print("{}\n", json_study(facts, view));
+  if (work.talk().json) tell("{}\n", json_study(facts, view));
   return facts.exit_code;
 }
 

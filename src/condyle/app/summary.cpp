@@ -4,6 +4,7 @@
 
 #include "condyle/app/print_fit.h"
 #include "condyle/app/progress.h"
+#include "condyle/app/tell.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/specimen/fit_wraps.h"
 #include "condyle/version.h"
@@ -25,7 +26,7 @@ std::vector<FittedSurface> fit_aloud(const Talk& talk, Scene& scene) {
 void tell_warnings(const Talk& talk, const Run& run) {
   if (talk.quiet) return;
   for (const std::string& line : start_and_fit_warnings(run))
-    fmt::print(stderr, "condyle: warning: {}\n", line);
+    tell(stderr, "condyle: warning: {}\n", line);
 }
 
 CommandSummary CommandClock::summary(const Talk& talk,
@@ -42,7 +43,7 @@ CommandSummary CommandClock::summary(const Talk& talk,
 }
 
 int finish(const Talk& talk, const CommandSummary& summary, const Run& run) {
-  if (talk.json) fmt::print("{}\n", json_summary(summary, run));
+  if (talk.json) tell("{}\n", json_summary(summary, run));
   return summary.exit_code;
 }
 

@@ -1,4 +1,5 @@
 #include "condyle/equilibrium/sweep.h"
+#include "condyle/app/tell.h"
 
 #include <fmt/format.h>
 
@@ -55,7 +56,7 @@ SweepResult sweep_aloud(const Talk& talk,
   options.on_pose = [&](const PoseResult& pose) {
     if (talk.plain()) {
       progress.clear();
-      fmt::print("{}", table.row(pose));
+      tell("{}", table.row(pose));
       std::fflush(stdout);
     }
     progress.at(++done, total);
@@ -128,9 +129,9 @@ int run_sweep(const SweepCommand& command) {
   for (const std::string& line : event_lines(scene, swept_quantity(run), result))
     say(talk, "{}\n", line);
   write_result(command, run, journal);
-  if (!journal.failure().empty()) fmt::print(stderr, "condyle: {}\n", journal.failure());
+  if (!journal.failure().empty()) tell(stderr, "condyle: {}\n", journal.failure());
   for (const std::string& line : failures(swept_quantity(run), result))
-    fmt::print(stderr, "condyle: {}\n", line);
+    tell(stderr, "condyle: {}\n", line);
   const bool all = result.count_converged() == static_cast<int>(result.poses.size());
   CommandSummary facts = clock.summary(talk, command.output, all ? 0 : kSomePoseFailed);
   if (!journal.failure().empty()) facts.warnings.push_back(journal.failure());

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 
+#include "condyle/app/tell.h"
 #include "condyle/report/summary_json.h"
 #include "condyle/version.h"
 
@@ -20,7 +21,7 @@ int run_telling_errors(const Talk& talk, const std::function<int()>& work) {
   try {
     return work();
   } catch (const std::exception& error) {
-    fmt::print("{}\n", json_error(talk.command, CONDYLE_VERSION, error.what()));
+    tell("{}\n", json_error(talk.command, CONDYLE_VERSION, error.what()));
     throw;
   }
 }

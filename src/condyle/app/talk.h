@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "condyle/app/tell.h"
+
 namespace CLI {
 class App;
 }
@@ -26,7 +28,7 @@ void add_talk_options(CLI::App& command, Talk& talk);
 
 template <class... Values>
 void say(const Talk& talk, fmt::format_string<Values...> format, Values&&... values) {
-  if (talk.plain()) fmt::print(format, std::forward<Values>(values)...);
+  if (talk.plain()) tell(format, std::forward<Values>(values)...);
 }
 
 /// The work of a command; with --json an error becomes {"command", "error", ...} on the standard

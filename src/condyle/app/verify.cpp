@@ -1,4 +1,5 @@
 #include "condyle/verify/verify.h"
+#include "condyle/app/tell.h"
 
 #include <fmt/format.h>
 
@@ -49,10 +50,10 @@ int run_verify(const VerifyCommand& command) {
   for (const std::string& line : verification.not_checked) say(talk, "not checked: {}\n", line);
   say(talk, "{}\n", verdict(verification));
   std::fflush(stdout);
-  for (const Fault& fault : verification.faults) fmt::print(stderr, "condyle: {}\n", fault.text);
+  for (const Fault& fault : verification.faults) tell(stderr, "condyle: {}\n", fault.text);
   const CommandSummary facts =
       clock.summary(talk, command.run, verification.verified() ? 0 : kSomePoseIsFalse);
-  if (talk.json) fmt::print("{}\n", json_verification(facts, run, verification));
+  if (talk.json) tell("{}\n", json_verification(facts, run, verification));
   return facts.exit_code;
 }
 

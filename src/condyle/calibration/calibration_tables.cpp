@@ -5,18 +5,12 @@
 #include <cmath>
 
 #include "condyle/calibration/calibration_words.h"
+#include "condyle/calibration/csv_text.h"
 #include "condyle/calibration/told_parameter.h"
 #include "condyle/calibration/told_units.h"
 
 namespace condyle {
 namespace {
-
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
 
 /// Empty for a number that is none.
 std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
@@ -31,6 +25,10 @@ std::string latex_text(const std::string& text) {
       case '^':
       case '~':
         escaped += fmt::format("\\{}{{}}", c);
+        break;
+      case '[':  // after the end of a row these two would be part of it
+      case '*':
+        escaped += fmt::format("{{{}}}", c);
         break;
       case '{':
       case '}':

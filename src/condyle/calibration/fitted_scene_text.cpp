@@ -163,13 +163,11 @@ std::string first_line(const CalibrationResult& result) {
   const MeasurementTable& table = result.table;
   const std::string specimen =
       table.specimen.empty() ? "" : fmt::format(", specimen {}", table.specimen);
-  std::string line =
-      fmt::format("# Fitted by condyle calibrate to {}{}: {} numbers of {} rows{}",
-                  table.file.filename().string(), specimen, result.fit.theta.size(),
-                  result.fitted.rows, result.stopped ? "; stopped before the least" : "");
-  for (char& c : line)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  return line + "\n";
+  return scene_comment(fmt::format("Fitted by condyle calibrate to {}{}: {} numbers of {} rows{}",
+                                   table.file.filename().string(), specimen,
+                                   result.fit.theta.size(), result.fitted.rows,
+                                   result.stopped ? "; stopped before the least" : "")) +
+         "\n";
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "condyle/app/program.h"
+#include "condyle/app/tell.h"
 #include "condyle/cluster/chunk_counter.h"
 #include "condyle/input_error.h"
 
@@ -64,10 +65,10 @@ Ranks::~Ranks() {
 
 void Ranks::end_all(const std::string& message) const {
   if (rank_ == 0) {
-    fmt::print(stderr, "condyle-mpi: {}\n", message);
+    tell(stderr, "condyle-mpi: {}\n", printable_line(message));
   } else {
     std::this_thread::sleep_for(kAfterRankZero);
-    fmt::print(stderr, "condyle-mpi: rank {} on {}: {}\n", rank_, machine(), message);
+    tell(stderr, "condyle-mpi: rank {} on {}: {}\n", rank_, machine(), printable_line(message));
   }
   std::fflush(stderr);
   MPI_Abort(MPI_COMM_WORLD, kBadInput);

@@ -5,15 +5,10 @@
 #include <cmath>
 #include <iterator>
 
+#include "condyle/calibration/csv_text.h"
 #include "condyle/exchange/run_table.h"
 
 namespace condyle {
-std::string csv_quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + '"';
-}
 
 std::string csv_of_poses(const Run& run, const std::vector<ShownPose>& shown) {
   const SweptQuantity quantity = swept_quantity(run);
@@ -25,7 +20,7 @@ std::string csv_of_poses(const Run& run, const std::vector<ShownPose>& shown) {
     for (const TableColumn& column : columns) {
       if (!std::isfinite(column.values[i])) continue;
       fmt::format_to(std::back_inserter(text), "{}{},{},{},{},{}\n", head, column.quantity,
-                     csv_quoted(column.name), csv_quoted(column.component), column.values[i],
+                     csv_text(column.name), csv_text(column.component), column.values[i],
                      column.unit);
     }
   }

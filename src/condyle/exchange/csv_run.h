@@ -12,9 +12,6 @@
 
 namespace condyle {
 
-/// A text quoted where it holds a comma, a quote or a line's end (RFC 4180).
-[[nodiscard]] std::string csv_quoted(const std::string& text);
-
 /// Numbers with the fewest digits that give back the same bits; what a pose does not have gets no
 /// row.
 [[nodiscard]] std::string csv_of_poses(const Run& run, const std::vector<ShownPose>& shown);

@@ -57,10 +57,11 @@ class SceneText {
   }
 
   [[nodiscard]] std::string head() const {
-    std::string text = fmt::format("title = {}\n# From {}, joint {}. Not in this scene:\n",
-                                   scene_string(fmt::format("{}, {} knee", model_.name, side())),
-                                   file_.filename().string(), knee_.joint);
-    for (const std::string& note : out_.notes) text += "# - " + note + "\n";
+    std::string text = fmt::format(
+        "title = {}\n{}\n", scene_string(fmt::format("{}, {} knee", model_.name, side())),
+        scene_comment(fmt::format(
+            "From {}, joint {}. Not in this scene:", file_.filename().string(), knee_.joint)));
+    for (const std::string& note : out_.notes) text += scene_comment("- " + note) + "\n";
     return text + "\n[units]\nlength = \"mm\"\nangle = \"deg\"\nforce = \"N\"\n";
   }
 
@@ -166,9 +167,10 @@ class SceneText {
   }
 
   void add_bodies() {
-    line("\n[[body]]\nname = \"femur\"                   # {}\nfixed = true", knee_.femur.name);
+    line("\n[[body]]\nname = \"femur\"                   {}\nfixed = true",
+         scene_comment(knee_.femur.name));
     add_bone(knee_.femur);
-    line("\n[[body]]\nname = \"tibia\"                   # {}", knee_.tibia.name);
+    line("\n[[body]]\nname = \"tibia\"                   {}", scene_comment(knee_.tibia.name));
     add_bone(knee_.tibia);
     line("start.translation = {}", numbers(knee_.X_FT.p));
     line("start.rotation = {}", numbers(log_rotation(knee_.X_FT.R) * 180 / M_PI));
@@ -187,8 +189,9 @@ class SceneText {
   void add_surface(const char* compartment, const char* part, const OsimPlacedMesh& placed) {
     const OsimMesh& mesh = placed.mesh;
     check_contact_mesh(mesh);
-    line("\n[[surface]]\nname = \"{} {}\"                   # {}\nbody = \"{}\"\nkind = \"patch\"",
-         compartment, part, mesh.name, std::string(part) == "condyle" ? "femur" : "tibia");
+    line("\n[[surface]]\nname = \"{} {}\"                   {}\nbody = \"{}\"\nkind = \"patch\"",
+         compartment, part, scene_comment(mesh.name),
+         std::string(part) == "condyle" ? "femur" : "tibia");
     line("compartment = \"{}\"", compartment);
     add_mesh(placed);
     if (!(mesh.modulus > 0)) return;

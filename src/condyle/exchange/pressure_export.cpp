@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "condyle/exchange/csv_run.h"
+#include "condyle/calibration/csv_text.h"
 #include "condyle/exchange/vtk_file.h"
 
 namespace condyle {
@@ -49,7 +49,7 @@ std::string csv_of_pressures(const Run& run, const std::vector<ShownPose>& shown
                   [&](const std::string& contact, const std::string& surface,
                       const PressurePoint& point, const Eigen::Vector3d& x) {
                     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{}\n",
-                                   head, csv_quoted(contact), csv_quoted(surface), point.place.x(),
+                                   head, csv_text(contact), csv_text(surface), point.place.x(),
                                    point.place.y(), x.x(), x.y(), x.z(), point.pressure,
                                    point.depth, point.area);
                   });

@@ -63,11 +63,18 @@ std::string range(const std::array<double, 2>& ends) {
   return "[" + end(ends[0]) + ":" + end(ends[1]) + "]";
 }
 
+/// To gnuplot a name on an axis is a format of its number.
+std::string tic_words(const std::string& text) {
+  std::string format;
+  for (const char c : text) format.append(c == '%' ? 2 : 1, c);
+  return quoted_words(format);
+}
+
 /// Names of 0, 1, ... along an axis.
 std::string names(const char* axis, const std::vector<std::string>& list, const char* more) {
   std::string tics = fmt::format("set {} (", axis);
   for (std::size_t i = 0; i < list.size(); ++i)
-    tics += fmt::format("{}{} {}", i == 0 ? "" : ", ", single_quoted(list[i]), i);
+    tics += fmt::format("{}{} {}", i == 0 ? "" : ", ", tic_words(list[i]), i);
   return tics + ") " + more + "\n";
 }
 
@@ -117,7 +124,7 @@ std::string key_script(const ChartPage& page, PlotFormat format) {
       }
     }
     script += fmt::format("set label {} at {} font 'DejaVu Sans,{:g}' textcolor '#303840'\n",
-                          single_quoted(page.key[i].words), screen(page, x + wide + 10, y),
+                          quoted_words(page.key[i].words), screen(page, x + wide + 10, y),
                           letter_size(format, kKeySize));
   }
   return script;
@@ -128,7 +135,7 @@ std::string note_script(const ChartPage& page, PlotFormat format) {
   for (std::size_t i = 0; i < page.notes.size(); ++i)
     script += fmt::format(
         "set label {} at {} font 'DejaVu Sans,{:g}' textcolor '#5a646e'\n",
-        single_quoted(page.notes[i]),
+        quoted_words(page.notes[i]),
         screen(page, kEdge, notes_top(page) + kNoteLine * (static_cast<double>(i) + 0.5)),
         letter_size(format, kNoteSize));
   return script;
@@ -138,7 +145,7 @@ std::string axis_labels(const PagePanel& panel, const ChartPage& page, double si
   const auto label = [&](const std::string& text, double x, double y, const char* more) {
     if (text.empty()) return std::string();
     return fmt::format("set label {} at {} center {} font 'DejaVu Sans,{:g}' textcolor '#303840'\n",
-                       single_quoted(text), screen(page, x, y), more, size);
+                       quoted_words(text), screen(page, x, y), more, size);
   };
   return label(panel.x_label, panel.left + panel.width / 2, panel.top + panel.height + kXLabelBelow,
                "") +
@@ -179,17 +186,17 @@ std::string axes(const PagePanel& panel, const ChartPage& page, PlotFormat forma
   script += axis_labels(panel, page, size(kLabelSize));
   if (!panel.title.empty())
     script += fmt::format("set label {} at {} font 'DejaVu Sans Bold,{:g}' textcolor '#303840'\n",
-                          single_quoted(panel.title), screen(page, panel.left, panel.top - 14),
+                          quoted_words(panel.title), screen(page, panel.left, panel.top - 14),
                           size(kLabelSize));
   for (std::size_t i = 0; i < panel.right_names.size(); ++i)
     script += fmt::format(
         "set label {} at graph 1.03, first {} left font 'DejaVu Sans,{:g}' textcolor '#5a646e'\n",
-        single_quoted(panel.right_names[i]), i, size(panel.name_size));
+        quoted_words(panel.right_names[i]), i, size(panel.name_size));
   for (const Words& words : panel.words)
     script += fmt::format(
         "set label {} at first {:.6g}, first {:.6g} center font 'DejaVu Sans,{:g}' textcolor '{}' "
         "front\n",
-        single_quoted(words.text), words.x, words.y, size(kWordsSize * panel.name_size),
+        quoted_words(words.text), words.x, words.y, size(kWordsSize * panel.name_size),
         words.light ? "#ffffff" : "#303840");
   return script;
 }

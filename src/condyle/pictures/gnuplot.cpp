@@ -107,7 +107,7 @@ std::string hollow_legend(const Panel& panel) {
   if (!has_hollow(panel)) return "";
   return fmt::format(
       ", NaN with points pointtype 6 pointsize 1.1 linewidth 1.6 linecolor '#303840' title {}",
-      single_quoted(kHollowName));
+      quoted_words(kHollowName));
 }
 
 /// One curve of the plot command; a title that stands in the legend already is left out there.
@@ -127,7 +127,7 @@ std::string curve_command(const Chart& chart,
       "{} with {} linewidth {} linecolor '{}' dashtype {} {}",
       has_line(curve) ? "$" + data + " using 1:2" : "NaN", points, 2,
       kColors[color % kColors.size()], dash,
-      keyed ? "title " + single_quoted(shortened(curve.title, kLongestName)) : "notitle");
+      keyed ? "title " + quoted_words(shortened(curve.title, kLongestName)) : "notitle");
 }
 
 /// Legend of several runs: a colour for each title, a line style for each run.
@@ -135,7 +135,7 @@ std::string run_legend(const Chart& chart, const Panel& panel, bool with_runs) {
   std::string commands;
   const auto entry = [&](const std::string& title, const char* color, int dash) {
     commands += fmt::format(", NaN with lines linewidth 2 linecolor '{}' dashtype {} title {}",
-                            color, dash, single_quoted(shortened(title, kLongestName)));
+                            color, dash, quoted_words(shortened(title, kLongestName)));
   };
   std::vector<std::string> known;
   for (const Curve& curve : panel.curves) {
@@ -168,8 +168,8 @@ std::string panel_script(const Chart& chart, std::size_t index, int height) {
       right_end(chart) + 0.015, top);
   script += "set yrange " + y_range(panel) + "\n";
   script += last ? "set format x '%g'\n" : "set format x ''\n";
-  script += "set ylabel " + single_quoted(panel.y_label) + " textcolor '#303840'\n";
-  script += "set xlabel " + single_quoted(last ? chart.x_label : "") + " textcolor '#303840'\n";
+  script += "set ylabel " + quoted_words(panel.y_label) + " textcolor '#303840'\n";
+  script += "set xlabel " + quoted_words(last ? chart.x_label : "") + " textcolor '#303840'\n";
   std::string commands;
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     if (!has_points(panel.curves[i])) continue;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "condyle/input_error.h"
 #include "condyle/pictures/picture_error.h"
@@ -29,15 +30,18 @@ double widest(const std::vector<std::string>& lines, double size) {
 
 }  // namespace
 
-std::string single_quoted(const std::string& text) {
-  std::string result = "'";
+std::string quoted_words(const std::string& text) {
+  std::string result = "\"";
   for (const char c : text) {
-    if (c == '\'')
-      result += "''";
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20)
+      result += ' ';
+    else if (std::string_view("\"\\'`@$").find(c) != std::string_view::npos)
+      result += fmt::format("\\{:03o}", byte);
     else
-      result += static_cast<unsigned char>(c) < 32 ? ' ' : c;
+      result += c;
   }
-  return result + "'";
+  return result + '"';
 }
 
 std::string shortened(const std::string& text, std::size_t most) {
@@ -108,7 +112,7 @@ std::string title_labels(const Title& title, double left, PlotFormat format, int
     script += fmt::format(
         "set label {} {} at screen {}, screen {:.5f} font 'DejaVu Sans Bold,{:g}' textcolor "
         "'#262c34'\n",
-        i + 1, single_quoted(title.lines[i]), left,
+        i + 1, quoted_words(title.lines[i]), left,
         1 - (0.45 * kHeadHeight + kTitleLine * static_cast<double>(i)) / height,
         letter_size(format, title.size));
   return script;
@@ -119,7 +123,8 @@ void draw_script(const std::string& script, const std::filesystem::path& file) {
   if (!std::filesystem::is_directory(folder))
     throw InputError(folder.string() + ": expected a folder to write " + file.filename().string() +
                      " into");
-  const ProgramResult result = run_program({"gnuplot"}, script);
+  // Nobody's settings in ~/.gnuplot.
+  const ProgramResult result = run_program({"gnuplot", "--default-settings"}, script);
   if (!result.started)
     throw PictureError("gnuplot is not installed: plots need it (Debian package gnuplot-nox)");
   if (result.exit_code != 0 || result.output.empty())

@@ -21,8 +21,9 @@ inline constexpr double kPixelPerPoint = 4.0 / 3;          // of gnuplot's PNG a
 inline constexpr std::array<const char*, 8> kColors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                                        "#E69F00", "#56B4E9", "#000000", "#8C6BB1"};
 
-/// In single quotes gnuplot takes everything as it is, except the quote itself.
-[[nodiscard]] std::string single_quoted(const std::string& text);
+/// In double quotes, with what gnuplot could take for an end, a command or a macro as octal numbers: within single quotes
+/// a text that begins with one ends at once (5.4).
+[[nodiscard]] std::string quoted_words(const std::string& text);
 /// Letters of UTF-8.
 [[nodiscard]] std::size_t letters(const std::string& text);
 /// At most `most` letters of UTF-8.

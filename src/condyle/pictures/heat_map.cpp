@@ -28,16 +28,6 @@ double cell_height(const HeatMap& map) {
   return map.rows.size() <= 24 ? 21 : 17;
 }
 
-/// A letter of gnuplot's text.
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += static_cast<unsigned char>(c) < 32 ? ' ' : c;
-  }
-  return result + "\"";
-}
-
 /// Where everything has its place, from the upper left corner of the page.
 class Page {
  public:
@@ -166,7 +156,7 @@ class Script {
              int turn = 0) {
     labels_ += fmt::format(
         "set label {} at {:.2f},{:.2f} {} rotate by {} font 'DejaVu Sans{},{:g}' textcolor '{}'\n",
-        quoted(text), x, y, align, turn, bold ? " Bold" : "", points(size), color);
+        quoted_words(text), x, y, align, turn, bold ? " Bold" : "", points(size), color);
   }
 
   void add_panel(std::size_t panel) {
@@ -216,7 +206,7 @@ class Script {
     const std::string text = in_cell(value, largest);
     if (text.empty()) return;
     numbers_ += fmt::format("{:.2f} {:.2f} {} {}\n", 0.5 * (left + right), 0.5 * (top + bottom),
-                            quoted(text), std::abs(t) > 0.62 ? 0xFFFFFFU : 0x262C34U);
+                            quoted_words(text), std::abs(t) > 0.62 ? 0xFFFFFFU : 0x262C34U);
   }
 
   /// One bar for each scale, at the foot of the page.

@@ -43,7 +43,9 @@ void Movie::write_mp4() const {
                    // H.264 wants even sides; yuv420p is what players know.
                    "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-c:v", "libx264", "-crf",
                    "18", "-pix_fmt", "yuv420p", "-fflags", "+bitexact", "-flags:v", "+bitexact",
-                   "-movflags", "+faststart", "-f", "mp4", part.string()},
+                   "-movflags", "+faststart", "-f", "mp4",
+                   // A name alone may be an option or a protocol to it.
+                   "file:" + part.string()},
                   stills_);
   std::error_code error;
   if (result.exit_code != 0) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "condyle/calibration/csv_text.h"
 #include "condyle/input_error.h"
 #include "condyle/results/output_file.h"
 #include "condyle/results/study_reduction.h"
@@ -13,16 +14,6 @@ namespace condyle {
 namespace {
 
 std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
-
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    quoted += c;
-    if (c == '"') quoted += c;
-  }
-  return quoted += '"';
-}
 
 std::string column_of(const SweptQuantity& swept) {
   return swept.unit.name == "1" ? swept.name : fmt::format("{} {}", swept.name, swept.unit.name);
@@ -46,11 +37,12 @@ std::string cells(const std::vector<std::vector<IndexEstimate>>& estimates,
 std::string head_of_samples(const StudyPlan& plan, const SweptQuantity& swept) {
   std::string head = "sample,knee";
   for (const StudyParameter& parameter : plan.parameters)
-    head.append(",").append(cell(parameter.name));
+    head.append(",").append(csv_text(parameter.name));
   head += fmt::format(",{},status", column_of(swept));
   for (const StudyOutput& output : plan.outputs)
     head += fmt::format(
-        ",{}", cell(output.unit.name == "1" ? output.name : output.name + " " + output.unit.name));
+        ",{}",
+        csv_text(output.unit.name == "1" ? output.name : output.name + " " + output.unit.name));
   return head + "\n";
 }
 
@@ -63,9 +55,10 @@ std::string bands_csv(const StudyView& view) {
     for (std::size_t o = 0; o < view.outputs.size(); ++o) {
       const StudyBand& band = summary.bands[o];
       for (std::size_t p = 0; p < view.values.size(); ++p) {
-        csv += fmt::format("{},{},{},{},{},{},{},{}", cell(knee), cell(view.outputs[o].name),
-                           view.outputs[o].units, view.values[p], band.samples[p],
-                           cell(band.nominal[p]), cell(band.mean[p]), cell(band.sd[p]));
+        csv +=
+            fmt::format("{},{},{},{},{},{},{},{}", csv_text(knee), csv_text(view.outputs[o].name),
+                        csv_text(view.outputs[o].units), view.values[p], band.samples[p],
+                        cell(band.nominal[p]), cell(band.mean[p]), cell(band.sd[p]));
         for (const std::vector<double>& quantile : band.quantiles)
           csv.append(",").append(cell(quantile[p]));
         csv += "\n";
@@ -84,10 +77,10 @@ std::string indices_csv(const StudyView& view) {
       const StudyEffects& effects = summary.effects[o];
       for (std::size_t p = 0; p < view.values.size(); ++p)
         for (std::size_t i = 0; i < view.parameters.size(); ++i)
-          csv += fmt::format("{},{},{},{},{},{},{}\n", cell(knee), cell(view.outputs[o].name),
-                             view.values[p], cell(view.parameters[i].name),
-                             cells(effects.first, i, p), cells(effects.total, i, p),
-                             effects.rank.empty() ? "" : cell(effects.rank[i][p]));
+          csv += fmt::format(
+              "{},{},{},{},{},{},{}\n", csv_text(knee), csv_text(view.outputs[o].name),
+              view.values[p], csv_text(view.parameters[i].name), cells(effects.first, i, p),
+              cells(effects.total, i, p), effects.rank.empty() ? "" : cell(effects.rank[i][p]));
     }
   });
   return csv;
@@ -110,11 +103,12 @@ void write_sample_table(const std::filesystem::path& path,
     for (std::uint64_t i = 0; i < chunk.samples; ++i) {
       const std::uint64_t sample = c * kChunkSamples + i;
       plan.theta(sample, theta);
-      std::string begin = fmt::format("{},{}", sample, cell(knees[plan.knee_of(sample)]));
+      std::string begin = fmt::format("{},{}", sample, csv_text(knees[plan.knee_of(sample)]));
       for (const double number : theta) begin.append(",").append(cell(number));
       for (const double swept_value : plan.values) {
-        std::string row = fmt::format("{},{},{}", begin, swept.shown(swept_value),
-                                      cell(std::string(name(static_cast<PoseStatus>(*status++)))));
+        std::string row =
+            fmt::format("{},{},{}", begin, swept.shown(swept_value),
+                        csv_text(std::string(name(static_cast<PoseStatus>(*status++)))));
         for (std::size_t o = 0; o < plan.outputs.size(); ++o)
           row.append(",").append(cell(*value++));
         stream << row << '\n';

@@ -17,6 +17,12 @@ std::string scene_string(const std::string& text) {
   return result + '"';
 }
 
+std::string scene_comment(const std::string& text) {
+  std::string result = "# ";
+  for (const char c : text) result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+  return result;
+}
+
 std::string mesh_path_in(const fs::path& scene, const fs::path& mesh) {
   std::error_code error;
   const fs::path folder = scene.has_parent_path() ? scene.parent_path() : fs::path(".");

@@ -10,6 +10,9 @@ namespace condyle {
 /// As TOML's basic string; control characters become spaces.
 [[nodiscard]] std::string scene_string(const std::string& text);
 
+/// As a comment: "# " and one line, control characters become spaces.
+[[nodiscard]] std::string scene_comment(const std::string& text);
+
 /// The path of a mesh as a scene that stands at `scene` names it: relative to its folder where that can
 /// be.
 [[nodiscard]] std::string mesh_path_in(const std::filesystem::path& scene,

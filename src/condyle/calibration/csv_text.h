@@ -1,0 +1,14 @@
+#pragma once
+
+/// A text as a cell of a table (CSV, RFC 4180).
+
+#include <string>
+#include <string_view>
+
+namespace condyle {
+
+/// Quoted where it holds a comma, a quote or a line's end. One that a spreadsheet would take for a formula, with = + - @
+/// or a tab in front, gets an apostrophe before it.
+[[nodiscard]] std::string csv_text(std::string_view text);
+
+}  // namespace condyle
