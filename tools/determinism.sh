@@ -28,9 +28,10 @@ trap 'rm -rf "$work"' EXIT
 build() {
   local folder=$PWD/build-determinism-$1
   shift
+  mkdir -p "$folder"
   nice cmake -S . -B "$folder" -DCONDYLE_PICTURES=OFF -DCONDYLE_VIEWER=OFF -DCONDYLE_BENCHMARKS=OFF -DCONDYLE_MPI=OFF \
-    -DBUILD_TESTING=OFF "$@" > "$folder.log" 2>&1 || { tail -n 5 "$folder.log" >&2; return 1; }
-  nice cmake --build "$folder" --target condyle >> "$folder.log" 2>&1 || { tail -n 20 "$folder.log" >&2; return 1; }
+    -DBUILD_TESTING=OFF "$@" > "$folder/build.log" 2>&1 || { tail -n 5 "$folder/build.log" >&2; return 1; }
+  nice cmake --build "$folder" --target condyle >> "$folder/build.log" 2>&1 || { tail -n 20 "$folder/build.log" >&2; return 1; }
   echo "$folder/condyle"
 }
 
