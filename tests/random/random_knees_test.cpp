@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+
+#include "condyle/elements/joint_coordinates.h"
+#include "condyle/scene/start_pose.h"
+#include "random/sweep_outcome.h"
+
+namespace condyle::random_knees {
+namespace {
+
+/// Exact rigid surfaces and straight lines: these take a few seconds. Nothing but bad input is thrown.
+TEST(RandomKnees, NoConvergedPoseOfExactRigidSurfacesIsFalse) {
+  int converged = 0;
+  for (std::uint64_t k = 0; k < 100; ++k) {
+    const RandomKnee knee = random_knee(1, k);
+    const bool rigid = knee.family == Family::kNone || knee.family == Family::kExact;
+    if (!rigid || !knee.scene.wraps.empty()) continue;
+    const SweepOutcome outcome = sweep_and_judge(knee, {false, false});
+    EXPECT_EQ(outcome.exception, "") << "knee " << k;
+    for (const PoseOutcome& pose : outcome.poses) {
+      converged += pose.status == PoseStatus::kConverged ? 1 : 0;
+      EXPECT_FALSE(pose.is_false) << "knee " << k << ": " << outcome.faults.front();
+    }
+  }
+  EXPECT_GT(converged, 50);
+}
+
+TEST(RandomKnees, AKneeIsAFunctionOfSeedAndNumber) {
+  EXPECT_EQ(random_knee(1, 7).text, random_knee(1, 7).text);
+  EXPECT_NE(random_knee(1, 7).text, random_knee(1, 8).text);
+  EXPECT_NE(random_knee(1, 7).text, random_knee(2, 7).text);
+}
+
+/// Units and frames of the file go both ways.
+TEST(RandomKnees, TheTextOfASceneSaysWhatTheSceneSays) {
+  for (std::uint64_t k = 0; k < 40; ++k) {
+    const RandomKnee knee = random_knee(1, k);
+    const Scene read = run_of(knee).scene;
+    ASSERT_EQ(read.surfaces.size(), knee.scene.surfaces.size());
+    ASSERT_EQ(read.ligaments.size(), knee.scene.ligaments.size());
+    const RigidTransform there = start_pose(read), here = start_pose(knee.scene);
+    // Digits of metres, in mm.
+    EXPECT_LT((there.p - here.p).norm(), 1e-9);
+    EXPECT_LT((there.R - here.R).norm(), 1e-12);
+    for (std::size_t i = 0; i < read.surfaces.size(); ++i)
+      EXPECT_NEAR(read.surfaces[i].radius, knee.scene.surfaces[i].radius, 1e-12);
+    for (std::size_t i = 0; i < read.sweep->values.size(); ++i)
+      EXPECT_NEAR(read.sweep->values[i], knee.scene.sweep->values[i], 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace condyle::random_knees
