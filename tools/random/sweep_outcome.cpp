@@ -2,7 +2,6 @@
 
 #include <time.h>
 
-#include <algorithm>
 #include <exception>
 
 #include "condyle/equilibrium/sweep.h"
@@ -16,30 +15,42 @@
 namespace condyle::random_knees {
 namespace {
 
-/// What another process takes from the sweep's thread is in no pose's own time: a slow sweep is timed
-/// again.
-constexpr double kSlow = 0.01;  ///< [s]
-constexpr int kRepeats = 1;
+/// Processor time of each pose: what passed until it was told, of poses that are told together, as a gap
+/// and the pose after it, in the proportion of what they say themselves.
+struct PoseClock {
+  double told = thread_seconds();  ///< when the last pose was told
+  std::vector<double> passed;      ///< until each was told
 
-void set_times(const SweepResult& sweep, SweepOutcome& outcome) {
-  for (std::size_t i = 0; i < outcome.poses.size(); ++i) {
-    const PoseResult& pose = sweep.poses[i];
-    double& seconds = outcome.poses[i].seconds;
-    seconds = std::min(seconds, pose.seconds + pose.event_seconds);
+  void tell() {
+    const double now = thread_seconds();
+    passed.push_back(now - told);
+    told = now;
   }
-}
+  void share_out(const std::vector<PoseResult>& poses, std::vector<PoseOutcome>& outcomes) const {
+    const bool each = passed.size() == poses.size();
+    for (std::size_t begin = 0, end = 0; begin < poses.size(); begin = end) {
+      double all = 0, said = 1e-12;
+      for (bool more = true; more && end < poses.size(); ++end) {
+        all += each ? passed[end] : 0;
+        said += poses[end].seconds + poses[end].event_seconds;
+        more = !each || !poses[end].converged();
+      }
+      if (!each) all = thread_seconds() - told;
+      for (std::size_t i = begin; i < end; ++i)
+        outcomes[i].seconds = all * (poses[i].seconds + poses[i].event_seconds) / said;
+    }
+  }
+};
 
 void sweep_knee(Run& run, const std::vector<FittedSurface>& surfaces, SweepOutcome& outcome) {
   const double begin = thread_seconds();
-  run.sweep = sweep(run.scene, surfaces);
+  PoseClock clock;
+  SweepOptions options;
+  options.on_computed = [&](const KnownPose&) { clock.tell(); };
+  run.sweep = sweep(run.scene, surfaces, options);
+  for (const PoseResult& pose : run.sweep.poses) outcome.poses.push_back({pose.status});
+  clock.share_out(run.sweep.poses, outcome.poses);
   outcome.seconds = thread_seconds() - begin;
-  for (const PoseResult& pose : run.sweep.poses)
-    outcome.poses.push_back({pose.status, 1e300, false, false, false});
-  set_times(run.sweep, outcome);
-  for (int i = 0; i < kRepeats; ++i)
-    if (std::any_of(outcome.poses.begin(), outcome.poses.end(),
-                    [](const PoseOutcome& pose) { return pose.seconds > kSlow; }))
-      set_times(sweep(run.scene, surfaces), outcome);
 }
 
 void judge(const Run& run, const LookOptions& options, SweepOutcome& outcome) {
