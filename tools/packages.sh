@@ -71,10 +71,10 @@ update_package_lists() {
 }
 
 # build FOLDER [CMAKE ARGUMENT...]: configures where needed and builds everything, quietly while all is well.
-# TARGET, where set, is built alone.
+# TARGET, where set, is built alone; it may be several.
 build() {
   local folder=$1
   shift
   cmake -S . -B "$folder" "$@" >/dev/null
-  cmake --build "$folder" --parallel "$(nproc)" ${TARGET:+--target "$TARGET"}
+  cmake --build "$folder" --parallel "$(nproc)" ${TARGET:+--target $TARGET}
 }

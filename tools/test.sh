@@ -1,32 +1,83 @@
 #!/usr/bin/env bash
-# Builds everything and runs all tests. --sanitize: with AddressSanitizer and UndefinedBehaviorSanitizer; --thread: those
-# tests that start threads, with ThreadSanitizer; each in a build folder of its own. Further arguments go to ctest, or to
-# the program of the latter.
+# Builds everything and runs all tests, then those that tell most under sanitizers for their time.
+#
+#     tools/test.sh [--plain | --sanitize | --selection | --thread | --valgrind] [ARGUMENT...]
+#
+# --plain: all tests and no sanitizers, as well where arguments are given. --sanitize: all tests with AddressSanitizer (and
+# what is never freed) and UndefinedBehaviorSanitizer; --selection: those of them that end an ordinary run. --thread: the
+# tests that start threads, with ThreadSanitizer. --valgrind: a sweep under memcheck. The sanitizers are Clang's where it is
+# there, in build folders of their own. Arguments go to ctest, those of --thread to the program of tests.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source tools/packages.sh
 
-folder=build
-options=(-DCMAKE_BUILD_TYPE=Release)
+way=all
 case "${1:-}" in
-  --sanitize)
-    folder=build-sanitize
-    options+=(-DCONDYLE_SANITIZE=address)
+  --plain | --sanitize | --selection | --thread | --valgrind)
+    way=${1#--}
     shift
     ;;
-  --thread)
-    shift
-    install_packages
-    TARGET=condyle_thread_tests build build-thread -DCMAKE_BUILD_TYPE=Release -DCONDYLE_SANITIZE=thread \
-      -DCONDYLE_PICTURES=OFF -DCONDYLE_VIEWER=OFF
-    build-thread/condyle_thread_tests --gtest_filter='SharedKnee.EightThreads*:FitSurfaces.FindsTheExactPhantom*:FitSurfaces.Names*:StudyChunks.*:StudyEffects.DoNotDependOnThreads:SampleDesign.APoint*:InParallel.*:PosteriorSamples.AreTheSameBits*' "$@"
-    exit
-    ;;
+  ?*) way=plain ;;
 esac
 
+# Rooms through which bytes of strangers come, each quick to build and to run.
+selection=(results scene mesh exchange)
+
+export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
+export ASAN_OPTIONS=${ASAN_OPTIONS:-strict_string_checks=1:detect_stack_use_after_return=1}
+export LSAN_OPTIONS=${LSAN_OPTIONS:-suppressions=$PWD/tools/sanitize/leaks.supp:print_suppressions=0}
+export TSAN_OPTIONS=${TSAN_OPTIONS:-halt_on_error=1}
+
+# sanitized FOLDER SANITIZER [CMAKE ARGUMENT...]: Clang's cost a fifth of GCC's. What is measured or bundled is no part.
+sanitized() {
+  local folder=$1 sanitizer=$2
+  shift 2
+  SECONDS=0
+  install_where_possible clang libclang-rt-14-dev
+  if command -v clang++ >/dev/null; then export CC=clang CXX=clang++; fi
+  build "$folder" -DCMAKE_BUILD_TYPE=Release -DCONDYLE_SANITIZE="$sanitizer" -DCONDYLE_BENCHMARKS=OFF -DCONDYLE_VIEWER=OFF "$@"
+  built=$SECONDS
+}
+
+# run_tests FOLDER [ARGUMENT...]
+run_tests() {
+  local folder=$1
+  shift
+  ctest --test-dir "$folder" --output-on-failure --parallel "$(nproc)" "$@"
+}
+
+# told SANITIZERS: the line of docs/reliability.md.
+told() {
+  printf '%s: built in %s s, run in %s s, on %s cores\n' "$1" "$built" "$((SECONDS - built))" "$(nproc)"
+}
+
 install_packages
-install_npm_where_possible
-install_where_possible chromium mandoc  # what tests look at reports and at the manual page with
-install_where_possible libopenmpi-dev openmpi-bin  # condyle-mpi
-build "$folder" "${options[@]}"
-ctest --test-dir "$folder" --output-on-failure --parallel "$(nproc)" "$@"
+case "$way" in
+  all | plain)
+    install_npm_where_possible
+    install_where_possible chromium mandoc  # what tests look at reports and at the manual page with
+    install_where_possible libopenmpi-dev openmpi-bin  # condyle-mpi
+    build build -DCMAKE_BUILD_TYPE=Release
+    run_tests build "$@"
+    ;;&
+  all | selection)
+    TARGET="condyle $(printf 'condyle_%s_tests ' "${selection[@]}")" sanitized build-sanitize address
+    run_tests build-sanitize --label-regex "^($(IFS='|' && echo "${selection[*]}"))\$" "$@"
+    told "AddressSanitizer and UndefinedBehaviorSanitizer, rooms ${selection[*]}"
+    ;;
+  sanitize)
+    sanitized build-sanitize address
+    run_tests build-sanitize "$@"
+    told "AddressSanitizer and UndefinedBehaviorSanitizer, all tests"
+    ;;
+  thread)
+    TARGET=condyle_thread_tests sanitized build-thread thread -DCONDYLE_PICTURES=OFF
+    # A test of threads says so in its name; beside those, what starts some by itself.
+    build-thread/condyle_thread_tests \
+      --gtest_filter='*Thread*:InParallel.*:StudyChunks.*:MultiStart.*:Profiles.*:FitSurfaces.FindsTheExactPhantom*:FitSurfaces.Names*' "$@"
+    told "ThreadSanitizer, tests that start threads"
+    ;;
+  valgrind)
+    exec tools/sanitize/memcheck.sh
+    ;;
+esac

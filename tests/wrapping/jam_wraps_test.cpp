@@ -115,7 +115,9 @@ TEST_F(JamWraps, LengthsAreTheExactOnesAndNearThoseOfJam) {
 
 // From the first pose on, the path of each strand is that of the frame before, its statuses revised.
 TEST_F(JamWraps, CarriedThroughTheFlexionAndBackTheyAreThose) {
-  for (const auto& [name, strand] : strands_) {
+  for (const auto& named : strands_) {
+    const std::string& name = named.first;
+    const Strand& strand = named.second;  // not bound: Clang 14 captures no structured bindings
     auto kept = unknown_path();
     std::vector<double> lengths;
     const auto at = [&](std::size_t frame) {
