@@ -27,7 +27,7 @@ class IsolatedImport : public ::testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
     return folder_ / name;
   }
-  static std::string complaint(const fs::path& file, const ImportLimits& limits = {}) {
+  static std::string complaint(const fs::path& file, const ChildLimits& limits = {}) {
     try {
       (void)import_isolated(file, limits);
     } catch (const InputError& error) {

@@ -3,37 +3,30 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "condyle/input_error.h"
-#include "condyle/scene_file/read_scene.h"
+#include "fuzz/door_list.h"
 
 namespace condyle::fuzz {
-namespace {
-
-std::string text_of(Bytes bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-/// What a door may throw is one line.
-template <typename Use>
-void refused_or(Use&& use) {
-  try {
-    use();
-  } catch (const InputError& refused) {
-    const std::string line = refused.what();
-    if (line.empty() || line.find('\n') != std::string::npos)
-      throw std::logic_error("a refusal of other than one line: " + line);
-  }
-}
-
-void open_scene(Bytes bytes) {
-  refused_or([&] { (void)parse_scene(text_of(bytes), "scene.toml"); });
-}
-
-}  // namespace
 
 const std::vector<Door>& doors() {
+  constexpr std::size_t kText = 4096, kChoices = 512, kFile = 1 << 18;
   static const std::vector<Door> all = {
-      {.name = "scene", .open = open_scene, .largest = 16384},
+      {"scene", open_scene, 8192},
+      {"made_scene", open_made_scene, kChoices},
+      {"study", open_study, kText},
+      {"stl", open_stl, kText},
+      {"ply", open_ply, kText},
+      {"obj", open_obj, kText},
+      {"off", open_off, kText},
+      {"measurements", open_measurements, kText},
+      {"laxity_table", open_laxity_table, kText},
+      {"osim", open_osim, kText},
+      {"sweep_journal", open_sweep_journal, kText},
+      {"calibration_journal", open_calibration_journal, kText},
+      {"study_chunks", open_study_chunks, kText},
+      {"run", open_run, kFile},
+      {"altered_run", open_altered_run, 256},
+      {"command_line", open_command_line, 512},
+      {"sweep", open_sweep, kChoices},
   };
   return all;
 }

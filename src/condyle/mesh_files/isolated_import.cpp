@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,12 +9,10 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstring>
 #include <exception>
-#include <fstream>
 #include <limits>
 #include <mutex>
 #include <vector>
@@ -51,36 +48,7 @@ void send(int pipe, const void* data, std::size_t size) {
   }
 }
 
-#ifndef __SANITIZE_ADDRESS__  // whose shadow takes all of the address space
-/// Address space in use [bytes].
-double address_space() {
-  std::ifstream statm("/proc/self/statm");
-  double pages = 0;
-  statm >> pages;
-  return pages * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-#endif
-
-void limit(decltype(RLIMIT_CPU) resource, double value) {
-  const auto whole = static_cast<rlim_t>(std::ceil(value));
-  const rlimit both{whole, whole};
-  setrlimit(resource, &both);
-}
-
-/// A signal ends the child at once and leaves nothing behind: no core, no words on the terminal.
-void confine(const ImportLimits& limits) {
-  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGTERM, SIGINT, SIGXCPU})
-    std::signal(signal, SIG_DFL);
-  limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, limits.seconds);
-#ifndef __SANITIZE_ADDRESS__
-  limit(RLIMIT_AS, address_space() + limits.memory);
-#endif
-  const int nowhere = open("/dev/null", O_RDWR);
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
-}
-
-[[noreturn]] void answer(int pipe, const std::filesystem::path& file, const ImportLimits& limits) {
+[[noreturn]] void answer(int pipe, const std::filesystem::path& file, const ChildLimits& limits) {
   confine(limits);
   Answer head{.mark = kMark};
   try {
@@ -104,7 +72,7 @@ void confine(const ImportLimits& limits) {
 /// The child and the end of the pipe that it writes to.
 class Child {
  public:
-  Child(const std::filesystem::path& file, const ImportLimits& limits)
+  Child(const std::filesystem::path& file, const ChildLimits& limits)
       : deadline_(std::chrono::steady_clock::now() +
                   std::chrono::milliseconds(static_cast<long>(2000 * limits.seconds))) {
     // Another child must not hold this pipe open.
@@ -190,7 +158,7 @@ bool is_sound(const TriangleMesh& mesh) {
 
 bool importer_knows(const std::string& ending) { return assimp_knows(ending); }
 
-TriangleMesh import_isolated(const std::filesystem::path& file, const ImportLimits& limits) {
+TriangleMesh import_isolated(const std::filesystem::path& file, const ChildLimits& limits) {
   const auto fail = [&file](const std::string& what) {
     throw InputError(fmt::format("{}: mesh cannot be read: {}", file.string(), what));
   };

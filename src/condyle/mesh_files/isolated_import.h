@@ -6,13 +6,9 @@
 #include <string>
 
 #include "condyle/mesh/triangle_mesh.h"
+#include "condyle/mesh_files/child_limits.h"
 
 namespace condyle {
-
-struct ImportLimits {
-  double seconds = 60;               ///< of processor time; twice that on the clock
-  double memory = 4.0 * (1L << 30);  ///< address space beyond what this process has [bytes]
-};
 
 /// Whether assimp has a reader for the ending (".glb").
 [[nodiscard]] bool importer_knows(const std::string& ending);
@@ -21,6 +17,6 @@ struct ImportLimits {
 /// precision. Throws InputError in one line where the importer refuses the file, crashes on it,
 /// or needs more than the limits: nothing that a file holds reaches this process but a mesh.
 [[nodiscard]] TriangleMesh import_isolated(const std::filesystem::path& file,
-                                           const ImportLimits& limits = {});
+                                           const ChildLimits& limits = {});
 
 }  // namespace condyle

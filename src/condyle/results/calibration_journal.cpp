@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <limits>
 #include <sstream>
 
@@ -31,7 +32,11 @@ std::optional<Eigen::VectorXd> theta_of(const std::string& line) {
   std::string word, cost;
   words >> word >> cost;
   std::vector<double> theta;
-  while (words >> word) theta.push_back(std::stod(word));
+  while (words >> word) {
+    const char* end = word.data() + word.size();
+    const std::from_chars_result read = std::from_chars(word.data(), end, theta.emplace_back());
+    if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
+  }
   return Eigen::Map<const Eigen::VectorXd>(theta.data(), static_cast<Eigen::Index>(theta.size()));
 }
 

@@ -12,6 +12,7 @@
 #include "condyle/results/hdf5_file.h"
 #include "condyle/results/layer_group.h"
 #include "condyle/results/path_group.h"
+#include "condyle/results/rehearsal.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/run_view.h"
 #include "condyle/results/sensitivity_group.h"
@@ -269,9 +270,13 @@ RunPatch read_patch(const Hdf5Group& group, const std::string& surface, const Sc
   data.knots_v = group.read("knots_v", {net[1] + static_cast<std::size_t>(degree[1]) + 1});
   data.orientation = group.read_integers("orientation", {})[0];
   Hdf5Array mask = group.read("mask");
-  if (mask.shape.size() != 2) group.fail("dataset mask is not a grid");
-  data.mask_nu = std::max(0, static_cast<int>(mask.shape[0]) - 1);
-  data.mask_nv = std::max(0, static_cast<int>(mask.shape[1]) - 1);
+  const bool grid =
+      mask.shape.size() == 2 && (mask.values.empty() || std::min(mask.shape[0], mask.shape[1]) > 1);
+  if (!grid) group.fail("dataset mask is not a grid");
+  if (!mask.values.empty()) {
+    data.mask_nu = static_cast<int>(mask.shape[0]) - 1;
+    data.mask_nv = static_cast<int>(mask.shape[1]) - 1;
+  }
   data.mask = std::move(mask.values);
   patch.report = read_fit(group, surface, data);
   return patch;
@@ -318,6 +323,11 @@ Poses read_sweep(const Hdf5Group& sweep, const Scene& scene, const Unit& unit) {
 }
 
 Run read_run(const std::filesystem::path& path) {
+  rehearse(path, [&] { (void)read_run_at_once(path); });
+  return read_run_at_once(path);
+}
+
+Run read_run_at_once(const std::filesystem::path& path) {
   const Hdf5Reader reader(path);
   const Hdf5Group root = reader.root();
   Run run;

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <charconv>
 #include <system_error>
 
 #include "condyle/input_error.h"
 #include "condyle/results/format_number.h"
 #include "condyle/results/hdf5_file.h"
+#include "condyle/results/rehearsal.h"
 #include "condyle/results/study_file.h"
 #include "condyle/results/study_groups.h"
 #include "condyle/scene_file/read_scene.h"
@@ -15,9 +17,12 @@ namespace {
 /// A whole number that is stored as a text.
 std::uint64_t number_in(const Hdf5Group& group, const char* name) {
   const std::string text = group.read_attribute(name);
-  if (text.empty() || text.size() > 20 || text.find_first_not_of("0123456789") != std::string::npos)
-    group.fail(fmt::format("{} = \"{}\", expected a whole number", name, text));
-  return std::stoull(text);
+  const char* end = text.data() + text.size();
+  std::uint64_t number = 0;
+  const std::from_chars_result read = std::from_chars(text.data(), end, number);
+  if (read.ec != std::errc() || read.ptr != end)
+    group.fail(fmt::format("{} = \"{}\", expected a whole number below 2^64", name, text));
+  return number;
 }
 
 std::vector<StudyView::Parameter> read_parameters(const Hdf5Group& group) {
@@ -79,17 +84,26 @@ void read_study_head(const Hdf5Group& root, StudyView& view) {
 bool is_study_file(const std::filesystem::path& path) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(path, unknown)) return false;
-  try {
+  const auto is_study = [&] {
     const Hdf5Reader reader(path);
     const Hdf5Group root = reader.root();
     return root.has_attribute("format") &&
            root.read_attribute("format").starts_with("condyle study ");
+  };
+  try {
+    rehearse(path, [&] { (void)is_study(); });
+    return is_study();
   } catch (const InputError&) {
     return false;
   }
 }
 
 StudyView read_study_file(const std::filesystem::path& path) {
+  rehearse(path, [&] { (void)read_study_file_at_once(path); });
+  return read_study_file_at_once(path);
+}
+
+StudyView read_study_file_at_once(const std::filesystem::path& path) {
   const Hdf5Reader reader(path);
   const Hdf5Group root = reader.root();
   const std::string format = root.read_attribute("format");

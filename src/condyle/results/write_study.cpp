@@ -8,6 +8,7 @@
 #include "condyle/input_error.h"
 #include "condyle/results/hdf5_file.h"
 #include "condyle/results/output_file.h"
+#include "condyle/results/rehearsal.h"
 #include "condyle/results/study_file.h"
 #include "condyle/results/study_groups.h"
 #include "condyle/results/study_reduction.h"
@@ -209,10 +210,13 @@ void write_provenance(const Hdf5Group& root, const StudyProvenance& provenance) 
 bool holds_study(const std::filesystem::path& path, const StudyPlan& plan) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(path, unknown) || !is_study_file(path)) return false;
-  const Hdf5Reader file(path);
-  const Hdf5Group root = file.root();
-  return root.has("identity") &&
-         root.read_texts("identity") == std::vector<std::string>{head_of(study_identity(plan))};
+  const auto identity = [&] {
+    const Hdf5Reader file(path);
+    const Hdf5Group root = file.root();
+    return root.has("identity") ? root.read_texts("identity") : std::vector<std::string>();
+  };
+  rehearse(path, [&] { (void)identity(); });
+  return identity() == std::vector<std::string>{head_of(study_identity(plan))};
 }
 
 StudySummary write_study(const std::filesystem::path& path,

@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "condyle/input_error.h"
@@ -102,6 +103,22 @@ std::string shortened(std::string text) {
   return text.substr(0, end) + "...";
 }
 
+/// toml++ bounds the depth of values but not that of keys, and whatever visits a tree as deep as a.a.a... runs
+/// out of stack.
+void check_key_depth(const std::string& text, const std::string& file) {
+  constexpr int kMostParts = 256;
+  int line = 1, dots = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\n') ++line;
+    if (std::string_view("\n,=[]{}").find(text[i]) != std::string_view::npos) dots = 0;
+    if (text[i] == '.' && i + 1 < text.size() && text[i + 1] != '.') ++dots;
+    if (dots >= kMostParts)
+      throw InputError(
+          fmt::format("{}:{}: not valid TOML: a key of more than {} parts, expected fewer", file,
+                      line, kMostParts));
+  }
+}
+
 }  // namespace
 
 const Value* Value::find(const std::string& key) const {
@@ -110,6 +127,7 @@ const Value* Value::find(const std::string& key) const {
 }
 
 Value parse_document(const std::string& text, const std::string& file) {
+  check_key_depth(text, file);
   try {
     return convert(toml::parse(text), 1);
   } catch (const toml::parse_error& error) {

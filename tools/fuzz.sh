@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# Sends what libFuzzer makes up through the doors of the program (tools/fuzz/doors.h), compiled by Clang with the sanitizers for
+# addresses and undefined behaviour, and prints a row of a table for each: docs/reliability.md.
+#
+#   tools/fuzz.sh [DOOR [MINUTES]] [--runs N]
+#
+# DOOR: a folder of tests/fuzz; all of them where none is named. MINUTES: for each door, 2. --runs ends a door after so many
+# executions. A door begins with the files of its folder and of out/fuzz/DOOR, where what it learns is kept. An input that crashes,
+# leaks, takes more than 10 s or 2 GB is kept in out/fuzz, with the command that repeats it. Ends with 2 where there is one, with 77
+# where there is no Clang with libFuzzer.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+runs=-1
+words=()
+while [ $# -gt 0 ]; do
+  case $1 in
+    --runs) runs=$2 && shift ;;
+    *) words+=("$1") ;;
+  esac
+  shift
+done
+minutes=${words[1]:-2}
+
+if ! command -v clang++ >/dev/null || [ -z "$(find "$(clang++ -print-resource-dir)" -name 'libclang_rt.fuzzer-*.a' -print -quit)" ]; then
+  echo "tools/fuzz.sh needs clang++ with libFuzzer (Debian: clang libclang-rt-14-dev)" >&2
+  exit 77
+fi
+build=build-fuzz
+{
+  CC=clang CXX=clang++ cmake -S . -B $build -DCMAKE_BUILD_TYPE=Release -DCONDYLE_SANITIZE=fuzz -DCONDYLE_VIEWER=OFF \
+    -DCONDYLE_BENCHMARKS=OFF -DBUILD_TESTING=OFF -DCONDYLE_PRECOMPILED_HEADERS=OFF
+  cmake --build $build --parallel "$(nproc)" --target condyle_fuzz
+} >&2
+
+kept=$PWD/out/fuzz
+mkdir -p "$kept"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+export UBSAN_OPTIONS=print_stacktrace=1
+[ ! -d /dev/shm ] || export TMPDIR=/dev/shm
+
+# last WORD of a line that begins with it
+number_of() { sed -nE "s/^stat::$1: *([0-9]+)$/\1/p" "$log"; }
+
+# fuzz DOOR: its row.
+found=0
+fuzz() {
+  local door=$1 status=0 begin=$SECONDS finds state more=()
+  mkdir -p "$kept/$door"
+  [ "$door" != run ] || more=(tests/fuzz/whole_results)
+  [ ! -f "tools/fuzz/$door.dict" ] || more+=("-dict=tools/fuzz/$door.dict")
+  "$build/condyle_fuzz" "--door=$door" -timeout=10 -rss_limit_mb=2048 -detect_leaks=1 -close_fd_mask=1 -print_funcs=0 \
+    -print_final_stats=1 "-max_total_time=$((minutes * 60))" "-runs=$runs" "-artifact_prefix=$kept/$door-" \
+    "$kept/$door" "tests/fuzz/$door" "${more[@]}" >"$log" 2>&1 || status=$?
+  state=$(grep -aE '^#[0-9]+' "$log" | tail -1)
+  finds=0
+  if [ "$status" -ne 0 ]; then
+    finds=1 found=1
+    grep -aE 'ERROR|what\(\)|SUMMARY' "$log" | head -3 >&2
+    sed -nE "s|.*Test unit written to (.*)|repeat: $build/condyle_fuzz --door=$door \1|p" "$log" >&2
+  fi
+  printf '| %s | %s | %s | %s | %s | %s | %s |\n' "$door" "$(number_of number_of_executed_units)" "$((SECONDS - begin))" \
+    "$(number_of peak_rss_mb)" "$(sed -nE 's/.* cov: ([0-9]+).*/\1/p' <<<"$state")" \
+    "$(sed -nE 's/.* corp: ([0-9]+).*/\1/p' <<<"$state")" "$finds"
+}
+
+printf '| door | executions | s | MB | edges | corpus | finds |\n|---|---|---|---|---|---|---|\n'
+if [ ${#words[@]} -gt 0 ]; then
+  fuzz "${words[0]}"
+else
+  for folder in tests/fuzz/*/; do
+    door=$(basename "$folder")
+    [ "$door" = whole_results ] || fuzz "$door"
+  done
+fi
+[ "$found" -eq 0 ] || exit 2
