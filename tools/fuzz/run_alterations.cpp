@@ -186,8 +186,11 @@ void change_attribute(hid_t object, Choices& choices) {
   }
   if (kind == 1) {
     const Id attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
-    const char* value = word(choices);
-    H5Awrite(attribute, text, &value);
+    const Id space(H5Aget_space(attribute), H5Sclose);
+    const hssize_t count = H5Sget_simple_extent_npoints(space);
+    const std::vector<const char*> words(static_cast<std::size_t>(std::max<hssize_t>(count, 0)),
+                                         word(choices));
+    if (!words.empty()) H5Awrite(attribute, text, words.data());
     return;
   }
   H5Adelete(object, name);

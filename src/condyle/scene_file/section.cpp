@@ -23,8 +23,11 @@ const char* suffix(Range range) {
   return "";
 }
 
+/// Finite, and so are its square and its product with any unit.
+bool is_usable(double number) { return std::abs(number) < 1e100; }
+
 bool within(double number, Range range) {
-  if (!std::isfinite(number)) return false;
+  if (!is_usable(number)) return false;
   return range == Range::kAny || number > 0 || (range == Range::kNotNegative && number == 0);
 }
 
@@ -101,8 +104,10 @@ double Section::checked(const std::string& key,
                         const std::string& expected,
                         Range range) const {
   if (!value.is_number() || !within(value.number, range)) {
-    const bool plain = value.is_number() && std::isfinite(value.number);
-    fail(key, value, expected + suffix(range) + (plain ? "" : ", a finite number"));
+    const bool plain = value.is_number() && is_usable(value.number);
+    const char* finite = value.is_number() && std::isfinite(value.number) ? ", a number below 1e100"
+                                                                          : ", a finite number";
+    fail(key, value, expected + suffix(range) + (plain ? "" : finite));
   }
   return value.number;
 }
@@ -131,7 +136,7 @@ Eigen::Vector3d Section::vector_of(const std::string& key,
                                    const std::string& expected) const {
   const bool fits = value.type == Value::Type::kArray && value.items.size() == 3 &&
                     std::all_of(value.items.begin(), value.items.end(), [](const Value& item) {
-                      return item.is_number() && std::isfinite(item.number);
+                      return item.is_number() && is_usable(item.number);
                     });
   if (!fits) fail(key, value, expected + " [x, y, z], three finite numbers");
   return {value.items[0].number, value.items[1].number, value.items[2].number};
