@@ -110,9 +110,16 @@ void read_bands(const Hdf5Group& group, CalibrationResult& result) {
                                  units = group.read_texts("units");
   const auto before = read_lists(group, "before"), before_sd = read_lists(group, "before_sd"),
              after = read_lists(group, "after"), after_sd = read_lists(group, "after_sd");
+  const auto fits = [&](const std::vector<std::vector<double>>& lists) {
+    return lists.size() == quantities.size() &&
+           (lists.empty() || lists.front().size() == result.band_flexions.size());
+  };
+  if (units.size() != quantities.size() || !fits(before) || !fits(before_sd) || !fits(after) ||
+      !fits(after_sd))
+    group.fail("has not a number for each quantity and flexion");
   for (std::size_t k = 0; k < quantities.size(); ++k)
     result.bands.push_back(
-        {quantities[k], units.at(k), before.at(k), before_sd.at(k), after.at(k), after_sd.at(k)});
+        {quantities[k], units[k], before[k], before_sd[k], after[k], after_sd[k]});
 }
 
 void write_profiles(const Hdf5Group& group, const CalibrationResult& result) {
@@ -133,13 +140,17 @@ void write_profiles(const Hdf5Group& group, const CalibrationResult& result) {
 void read_profiles(const Hdf5Group& group, CalibrationResult& result) {
   const auto theta = read_lists(group, "theta"), chi_square = read_lists(group, "chi_square");
   const std::vector<int> parameters = group.read_integers("parameter", {theta.size()});
+  if (chi_square.size() != theta.size()) group.fail("has not a chi_square for each theta");
   for (std::size_t k = 0; k < theta.size(); ++k) {
     Profile profile;
     profile.parameter = static_cast<std::size_t>(parameters[k]);
-    const double unit = inside(told(result.parameters.at(profile.parameter).units));
+    if (parameters[k] < 0 || profile.parameter >= result.parameters.size() ||
+        chi_square[k].size() != theta[k].size())
+      group.fail("holds a profile of no parameter, or without a chi_square for each theta");
+    const double unit = inside(told(result.parameters[profile.parameter].units));
     for (std::size_t i = 0; i < theta[k].size() && !std::isnan(theta[k][i]); ++i) {
       profile.theta.push_back(theta[k][i] * unit);
-      profile.chi_square.push_back(chi_square.at(k).at(i));
+      profile.chi_square.push_back(chi_square[k][i]);
     }
     result.profiles.push_back(profile);
   }
@@ -294,9 +305,13 @@ CalibrationResult read_calibration(const Hdf5Group& root, const Scene& scene) {
   read_bands(group.open("bands"), result);
   read_profiles(group.open("profiles"), result);
   result.suggested = read_suggestions(group.open("suggested"));
-  if (root.has("posterior"))
-    result.samples =
-        read_matrix(root.open("posterior"), "samples") * told_units(result.parameters).asDiagonal();
+  if (root.has("posterior")) {
+    const Hdf5Group posterior = root.open("posterior");
+    const Eigen::MatrixXd samples = read_matrix(posterior, "samples");
+    if (static_cast<std::size_t>(samples.cols()) != result.parameters.size())
+      posterior.fail("samples has not a column for each parameter");
+    result.samples = samples * told_units(result.parameters).asDiagonal();
+  }
   return result;
 }
 
