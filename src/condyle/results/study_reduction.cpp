@@ -114,7 +114,7 @@ class Reduction {
   [[nodiscard]] StudyFailures add_failures() const {
     const std::vector<double> read = outputs_.read("status", {plan_.samples(), poses_});
     const std::vector<std::uint8_t> status(read.begin(), read.end());
-    const StudyFailures all = study_failures(status, poses_, theta_);
+    StudyFailures all = study_failures(status, poses_, theta_);
     write_failures(root_.open("failures"), all);
     for (std::size_t k = 0; by_knee_ && k < plan_.knees.size(); ++k)
       write_failures(root_.open("knees").open(names_[k]).open("failures"),

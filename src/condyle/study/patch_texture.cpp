@@ -39,6 +39,7 @@ MeasuredCovariance covariance_of(const std::vector<const VertexOverPatch*>& core
     for (std::size_t j = i + 1; j < core.size(); ++j) {
       const double d2 = (core[i]->foot - core[j]->foot).squaredNorm();
       if (d2 >= kFarthest * kFarthest) continue;
+      // NOLINTNEXTLINE(bugprone-incorrect-roundings): it is never negative, and lround is slow.
       const auto lag = static_cast<std::size_t>(std::sqrt(d2) / kLagStep + 0.5);
       if (lag == 0) continue;
       sum[lag] += core[i]->height * core[j]->height;
