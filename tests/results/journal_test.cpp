@@ -37,7 +37,8 @@ class JournalFile : public testing::Test {
  protected:
   void SetUp() override {
     fs::create_directories(folder_);
-    Journal journal(path_, kIdentity, 0);
+    LineFile file(path_);
+    Journal journal(file, kIdentity, 0);
     for (int i = 0; i < 3; ++i) journal.append(made_up_known(i));
     EXPECT_EQ(journal.failure(), "");
   }
@@ -165,7 +166,8 @@ TEST_F(JournalFile, DoesNotBelieveALineThatWasDamaged) {
 TEST_F(JournalFile, GoesOnAfterItsLastWholeLine) {
   write(text() + "pose 0.7 torn");
   {
-    Journal journal(path_, kIdentity, read().whole_bytes);
+    LineFile file(path_);
+    Journal journal(file, kIdentity, read().whole_bytes);
     journal.append(made_up_known(3));
   }
   ASSERT_EQ(read().poses.size(), 4u);
@@ -173,7 +175,8 @@ TEST_F(JournalFile, GoesOnAfterItsLastWholeLine) {
 }
 
 TEST_F(JournalFile, IsGoneWhenTheRunIsWritten) {
-  Journal journal(path_, kIdentity, 0);
+  LineFile file(path_);
+  Journal journal(file, kIdentity, 0);
   EXPECT_TRUE(read().poses.empty());  // a new one
   journal.remove();
   EXPECT_FALSE(fs::exists(path_));
@@ -181,8 +184,8 @@ TEST_F(JournalFile, IsGoneWhenTheRunIsWritten) {
 }
 
 TEST_F(JournalFile, BelongsToOneRunAtATime) {
-  const Journal journal(path_, kIdentity, 0);
-  EXPECT_THROW(Journal(path_, kIdentity, 0), InputError);
+  const LineFile file(path_);
+  EXPECT_THROW(LineFile{path_}, InputError);
 }
 
 TEST_F(JournalFile, ThatIsSomethingElseIsNamed) {
@@ -199,7 +202,8 @@ TEST_F(JournalFile, ThatIsSomethingElseIsNamed) {
 }
 
 TEST_F(JournalFile, CostsAFewMicrosecondsAPose) {
-  Journal journal(path_, kIdentity, 0);
+  LineFile file(path_);
+  Journal journal(file, kIdentity, 0);
   const KnownPose known = made_up_known(1);
   constexpr int kLines = 2000;
   const auto begin = std::chrono::steady_clock::now();
@@ -216,7 +220,8 @@ TEST_F(JournalFile, OfThePhantomResumesFromEveryKindOfCut) {
   SweepOptions options;
   SweepResult uninterrupted;
   {
-    Journal journal(path_, identity(scene, surfaces), 0);
+    LineFile file(path_);
+    Journal journal(file, identity(scene, surfaces), 0);
     options.on_computed = [&](const KnownPose& pose) { journal.append(pose); };
     uninterrupted = sweep(scene, surfaces, options);
   }

@@ -93,7 +93,6 @@ bits() {
       echo "    $n ranks: the same bits"
     done
   fi
-  tools/study/kills.sh "$CONDYLE" 50 | sed 's/^/    /'
 }
 
 phantom() {

@@ -49,7 +49,6 @@ std::vector<fs::path> files_to_write(const CalibrateCommand& command) {
 /// Each file to write is one of its own, can be written, and is none that is read.
 void check_files(const CalibrateCommand& command, const Scene& scene) {
   const std::vector<fs::path> files = files_to_write(command);
-  expect_calibration_journal(journal_path(command.output));
   for (std::size_t i = 0; i < files.size(); ++i) {
     check_output_file(files[i]);
     refuse_to_overwrite_inputs(files[i], scene);
@@ -59,6 +58,7 @@ void check_files(const CalibrateCommand& command, const Scene& scene) {
           fs::weakly_canonical(fs::absolute(files[k])))
         throw InputError(files[i].string() + ": is to be written twice, expected a file for each");
   }
+  expect_calibration_journal(journal_path(command.output));
 }
 
 /// Before the long work: every number that may change has a place in the text.
@@ -77,24 +77,25 @@ void check_text(const CalibrateCommand& command,
 }
 
 /// What a journal holds of an earlier run, and a word about it.
-std::optional<Eigen::VectorXd> earlier_numbers(const CalibrateCommand& command,
-                                               const CalibrationIdentity& identity,
-                                               const Scene& scene) {
+CalibrationContents earlier_numbers(const CalibrateCommand& command,
+                                    const CalibrationIdentity& identity,
+                                    const Scene& scene) {
   const fs::path file = journal_path(command.output);
   if (!command.resume) {
     std::error_code unknown;
-    if (fs::exists(file, unknown))
+    if (fs::file_size(file, unknown) > 0)
       say(command.talk,
           "{} is of a run that was stopped: --resume would have gone on with it, this run starts "
           "anew\n\n",
           file.string());
-    return std::nullopt;
+    return {};
   }
-  std::optional<Eigen::VectorXd> from = read_calibration_journal(file, identity, scene);
+  CalibrationContents journal = read_calibration_journal(file, identity, scene);
   say(command.talk, "{} {}\n\n",
-      from ? "going on from the best numbers of" : "nothing to resume from, starting anew: no",
+      journal.best ? "going on from the best numbers of"
+                   : "nothing to resume from, starting anew: no",
       file.string());
-  return from;
+  return journal;
 }
 
 /// One progress line for each stage of the work.
@@ -137,12 +138,7 @@ CalibrationResult calibrate_aloud(const CalibrateCommand& command,
   options.on_better = [&](const Eigen::VectorXd& theta, double cost) {
     journal.append(theta, cost);
   };
-  try {
-    return calibrate(scene, surfaces, table, meshes, options);
-  } catch (const InputError&) {
-    if (!journal.holds_numbers()) journal.remove();
-    throw;
-  }
+  return calibrate(scene, surfaces, table, meshes, options);
 }
 
 /// A line for each thing that did not succeed.
@@ -195,10 +191,13 @@ int run_calibrate(const CalibrateCommand& command) {
   const std::vector<TriangleMesh> meshes = body_meshes(scene, surfaces);
   check_text(command, scene, table, meshes);
   const CalibrationIdentity identity = calibration_identity(scene, surfaces);
-  const std::optional<Eigen::VectorXd> from = earlier_numbers(command, identity, scene);
-  CalibrationJournal journal(journal_path(command.output), identity, from);
+  LineFile journal_file(journal_path(command.output));
+  const CalibrationContents earlier = earlier_numbers(command, identity, scene);
+  CalibrationJournal journal(journal_file, identity, earlier.whole_bytes);
+  const LastWords words(fmt::format("{} holds the best numbers so far, --resume goes on with them",
+                                    journal_path(command.output).string()));
   const auto result = std::make_shared<const CalibrationResult>(
-      calibrate_aloud(command, scene, surfaces, table, meshes, from, journal));
+      calibrate_aloud(command, scene, surfaces, table, meshes, earlier.best, journal));
   run.study = result;
   for (const std::string& line : calibration_lines(scene, *result)) say(talk, "{}\n", line);
   say(talk, "\n");

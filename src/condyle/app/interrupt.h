@@ -1,12 +1,18 @@
 #pragma once
 
-/// Ctrl-C as a question, and SIGTERM, by which batch systems end a job: while one of these lives the
-/// first of each is noted and the work may end in its own way; a second one ends the program at once.
+/// Signals that end a program: Ctrl-C, SIGTERM and SIGXCPU, by which batch systems end a job, and SIGHUP of a
+/// terminal that is gone. What the caller has ignored (nohup) stays ignored.
 
-#include <csignal>
+#include <string>
 
 namespace condyle {
 
+/// From now on such a signal removes files that are not whole, says a line in the name of `program`, and then
+/// ends the program as it would have.
+void tell_of_signals(const std::string& program);
+
+/// While one of these lives the first signal is a question: it is noted, and the work may end in its own
+/// way. A second one ends the program.
 class Interrupt {
  public:
   Interrupt();
@@ -15,9 +21,15 @@ class Interrupt {
   Interrupt& operator=(const Interrupt&) = delete;
 
   [[nodiscard]] bool asked() const;
+};
 
- private:
-  struct sigaction before_, before_term_;
+/// While one of these lives the line of a signal ends with what is left of the work, and how to go on.
+class LastWords {
+ public:
+  explicit LastWords(const std::string& words);
+  ~LastWords();
+  LastWords(const LastWords&) = delete;
+  LastWords& operator=(const LastWords&) = delete;
 };
 
 }  // namespace condyle

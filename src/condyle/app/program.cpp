@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <csignal>
-#include <cstdio>
 
 #include "condyle/app/command_tree.h"
+#include "condyle/app/interrupt.h"
+#include "condyle/app/standard_streams.h"
 #include "condyle/input_error.h"
 #include "condyle/version.h"
 
@@ -31,8 +31,8 @@ int run_program(const std::string& name,
                 const std::vector<SetupCommand>& commands,
                 int argc,
                 char** argv) {
-  // A file beyond the process's limit fails as one on a full disk does.
-  std::signal(SIGXFSZ, SIG_IGN);
+  prepare_standard_streams();
+  tell_of_signals(name);
   CLI::App program(description, name);
   int status = 0;
   program.set_version_flag("--version", name + " " CONDYLE_VERSION);
@@ -47,8 +47,7 @@ int run_program(const std::string& name,
   } catch (const CLI::ParseError& error) {
     throw InputError(fmt::format("{} ({} --help says more)", error.what(), name));
   }
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-    throw InputError("the standard output cannot be written, expected room for it");
+  finish_standard_output();
   return status;
 }
 

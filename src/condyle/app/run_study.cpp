@@ -116,6 +116,8 @@ int run_study(const StudyCommand& command, const StudyTeam& team) {
   if (command.resume && team.any(team.first() && is_complete(work)))
     return team.first() ? complete_already(work) : 0;
   auto journals = std::make_unique<StudyJournals>(open_journals(work));
+  const LastWords words(fmt::format("{} holds the chunks that are done, --resume goes on with them",
+                                    work.folder().string()));
   if (command.merge) expect_all_chunks(work, *journals);
   work.models = study_models(work.plan);
   const bool stopped = team.any(!compute_chunks(work, *journals));

@@ -10,6 +10,7 @@
 
 #include "condyle/app/begin_study.h"
 #include "condyle/app/commands.h"
+#include "condyle/app/interrupt.h"
 #include "condyle/app/print_fit.h"
 #include "condyle/app/progress.h"
 #include "condyle/app/range_options.h"
@@ -119,9 +120,12 @@ int run_sweep(const SweepCommand& command) {
   const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
   Run run = make_run(scene, surfaces);
   tell_warnings(talk, run);
+  LineFile journal_file(journal_path(command.output));
   EarlierPoses earlier = earlier_poses(command.output, command.resume, scene, surfaces);
   if (!earlier.message.empty()) say(talk, "{}\n\n", earlier.message);
-  Journal journal(journal_path(command.output), identity(scene, surfaces), earlier.journal_bytes);
+  Journal journal(journal_file, identity(scene, surfaces), earlier.journal_bytes);
+  const LastWords words(fmt::format("{} holds its poses, --resume goes on with them",
+                                    journal_path(command.output).string()));
   run.sweep = sweep_aloud(talk, scene, surfaces, std::move(earlier.poses), journal);
   run.sensitivities = sweep_sensitivities(scene, surfaces, run.sweep.poses);
   run.uncertainty = uncertainty_aloud(command, scene, surfaces, run.sweep.poses);

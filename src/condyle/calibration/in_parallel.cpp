@@ -5,6 +5,8 @@
 #include <thread>
 #include <vector>
 
+#include "condyle/start_threads.h"
+
 namespace condyle {
 
 bool StudyProgress::tell_now() {
@@ -51,9 +53,8 @@ bool in_parallel(const std::string& stage,
     }
   };
   {
-    std::vector<std::jthread> others;
-    for (int t = 1; t < threads; ++t)
-      others.emplace_back(work, std::cref(own[static_cast<std::size_t>(t)]));
+    const auto others =
+        start_threads(1, threads, [&](int t) { work(own[static_cast<std::size_t>(t)]); });
     work(own.front());
   }
   for (const std::exception_ptr& error : errors)

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "condyle/input_error.h"
 #include "condyle/pictures/picture_error.h"
 #include "condyle/pictures/png_file.h"
 #include "condyle/pictures/run_program.h"
@@ -36,24 +35,18 @@ void Movie::finish() {
 }
 
 void Movie::write_mp4() const {
-  const std::filesystem::path part = path_.string() + ".part";
+  // By the name of its standard output, which is a file: the index of an MP4 is put before its pictures.
   const ProgramResult result =
       run_program({"ffmpeg", "-y", "-loglevel", "error", "-f", "image2pipe", "-framerate",
                    std::to_string(frames_per_second_), "-c:v", "png", "-i", "-",
                    // H.264 wants even sides; yuv420p is what players know.
                    "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-c:v", "libx264", "-crf",
                    "18", "-pix_fmt", "yuv420p", "-fflags", "+bitexact", "-flags:v", "+bitexact",
-                   "-movflags", "+faststart", "-f", "mp4",
-                   // A name alone may be an option or a protocol to it.
-                   "file:" + part.string()},
+                   "-movflags", "+faststart", "-f", "mp4", "/dev/stdout"},
                   stills_);
-  std::error_code error;
-  if (result.exit_code != 0) {
-    std::filesystem::remove(part, error);
+  if (result.exit_code != 0 || result.output.empty())
     throw PictureError(path_.string() + ": ffmpeg did not write it: " + result.messages);
-  }
-  std::filesystem::rename(part, path_, error);
-  if (error) throw InputError(path_.string() + ": cannot write: " + error.message());
+  write_output_file(path_, result.output);
 }
 
 }  // namespace condyle

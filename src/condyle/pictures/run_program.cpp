@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 
 extern char** environ;
@@ -46,7 +48,7 @@ int wait_for(pid_t process) {
   while (waitpid(process, &status, 0) < 0) {
     if (errno != EINTR) return -1;
   }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return status;
 }
 
 }  // namespace
@@ -66,17 +68,29 @@ ProgramResult run_program(const std::vector<std::string>& command, const std::st
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, fileno(output.get()), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, fileno(messages.get()), STDERR_FILENO);
+  // What this program ignores: a file beyond the limit is the end of the other one, as it knows it.
+  sigset_t usual;
+  sigemptyset(&usual);
+  for (const int signal : {SIGPIPE, SIGXFSZ}) sigaddset(&usual, signal);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setsigdefault(&attributes, &usual);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
   pid_t process = 0;
   result.started =
-      posix_spawnp(&process, arguments[0], &actions, nullptr, arguments.data(), environ) == 0;
+      posix_spawnp(&process, arguments[0], &actions, &attributes, arguments.data(), environ) == 0;
   posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
   close(ends[1]);
   if (result.started) feed(ends[0], input);
   close(ends[0]);
   if (!result.started) return result;
-  result.exit_code = wait_for(process);
+  const int status = wait_for(process);
+  if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
   result.output = bytes_of(output.get());
   result.messages = on_one_line(bytes_of(messages.get()));
+  if (result.messages.empty() && WIFSIGNALED(status))
+    result.messages = std::string("ended by a signal: ") + strsignal(WTERMSIG(status));
   return result;
 }
 

@@ -12,7 +12,7 @@ struct ProgramResult {
   bool started = false;  ///< false: there is no such program
   int exit_code = -1;    ///< -1 when it was ended by a signal
   std::string output;    ///< standard output, bytes
-  std::string messages;  ///< standard error, on one line
+  std::string messages;  ///< standard error, on one line; or which signal ended it
 };
 
 /// `command` holds the program, found along PATH, and its arguments.

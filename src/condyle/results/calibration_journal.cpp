@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <limits>
 #include <sstream>
 
 #include "condyle/input_error.h"
@@ -67,22 +66,24 @@ CalibrationIdentity calibration_identity(const Scene& scene,
   return {identity(scene, surfaces), hash_bytes(bytes_of_file(scene.calibration->measurements))};
 }
 
-std::optional<Eigen::VectorXd> read_calibration_journal(const std::filesystem::path& path,
-                                                        const CalibrationIdentity& identity,
-                                                        const Scene& scene) {
+CalibrationContents read_calibration_journal(const std::filesystem::path& path,
+                                             const CalibrationIdentity& identity,
+                                             const Scene& scene) {
   expect_calibration_journal(path);
   std::istringstream lines(bytes_of_file(path));
+  CalibrationContents journal;
   std::string line;
   if (!std::getline(lines, line) || (lines.eof() && head_of(identity).starts_with(line)))
-    return std::nullopt;
+    return journal;
   expect_same_head(path.string(), line, identity, scene);
-  std::optional<Eigen::VectorXd> best;
-  while (std::getline(lines, line)) {
+  journal.whole_bytes = line.size() + 1;
+  while (std::getline(lines, line) && !lines.eof()) {
     std::optional<Eigen::VectorXd> theta = theta_of(line);
     if (!theta) break;
-    best = std::move(theta);
+    journal.best = std::move(theta);
+    journal.whole_bytes += line.size() + 1;
   }
-  return best;
+  return journal;
 }
 
 void expect_calibration_journal(const std::filesystem::path& path) {
@@ -92,19 +93,18 @@ void expect_calibration_journal(const std::filesystem::path& path) {
                      ": is no journal of a calibration, expected this name to be free for one");
 }
 
-CalibrationJournal::CalibrationJournal(const std::filesystem::path& path,
+CalibrationJournal::CalibrationJournal(LineFile& file,
                                        const CalibrationIdentity& identity,
-                                       const std::optional<Eigen::VectorXd>& from)
-    : file_(path, 0) {
-  file_.append(head_of(identity));
-  if (from) append(*from, std::numeric_limits<double>::infinity());
+                                       std::size_t kept_bytes)
+    : file_(file), head_(kept_bytes == 0 ? head_of(identity) : "") {
+  file_.keep(kept_bytes);
 }
 
 void CalibrationJournal::append(const Eigen::VectorXd& theta, double cost) {
   std::string line = fmt::format("best {}", cost);
   for (const double value : theta) line += fmt::format(" {}", value);
-  file_.append(sealed(line));
-  holds_numbers_ = true;
+  file_.append(head_ + sealed(line));
+  head_.clear();
 }
 
 }  // namespace condyle

@@ -28,29 +28,33 @@ struct CalibrationIdentity {
 [[nodiscard]] CalibrationIdentity calibration_identity(const Scene& scene,
                                                        const std::vector<FittedSurface>& surfaces);
 
-/// The last θ of a journal; none where there is no journal, or nothing in it yet. Throws InputError for
-/// a file that is no such journal, and, naming which, where scene, patches or table are not these.
-[[nodiscard]] std::optional<Eigen::VectorXd> read_calibration_journal(
-    const std::filesystem::path& path, const CalibrationIdentity& identity, const Scene& scene);
+struct CalibrationContents {
+  std::optional<Eigen::VectorXd> best;  ///< the last θ
+  std::size_t whole_bytes = 0;          ///< up to the end of the last whole line
+};
+
+/// What a journal holds, nothing where there is none. Throws InputError for a file that is no such
+/// journal, and, naming which, where scene, patches or table are not these.
+[[nodiscard]] CalibrationContents read_calibration_journal(const std::filesystem::path& path,
+                                                           const CalibrationIdentity& identity,
+                                                           const Scene& scene);
 
 /// Throws InputError where something else than a journal of a calibration stands at `path`.
 void expect_calibration_journal(const std::filesystem::path& path);
 
 class CalibrationJournal {
  public:
-  /// Starts anew, with `from` as the best so far. Throws InputError as LineFile does.
-  CalibrationJournal(const std::filesystem::path& path,
-                     const CalibrationIdentity& identity,
-                     const std::optional<Eigen::VectorXd>& from);
+  /// Goes on after the first `kept_bytes` of a journal, or with 0 starts a new one. The file is taken before
+  /// it is read (line_file.h) and stays. Throws InputError where it cannot be written.
+  CalibrationJournal(LineFile& file, const CalibrationIdentity& identity, std::size_t kept_bytes);
 
   void append(const Eigen::VectorXd& theta, double cost);
-  [[nodiscard]] bool holds_numbers() const { return holds_numbers_; }
   [[nodiscard]] const std::string& failure() const { return file_.failure(); }
   void remove() { file_.remove(); }
 
  private:
-  LineFile file_;
-  bool holds_numbers_ = false;
+  LineFile& file_;
+  std::string head_;  ///< as long as it is not written: with the first θ
 };
 
 }  // namespace condyle

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <new>
 #include <numeric>
 #include <type_traits>
 
@@ -31,6 +32,19 @@ std::size_t count(const Shape& shape) {
 }
 
 std::string written(const Shape& shape) { return fmt::format("[{}]", fmt::join(shape, ", ")); }
+
+/// Whether the call that failed last did so for want of memory.
+bool lacked_memory() {
+  const auto look = [](unsigned, const H5E_error2_t* error, void* found) -> herr_t {
+    if (error->maj_num == H5E_RESOURCE &&
+        (error->min_num == H5E_NOSPACE || error->min_num == H5E_CANTALLOC))
+      *static_cast<bool*>(found) = true;
+    return 0;
+  };
+  bool found = false;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &found);
+  return found;
+}
 
 Hdf5Handle property_list(hid_t kind) { return {H5Pcreate(kind), H5Pclose}; }
 
@@ -87,6 +101,7 @@ Hdf5Handle ordered_group_properties(hid_t kind) {
 }  // namespace
 
 void Hdf5Group::fail(const std::string& message) const {
+  if (lacked_memory()) throw std::bad_alloc();
   throw InputError(fmt::format("{}: {}", place_, message));
 }
 
@@ -331,7 +346,7 @@ Hdf5Builder::Hdf5Builder(const std::string& file) : name_(file) {
   H5Pset_fapl_core(access.id(), kGrowth, false);
   const Hdf5Handle creation = ordered_group_properties(H5P_FILE_CREATE);
   file_ = Hdf5Handle(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
-  if (file_.id() < 0) throw InputError(file + ": cannot be built in memory");
+  if (file_.id() < 0) throw std::bad_alloc();
 }
 
 Hdf5Group Hdf5Builder::root() const {
@@ -341,11 +356,9 @@ Hdf5Group Hdf5Builder::root() const {
 std::string Hdf5Builder::bytes() const {
   const bool flushed = H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) >= 0;
   const ssize_t size = flushed ? H5Fget_file_image(file_.id(), nullptr, 0) : -1;
-  if (size < 0) throw InputError(name_ + ": cannot be built in memory");
+  if (size < 0) throw std::bad_alloc();  // nothing else can fail there
   std::string image(static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(file_.id(), image.data(), image.size()) != size) {
-    throw InputError(name_ + ": cannot be built in memory");
-  }
+  if (H5Fget_file_image(file_.id(), image.data(), image.size()) != size) throw std::bad_alloc();
   return image;
 }
 
@@ -372,6 +385,7 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : name_(file.string())
   if (!std::filesystem::is_regular_file(file, error))
     throw InputError(name_ + ": no such file, expected a run (HDF5)");
   file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (file_.id() < 0 && lacked_memory()) throw std::bad_alloc();
   if (file_.id() < 0)
     throw InputError(name_ + ": cannot be opened, expected a run (HDF5), whole and readable");
 }

@@ -73,13 +73,14 @@ JournalContents read_journal(const fs::path& path, const Scene& scene) {
   }
 }
 
-Journal::Journal(const fs::path& path, const RunIdentity& identity, std::size_t kept_bytes)
-    : file_(path, kept_bytes) {
-  if (kept_bytes == 0) file_.append(head(identity));
+Journal::Journal(LineFile& file, const RunIdentity& identity, std::size_t kept_bytes)
+    : file_(file), head_(kept_bytes == 0 ? head(identity) : "") {
+  file_.keep(kept_bytes);
 }
 
 void Journal::append(const KnownPose& known) {
-  line_.clear();
+  line_ = head_;
+  head_.clear();
   write_journal_line(known, line_);
   file_.append(line_);
 }

@@ -41,9 +41,9 @@ struct JournalContents {
 
 class Journal {
  public:
-  /// Goes on after the first `kept_bytes` of a journal, or with 0 starts a new one. Throws
-  /// InputError where it cannot be written or another run is writing it.
-  Journal(const std::filesystem::path& path, const RunIdentity& identity, std::size_t kept_bytes);
+  /// Goes on after the first `kept_bytes` of a journal, or with 0 starts a new one. The file is taken before
+  /// it is read (line_file.h) and stays. Throws InputError where it cannot be written.
+  Journal(LineFile& file, const RunIdentity& identity, std::size_t kept_bytes);
 
   /// One line, in one write. The first failure ends the journal and is kept in `failure`.
   void append(const KnownPose& known);
@@ -53,7 +53,8 @@ class Journal {
   void remove() { file_.remove(); }
 
  private:
-  LineFile file_;
+  LineFile& file_;
+  std::string head_;  ///< as long as it is not written: with the first pose
   std::string line_;
 };
 

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -15,21 +16,34 @@
 
 namespace condyle {
 
-LineFile::LineFile(std::filesystem::path path, std::size_t kept_bytes) : path_(std::move(path)) {
+LineFile::LineFile(std::filesystem::path path) : path_(std::move(path)) {
   const auto fail = [&](const std::string& why) {
     if (descriptor_ >= 0) ::close(descriptor_);
     throw InputError(path_.string() + ": " + why);
   };
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail("cannot be written: " + std::generic_category().message(errno));
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    fail("another run is writing it, expected an output of its own for each run");
-  if (::ftruncate(descriptor_, static_cast<off_t>(kept_bytes)) != 0)
-    fail("cannot be written: " + std::generic_category().message(errno));
+  struct stat state {};
+  while (state.st_nlink == 0) {  // whoever held the lock before may have removed the file
+    if (descriptor_ >= 0) ::close(descriptor_);
+    descriptor_ =
+        ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NONBLOCK | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail("cannot be written: " + std::generic_category().message(errno));
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      fail("another run is writing it, expected an output of its own for each run");
+    if (::fstat(descriptor_, &state) != 0)
+      fail("cannot be written: " + std::generic_category().message(errno));
+  }
 }
 
 LineFile::~LineFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  struct stat state {};
+  if (::fstat(descriptor_, &state) == 0 && state.st_size == 0 && state.st_nlink > 0) remove();
+  ::close(descriptor_);
+}
+
+void LineFile::keep(std::size_t bytes) {
+  if (::ftruncate(descriptor_, static_cast<off_t>(bytes)) != 0)
+    throw InputError(path_.string() +
+                     ": cannot be written: " + std::generic_category().message(errno));
 }
 
 void LineFile::append(const std::string& line) {

@@ -9,13 +9,15 @@ namespace condyle {
 
 class LineFile {
  public:
-  /// Goes on after the first `kept_bytes`. Throws InputError where it cannot be written or another run
-  /// is writing it.
-  LineFile(std::filesystem::path path, std::size_t kept_bytes);
+  /// Takes the file, before anything is read of it. Throws InputError where it cannot be written or
+  /// another run is writing it.
+  explicit LineFile(std::filesystem::path path);
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
-  ~LineFile();
+  ~LineFile();  ///< removes it where it holds nothing
 
+  /// What comes next is appended to its first bytes.
+  void keep(std::size_t bytes);
   /// A line with its end, in one write. The first failure is kept, and nothing more is written.
   void append(const std::string& line);
   [[nodiscard]] const std::string& failure() const { return failure_; }

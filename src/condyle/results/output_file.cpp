@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,49 +19,48 @@ namespace fs = std::filesystem;
 
 std::string reason(int code) { return std::generic_category().message(code); }
 
-/// A file that vanishes unless it is kept.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(fs::path path) : path_(std::move(path)) {
-    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    if (descriptor_ < 0 && !closed_) return;
-    if (!closed_) ::close(descriptor_);
-    if (!kept_) ::unlink(path_.c_str());
-  }
+std::string part_name(const fs::path& path) {
+  return path.string() + fmt::format(".part{}", ::getpid());
+}
 
-  /// Each returns 0 or an error number.
-  [[nodiscard]] int opened() const { return descriptor_ < 0 ? errno : 0; }
-  [[nodiscard]] int write(const std::string& bytes) const {
-    std::size_t done = 0;
-    while (done < bytes.size()) {
-      const ssize_t n = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
-      if (n < 0 && errno != EINTR) return errno;
-      if (n > 0) done += static_cast<std::size_t>(n);
-    }
-    return ::fsync(descriptor_) == 0 ? 0 : errno;
-  }
-  [[nodiscard]] int keep_as(const fs::path& path) {
-    closed_ = true;
-    if (::close(descriptor_) != 0) return errno;
-    if (::rename(path_.c_str(), path.c_str()) != 0) return errno;
-    kept_ = true;
-    return 0;
-  }
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
 
- private:
-  fs::path path_;
-  int descriptor_ = -1;
-  bool closed_ = false, kept_ = false;
-};
+/// The names in a folder: until then a rename may be lost with the machine.
+void sync_folder(const fs::path& folder) {
+  const int names = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (names < 0) return;
+  ::fsync(names);
+  ::close(names);
+}
+
+bool is_part_of(const std::string& name, const std::string& of) {
+  const std::string prefix = of + ".part";
+  return name.starts_with(prefix) && name.size() > prefix.size() &&
+         name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
+}
+
+/// Whoever writes a part holds its lock.
+void remove_if_left_behind(const fs::path& part) {
+  const int descriptor = ::open(part.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  if (descriptor < 0) return;
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(part.c_str());
+  ::close(descriptor);
+}
+
+void remove_parts_left_behind(const fs::path& path) {
+  std::error_code error;
+  const std::string name = path.filename().string();
+  for (fs::directory_iterator it(folder_of(path), error), end; !error && it != end;
+       it.increment(error))
+    if (is_part_of(it->path().filename().string(), name)) remove_if_left_behind(it->path());
+}
 
 }  // namespace
 
 void check_output_file(const fs::path& path) {
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const fs::path folder = folder_of(path);
   std::error_code error;
   if (!path.has_filename())
     throw InputError(fmt::format("{}: expected the name of a file", path.string()));
@@ -71,6 +72,9 @@ void check_output_file(const fs::path& path) {
     throw InputError(
         fmt::format("{}: is not a file, expected the name of a file to write", path.string()));
   }
+  struct stat unknown {};
+  if (::lstat((part_name(path) + ".journal").c_str(), &unknown) != 0 && errno == ENAMETOOLONG)
+    throw InputError(path.string() + ": is too long a name, expected one with room for an ending");
   if (::access(folder.c_str(), W_OK) != 0) {
     throw InputError(fmt::format("{}: cannot write into folder {}: {}", path.string(),
                                  folder.string(), reason(errno)));
@@ -78,20 +82,62 @@ void check_output_file(const fs::path& path) {
 }
 
 void write_output_file(const fs::path& path, const std::string& bytes) {
-  check_output_file(path);
-  TemporaryFile file(path.string() + fmt::format(".part{}", ::getpid()));
-  int code = file.opened();
-  if (code == 0) code = file.write(bytes);
-  if (code == 0) code = file.keep_as(path);
-  if (code != 0)
-    throw InputError(fmt::format("{}: cannot be written: {}", path.string(), reason(code)));
+  OutputFile file(path);
+  file.append(bytes);
+  file.keep();
 }
 
-FileBeside::FileBeside(fs::path path)
-    : FileBeside(std::move(path), fmt::format(".part{}", ::getpid())) {}
+OutputFile::OutputFile(fs::path path)
+    : path_(std::move(path)), name_(part_name(path_)), unkept_(name_) {
+  check_output_file(path_);
+  remove_parts_left_behind(path_);
+  open();
+}
+
+/// Between its making and its lock another process may have taken it for left behind.
+void OutputFile::open() {
+  struct stat state {};
+  while (state.st_nlink == 0) {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    descriptor_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail(errno);
+    (void)::flock(descriptor_,
+                  LOCK_EX);  // where there are no locks nothing is taken for left behind
+    if (::fstat(descriptor_, &state) != 0) fail(errno);
+  }
+}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ < 0) return;
+  if (!kept_) ::unlink(name_.c_str());
+  ::close(descriptor_);
+}
+
+void OutputFile::fail(int code) {
+  if (descriptor_ >= 0) {
+    ::unlink(name_.c_str());
+    ::close(descriptor_);
+    descriptor_ = -1;
+  }
+  throw InputError(fmt::format("{}: cannot be written: {}", path_.string(), reason(code)));
+}
+
+void OutputFile::append(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
+    if (n < 0 && errno != EINTR) fail(errno);
+    if (n > 0) bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+void OutputFile::keep() {
+  if (::fsync(descriptor_) != 0 || ::rename(name_.c_str(), path_.c_str()) != 0) fail(errno);
+  kept_ = true;
+  sync_folder(folder_of(path_));
+}
 
 FileBeside::FileBeside(fs::path path, const std::string& ending)
-    : path_(std::move(path)), name_(path_.string() + ending) {}
+    : path_(std::move(path)), name_(path_.string() + ending), unkept_(name_) {}
 
 FileBeside::~FileBeside() {
   if (!kept_) ::unlink(name_.c_str());
@@ -106,12 +152,7 @@ void FileBeside::keep() {
   if (!kept_)
     throw InputError(
         fmt::format("{}: cannot be written: {}", path_.string(), reason(stored ? errno : code)));
-  // The name, too: what the file was made of may be removed now.
-  const fs::path folder = path_.has_parent_path() ? path_.parent_path() : fs::path(".");
-  const int names = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (names < 0) return;
-  ::fsync(names);
-  ::close(names);
+  sync_folder(folder_of(path_));  // what the file was made of may be removed now
 }
 
 }  // namespace condyle

@@ -4,6 +4,9 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+
+#include "condyle/results/unkept_file.h"
 
 namespace condyle {
 
@@ -12,14 +15,36 @@ namespace condyle {
 void check_output_file(const std::filesystem::path& path);
 
 /// Writes a file beside `path` and renames it when all of it is on the disk. Throws InputError (no
-/// such folder, disk full, ...) and then leaves nothing behind.
+/// such folder, disk full, ...) and then leaves nothing behind. What a kill left behind is removed by the
+/// next one that writes `path`; several processes that do at the same time each write all of it.
 void write_output_file(const std::filesystem::path& path, const std::string& bytes);
+
+/// The same by and by.
+class OutputFile {
+ public:
+  /// Throws InputError, as the others do.
+  explicit OutputFile(std::filesystem::path path);
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  ~OutputFile();  ///< removes it where it was not kept
+
+  void append(std::string_view bytes);
+  /// To the disk, and in the place of `path`.
+  void keep();
+
+ private:
+  void open();
+  [[noreturn]] void fail(int code);
+
+  std::filesystem::path path_, name_;
+  UnkeptFile unkept_;
+  int descriptor_ = -1;
+  bool kept_ = false;
+};
 
 /// The same for a file that something else writes by its name, which is that of `path` with an ending.
 class FileBeside {
  public:
-  /// With an ending of this process.
-  explicit FileBeside(std::filesystem::path path);
   /// Where no other process writes `path` at the same time: what a kill leaves is written over next time.
   FileBeside(std::filesystem::path path, const std::string& ending);
   FileBeside(const FileBeside&) = delete;
@@ -32,6 +57,7 @@ class FileBeside {
 
  private:
   std::filesystem::path path_, name_;
+  UnkeptFile unkept_;
   bool kept_ = false;
 };
 

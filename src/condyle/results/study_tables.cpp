@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "condyle/calibration/csv_text.h"
 #include "condyle/input_error.h"
@@ -89,14 +88,12 @@ std::string indices_csv(const StudyView& view) {
 void write_sample_table(const std::filesystem::path& path,
                         const StudyPlan& plan,
                         const StudyJournals& journals) {
-  check_output_file(path);
   const SweptQuantity swept = quantity_of_sweep(plan.knees.front().scene);
   const std::vector<std::string> knees = knee_names(plan);
-  FileBeside file(path);
-  std::ofstream stream(file.name(), std::ios::binary);
-  stream << head_of_samples(plan, swept);
+  OutputFile file(path);
+  std::string rows = head_of_samples(plan, swept);
   std::vector<double> theta;
-  for (std::uint64_t c = 0; c < chunk_count(plan) && stream; ++c) {
+  for (std::uint64_t c = 0; c < chunk_count(plan); ++c) {
     const StudyChunk chunk = journals.read(c);
     const double* value = chunk.values.data();
     const std::uint8_t* status = chunk.status.data();
@@ -111,12 +108,12 @@ void write_sample_table(const std::filesystem::path& path,
                         csv_text(std::string(name(static_cast<PoseStatus>(*status++)))));
         for (std::size_t o = 0; o < plan.outputs.size(); ++o)
           row.append(",").append(cell(*value++));
-        stream << row << '\n';
+        rows.append(row).append("\n");
       }
     }
+    file.append(rows);
+    rows.clear();
   }
-  stream.close();
-  if (!stream) throw InputError(path.string() + ": cannot be written, expected room on the disk");
   file.keep();
 }
 

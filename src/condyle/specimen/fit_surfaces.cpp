@@ -1,13 +1,13 @@
 #include "condyle/specimen/fit_surfaces.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <chrono>
 #include <exception>
 #include <map>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,6 +18,7 @@
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/mesh_files/load_mesh.h"
 #include "condyle/specimen/check_layers.h"
+#include "condyle/start_threads.h"
 #include "condyle/surface/bone_check.h"
 #include "condyle/surface/exact_surfaces.h"
 #include "condyle/surface/fit_figures.h"
@@ -329,8 +330,9 @@ void fit_sources(const Scene& scene,
     ++done;
     if (on_patch) on_patch(done, total);
   };
-  const auto work = [&](std::size_t first, std::size_t step) {
-    for (std::size_t k = first; k < sources.size(); k += step) {
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&](int) {
+    for (std::size_t k = next++; k < sources.size(); k = next++) {
       try {
         fit_source(scene, read, sources[k], surfaces, tell);
       } catch (...) {
@@ -338,12 +340,9 @@ void fit_sources(const Scene& scene,
       }
     }
   };
-  if (threads < 2) {
-    work(0, 1);
-  } else {
-    std::thread other(work, 1, 2);
-    work(0, 2);
-    other.join();
+  {
+    const auto others = start_threads(1, threads, work);
+    work(0);
   }
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);

@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "condyle/start_threads.h"
 #include "condyle/study/study_worker.h"
 
 namespace condyle {
@@ -33,13 +34,7 @@ class ChunkRun {
       }
     };
     {
-      std::vector<std::jthread> others;
-      try {
-        for (int worker = 1; worker < threads; ++worker) others.emplace_back(work, worker);
-      } catch (...) {  // no more threads can be had
-        stopped_ = true;
-        throw;
-      }
+      const std::vector<std::jthread> others = start_threads(1, threads, work);
       work(0);
     }
     for (const std::exception_ptr& error : errors)
