@@ -2,8 +2,12 @@
 
 #include "app/run_program.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cmath>
+#include <regex>
+#include <sstream>
 
 #include "condyle/results/run_file.h"
 #include "condyle/version.h"
@@ -118,11 +122,56 @@ TEST_F(CommandLine, NamesTheRangeInTheNumbersOfTheScene) {
                    "--from, --to, --step: step = 0, expected a step > 0 to get from 0 to 120");
 }
 
-TEST_F(CommandLine, TakesNoEmptyTextForANumber) {
-  for (const char* option : {"--from", "--to", "--step"}) {
-    expect_bad_input(run("sweep knee.toml -o run.h5 " + std::string(option) + " ''"),
-                     std::string(option) + ": expected a number (condyle --help says more)");
+// What fish completes names every option; those with -r take a value.
+TEST_F(CommandLine, TakesNoEmptyTextForAValueOfAnyOption) {
+  std::istringstream lines(run("completion fish").out);
+  int numbers = 0, options = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::regex with_value("seen_subcommand_from ([a-z]+)'(?: -s .)? -l ([a-z-]+) -r");
+    std::smatch found;
+    if (!std::regex_search(line, found, with_value)) continue;
+    const std::string option = "--" + found[2].str();
+    const Outcome outcome = run(found[1].str() + " " + option + " ''");
+    const bool number =
+        outcome.err == "condyle: " + option + ": expected a number (condyle --help says more)\n";
+    if (!number)
+      expect_bad_input(outcome, option + ": expected a value (condyle --help says more)");
+    EXPECT_EQ(outcome.code, 1);
+    ++options;
+    numbers += number;
   }
+  EXPECT_GE(options, 40);
+  EXPECT_GE(numbers, 15);
+}
+
+// What is said never decides what is kept.
+TEST_F(CommandLine, KeepsItsResultWhereNobodyTakesWhatItSays) {
+  const std::string sweep = "cd '" + folder_.string() +
+                            "' && { '" CONDYLE_PROGRAM
+                            "' sweep knee.toml -o run.h5; echo $? > code; } ";
+  const std::string full = "condyle: the standard output cannot be written, expected room for it\n";
+  struct Case {
+    const char *streams, *code;
+    std::string err;
+  };
+  for (const Case& c : {Case{">/dev/full 2>err", "1\n", full}, Case{">&- 2>err", "1\n", full},
+                        Case{">out 2>/dev/full", "0\n", ""}, Case{"<&- >out 2>&-", "0\n", ""},
+                        Case{"2>err | :", "0\n", ""}}) {
+    SCOPED_TRACE(c.streams);
+    write("err", "");
+    ASSERT_EQ(std::system((sweep + c.streams).c_str()), 0);
+    EXPECT_EQ(contents(folder_ / "code"), c.code);
+    EXPECT_EQ(contents(folder_ / "err"), c.err);
+    EXPECT_EQ(contents(folder_ / "run.h5").substr(1, 3), "HDF");
+    EXPECT_TRUE(std::filesystem::remove(folder_ / "run.h5"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "run.h5.journal"));
+  }
+}
+
+TEST_F(CommandLine, DoesNotWaitForAReaderOfItsJournal) {
+  ASSERT_EQ(::mkfifo(at("run.h5.journal").c_str(), 0666), 0);
+  expect_bad_input(run("sweep knee.toml -o run.h5"),
+                   "run.h5.journal: cannot be written: No such device or address");
 }
 
 TEST_F(CommandLine, TakesNoEmptyTextForAValue) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <sstream>
 
@@ -185,6 +186,24 @@ TEST(PlotRun, WritesPdf) {
 
 TEST(RunProgram, AMissingProgramIsSaid) {
   EXPECT_FALSE(run_program({"condyle-no-such-program"}, "x").started);
+}
+
+TEST(RunProgram, SaysWhichSignalEndedTheOtherOne) {
+  const ProgramResult result = run_program({"sh", "-c", "kill -9 $$"}, "");
+  EXPECT_EQ(result.exit_code, -1);
+  EXPECT_EQ(result.messages, "ended by a signal: Killed");
+}
+
+// What this program ignores the other one does not.
+TEST(RunProgram, LetsTheOtherOneEndAsItKnows) {
+  const auto before = std::signal(SIGPIPE, SIG_IGN);
+  EXPECT_EQ(run_program({"sh", "-c", "kill -PIPE $$"}, "").messages,
+            "ended by a signal: Broken pipe");
+  std::signal(SIGPIPE, before);
+}
+
+TEST(RunProgram, TakesMoreThanAPipeHolds) {
+  EXPECT_EQ(run_program({"head", "-c", "1000000", "/dev/zero"}, "").output.size(), 1000000U);
 }
 
 TEST(RunProgram, AProgramThatDoesNotListenDoesNotHurt) {

@@ -1,9 +1,12 @@
 #include "condyle/pictures/renderer.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <cstdio>
 #include <cstdlib>
 
+#include "condyle/pictures/picture_error.h"
 #include "condyle/pictures/solids.h"
 #include "support/block_knee.h"
 
@@ -124,6 +127,26 @@ TEST(Renderer, TwoRenderersCanTakeTurns) {
   EXPECT_GT(redness(pixel(red, plain_camera(), {0, 0, 0})), 2);
   EXPECT_LT(redness(pixel(green, plain_camera(), {0, 0, 0})), 0.5);
   EXPECT_EQ(one.render(plain_camera(), {{a, {}, Layer::kSolid, 0}}).rgb, red.rgb);
+}
+
+// The compiler under Mesa would end the program.
+TEST(RendererDeathTest, SaysThatThereIsNotEnoughMemory) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "AddressSanitizer needs all of the address space";
+#endif
+  const auto draw_in_little = [] {
+    const rlimit little{400 << 20, 400 << 20};
+    setrlimit(RLIMIT_AS, &little);
+    try {
+      const Renderer renderer(kSize, kSize);
+    } catch (const PictureError& error) {
+      std::fputs(error.what(), stderr);
+      std::_Exit(7);
+    }
+    std::_Exit(0);
+  };
+  EXPECT_EXIT(draw_in_little(), testing::ExitedWithCode(7),
+              "^not enough memory for pictures, expected");
 }
 
 }  // namespace

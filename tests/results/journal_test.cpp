@@ -183,6 +183,16 @@ TEST_F(JournalFile, IsGoneWhenTheRunIsWritten) {
   EXPECT_FALSE(read().started);
 }
 
+TEST_F(JournalFile, OfNoPoseIsNotLeft) {
+  fs::remove(path_);
+  {
+    LineFile file(path_);
+    const Journal journal(file, kIdentity, 0);
+    EXPECT_TRUE(fs::exists(path_));  // taken
+  }
+  EXPECT_FALSE(fs::exists(path_));
+}
+
 TEST_F(JournalFile, BelongsToOneRunAtATime) {
   const LineFile file(path_);
   EXPECT_THROW(LineFile{path_}, InputError);

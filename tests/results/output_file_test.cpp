@@ -1,6 +1,8 @@
 #include "condyle/results/output_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -15,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class OutputFile : public testing::Test {
+class WrittenFile : public testing::Test {
  protected:
   void SetUp() override {
     folder_ = fs::path(testing::TempDir()) / ("condyle_output_" + std::to_string(::getpid()));
@@ -42,31 +44,82 @@ class OutputFile : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(OutputFile, HoldsTheBytes) {
+TEST_F(WrittenFile, HoldsTheBytes) {
   write_output_file(folder_ / "a", std::string("x\0y", 3));
   EXPECT_EQ(contents(folder_ / "a"), std::string("x\0y", 3));
   EXPECT_EQ(files(), 1);
 }
 
-TEST_F(OutputFile, ReplacesAnOlderOne) {
+TEST_F(WrittenFile, ReplacesAnOlderOne) {
   write_output_file(folder_ / "a", "older and longer");
   write_output_file(folder_ / "a", "new");
   EXPECT_EQ(contents(folder_ / "a"), "new");
 }
 
-TEST_F(OutputFile, NeedsAFolder) {
+TEST_F(WrittenFile, IsWrittenByAndBy) {
+  {
+    OutputFile file(folder_ / "a");
+    file.append("one ");
+    EXPECT_FALSE(fs::exists(folder_ / "a"));
+    file.append("two");
+    file.keep();
+  }
+  EXPECT_EQ(contents(folder_ / "a"), "one two");
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(WrittenFile, ThatIsNotKeptVanishes) {
+  write_output_file(folder_ / "a", "older");
+  { OutputFile(folder_ / "a").append("half"); }
+  EXPECT_EQ(contents(folder_ / "a"), "older");
+  EXPECT_EQ(files(), 1);
+}
+
+// As a signal handler does.
+TEST_F(WrittenFile, ThatIsNotKeptIsRemovedByASignal) {
+  OutputFile file(folder_ / "a");
+  file.append("half");
+  EXPECT_EQ(files(), 1);
+  remove_unkept_files();
+  EXPECT_EQ(files(), 0);
+}
+
+TEST_F(WrittenFile, RemovesWhatAKillLeftAndNothingElse) {
+  for (const char* name : {"a.part123", "a.part9x", "a.part", "b.part123"})
+    std::ofstream(folder_ / name) << "half";
+  write_output_file(folder_ / "a", "whole");
+  EXPECT_FALSE(fs::exists(folder_ / "a.part123"));
+  EXPECT_EQ(files(), 4);
+}
+
+// The lock of its writer says that a part is no remains.
+TEST_F(WrittenFile, OfAnotherProcessIsLeftAlone) {
+  const int other = ::open((folder_ / "a.part123").c_str(), O_WRONLY | O_CREAT, 0666);
+  ASSERT_EQ(::flock(other, LOCK_EX), 0);
+  write_output_file(folder_ / "a", "whole");
+  EXPECT_TRUE(fs::exists(folder_ / "a.part123"));
+  ::close(other);
+}
+
+TEST_F(WrittenFile, HasANameWithRoomForAnEnding) {
+  const fs::path path = folder_ / std::string(250, 'n');
+  EXPECT_EQ(message_of(path, "x"),
+            path.string() + ": is too long a name, expected one with room for an ending");
+}
+
+TEST_F(WrittenFile, NeedsAFolder) {
   const fs::path path = folder_ / "nowhere" / "a.h5";
   EXPECT_EQ(message_of(path, "x"), path.string() + ": there is no folder " +
                                        (folder_ / "nowhere").string() +
                                        ", expected one that exists");
 }
 
-TEST_F(OutputFile, IsNotAFolder) {
+TEST_F(WrittenFile, IsNotAFolder) {
   EXPECT_EQ(message_of(folder_, "x"),
             folder_.string() + ": is not a file, expected the name of a file to write");
 }
 
-TEST_F(OutputFile, NeverReplacesADevice) {
+TEST_F(WrittenFile, NeverReplacesADevice) {
   EXPECT_EQ(message_of("/dev/full", "x"),
             "/dev/full: is not a file, expected the name of a file to write");
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
@@ -74,7 +127,7 @@ TEST_F(OutputFile, NeverReplacesADevice) {
 
 // A limit on the size of files stands for a full disk: the kernel refuses the write in the same
 // way.
-TEST_F(OutputFile, OfAFullDiskLeavesTheOlderOneAndNothingElse) {
+TEST_F(WrittenFile, OfAFullDiskLeavesTheOlderOneAndNothingElse) {
   write_output_file(folder_ / "a", "older");
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);

@@ -7,13 +7,14 @@ commands=(sweep simulate laxity compare calibrate study fit new export plot rend
 # make_inputs: what the jobs read, in the current folder.
 make_inputs() {
   local scene
+  cp "$top"/meshes/{femur,tibia}.stl .
   for scene in knee pendulum drawer calibrate; do
-    sed "s|\.\./\.\./meshes|$top/meshes|; s/^of = \"\*\"/of = \"aACL\"/; s|laxity.csv|$PWD/laxity.csv|" "$top/data/phantom/$scene.toml" >"$scene.toml"
+    sed "s|\.\./\.\./meshes|$PWD|; s/^of = \"\*\"/of = \"aACL\"/; s|laxity.csv|$PWD/laxity.csv|" "$top/data/phantom/$scene.toml" >"$scene.toml"
   done
   grep -E "^(#|specimen|phantom,Markolf 1978)" "$top/data/phantom/laxity.csv" >laxity.csv
   cp "$top/data/wismans-type/knee.toml" wismans.toml
   small_study "$PWD/wismans.toml" "${SAMPLES:-1500}" >study.toml
-  sed "s|\.\./\.\./meshes|$top/meshes|" "$top/tests/data/phantom_jam.osim" >model.osim
+  sed "s|\.\./\.\./meshes|$PWD|" "$top/tests/data/phantom_jam.osim" >model.osim
   "$CONDYLE" sweep knee.toml -o shown.h5 --step 10 --quiet
 }
 
@@ -31,7 +32,7 @@ job() {
     fit) words=(fit knee.toml -o "$output") ;;
     new)
       output=$out/new.toml
-      words=(new "$top/meshes/femur.stl" "$top/meshes/tibia.stl" -o "$output")
+      words=(new femur.stl tibia.stl -o "$output")
       ;;
     export)
       output=$out/files

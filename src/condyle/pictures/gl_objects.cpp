@@ -1,7 +1,11 @@
 #include "condyle/pictures/gl_objects.h"
 
+#include <fmt/format.h>
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <cstddef>
+#include <thread>
 
 #include "condyle/pictures/picture_error.h"
 
@@ -20,11 +24,26 @@ GLuint compile(GLenum kind, const char* source) {
   throw PictureError(std::string("OpenGL does not compile a shader: ") + log);
 }
 
+/// Mesa and the compiler under it end the program where they get no memory, so it is asked for before: address
+/// space, of which a process may have a limit (RLIMIT_AS), as for libraries, pictures and a thread on each core.
+void expect_room() {
+  const std::size_t threads = std::clamp(std::thread::hardware_concurrency(), 1U, 32U);
+  const std::size_t megabytes = 512 + 128 * threads;
+  const std::size_t bytes = megabytes << 20;
+  void* const room =
+      ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room == MAP_FAILED)
+    throw PictureError(fmt::format(
+        "not enough memory for pictures, expected {} MB of address space (ulimit -v)", megabytes));
+  ::munmap(room, bytes);
+}
+
 const void* byte_offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
 }  // namespace
 
 OffscreenContext::OffscreenContext() : context_(nullptr), buffer_(4 * 4 * 4) {
+  expect_room();
   open_gl();
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
