@@ -8,6 +8,7 @@
 
 #include "condyle/input_error.h"
 #include "condyle/results/hdf5_file.h"
+#include "condyle/results/make_run.h"
 #include "results/made_up_run.h"
 
 namespace condyle {
@@ -302,6 +303,18 @@ TEST_F(RunFile, TellsTheUnitsOfEveryDataset) {
   EXPECT_EQ(
       reader.root().open("sweep").open("stability").read_attribute("lowest_stiffness", "units"),
       "N/mm");
+}
+
+TEST(MeshFiles, ThatHaveChangedAreNamed) {
+  const std::vector<InputFile> before = {{"a.stl", "12"}, {"b.stl", "34"}};
+  EXPECT_NO_THROW(expect_same(before, before));
+  try {
+    expect_same(before, {{"a.stl", "12"}, {"b.stl", "35"}});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "b.stl: has changed while it was read, expected a mesh that stays as it is");
+  }
 }
 
 }  // namespace

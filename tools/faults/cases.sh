@@ -2,8 +2,8 @@
 # Sourced by tools/faults.sh: the cases, each a function of a command that calls `try` and `meet` as often as it needs.
 
 # What a disk that is full, a quota or a limit on memory leaves room for, in kB.
-disks=(0 16 64 256 1024)
-memories=(80000 95000 110000 130000 150000 180000 220000 260000 300000 340000 380000 420000 500000)
+disks=(0 16 256 1024)
+memories=(80000 100000 130000 180000 260000 340000 420000 600000)
 
 full_disk() {
   can_mount || { skip "needs the right to mount a tmpfs" && return; }
@@ -143,7 +143,7 @@ changing_files() {
   esac
   for input in "$input" femur.stl; do
     [[ $input != femur.stl ]] || reads_mesh "$1" || continue
-    for moment in 0.002 0.005 0.01 0.02 0.05 0.1; do
+    for moment in 0.002 0.01 0.05 0.2; do
       begin "$1"
       cp "$input" kept
       bytes=$(stat -c %s kept)
@@ -159,7 +159,7 @@ changing_files() {
 signals() {
   local signal part process
   for signal in INT TERM HUP; do
-    for part in 10 30 50 70 90 98; do
+    for part in 15 40 65 90; do
       begin "$1"
       env --default-signal="$signal" "$CONDYLE" "${words[@]}" >/dev/null 2>said.log &
       process=$!

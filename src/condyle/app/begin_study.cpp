@@ -37,8 +37,10 @@ Study begin_study(const Talk& talk,
   Study study{read_scene(scene), {}, {}};
   refuse_to_overwrite_inputs(output, study.scene);
   check(study.scene);
+  const std::vector<InputFile> meshes = mesh_files(study.scene);
   study.surfaces = fit_aloud(talk, study.scene);
   study.run = make_run(study.scene, study.surfaces);
+  expect_same(meshes, study.run.inputs);
   tell_warnings(talk, study.run);
   return study;
 }

@@ -48,8 +48,10 @@ int run_compare(const CompareCommand& command) {
   if (scene.sweep->arc_length)
     throw InputError(command.scene +
                      ": [sweep]: path = \"arc length\", expected \"steps\" for a comparison");
+  const std::vector<InputFile> meshes = mesh_files(scene);
   const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
   Run run = make_run(scene, surfaces);
+  expect_same(meshes, run.inputs);
   tell_warnings(talk, run);
   run.sweep = sweep(scene, surfaces);
   const SweepResult& ours = run.sweep;

@@ -61,9 +61,11 @@ int run_fit(const FitOptions& options) {
   std::optional<std::filesystem::path> folder;
   if (!options.pictures.empty()) folder = make_picture_folder(options.pictures);
 #endif
+  const std::vector<InputFile> meshes = mesh_files(scene);
   const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
   if (talk.plain()) print_known_parts(surfaces);
   Run run = make_run(scene, surfaces);
+  expect_same(meshes, run.inputs);
   run.study = FitStudy{};
   say(talk, "\n");
   for (const std::string& line : run.start)

@@ -117,8 +117,10 @@ int run_sweep(const SweepCommand& command) {
   refuse_to_overwrite_inputs(command.output, scene);
   refuse_to_overwrite_inputs(journal_path(command.output), scene);
   override_range(command.scene, command.range, scene);
+  const std::vector<InputFile> meshes = mesh_files(scene);
   const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
   Run run = make_run(scene, surfaces);
+  expect_same(meshes, run.inputs);
   tell_warnings(talk, run);
   LineFile journal_file(journal_path(command.output));
   EarlierPoses earlier = earlier_poses(command.output, command.resume, scene, surfaces);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "condyle/input_error.h"
 #include "condyle/results/digest.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/specimen/start_warnings.h"
@@ -21,7 +22,20 @@ std::vector<RunPatch> patches_of(const Scene& scene, const std::vector<FittedSur
   return patches;
 }
 
-/// Each mesh of the scene once.
+}  // namespace
+
+Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces) {
+  Run run{scene, {}, patches_of(scene, surfaces), {}, {}};
+  std::vector<TriangleMesh> bones;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    bones.push_back(body_mesh(scene, static_cast<int>(b), surfaces));
+  run.start = start_warnings(scene, surfaces, bones);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    if (scene.bodies[b].mesh) run.bodies.push_back({scene.bodies[b].name, std::move(bones[b])});
+  run.inputs = mesh_files(scene);
+  return run;
+}
+
 std::vector<InputFile> mesh_files(const Scene& scene) {
   std::vector<InputFile> inputs;
   const auto add = [&](const std::optional<MeshFile>& mesh) {
@@ -36,18 +50,11 @@ std::vector<InputFile> mesh_files(const Scene& scene) {
   return inputs;
 }
 
-}  // namespace
-
-Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces) {
-  Run run{scene, {}, patches_of(scene, surfaces), {}, {}};
-  std::vector<TriangleMesh> bones;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    bones.push_back(body_mesh(scene, static_cast<int>(b), surfaces));
-  run.start = start_warnings(scene, surfaces, bones);
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    if (scene.bodies[b].mesh) run.bodies.push_back({scene.bodies[b].name, std::move(bones[b])});
-  run.inputs = mesh_files(scene);
-  return run;
+void expect_same(const std::vector<InputFile>& before, const std::vector<InputFile>& now) {
+  for (std::size_t i = 0; i < before.size() && i < now.size(); ++i)
+    if (before[i].sha256 != now[i].sha256)
+      throw InputError(now[i].file +
+                       ": has changed while it was read, expected a mesh that stays as it is");
 }
 
 }  // namespace condyle

@@ -14,4 +14,10 @@ namespace condyle {
 /// Throws InputError for meshes that cannot be read.
 [[nodiscard]] Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces);
 
+/// The meshes of a scene, each once, as they are now.
+[[nodiscard]] std::vector<InputFile> mesh_files(const Scene& scene);
+
+/// Meshes are read more than once. Throws InputError where one is not as it was.
+void expect_same(const std::vector<InputFile>& before, const std::vector<InputFile>& now);
+
 }  // namespace condyle
