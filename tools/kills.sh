@@ -61,7 +61,7 @@ look_at_remains() {
   for file in out/*; do
     case $file in
       *.journal) resumes "$command" || fail "SIG$signal left $file" ;;
-      *.part*) [ "$signal" = KILL ] || fail "SIG$signal left $file" ;;
+      *.part"$process") [ "$signal" = KILL ] || fail "SIG$signal left $file" ;;
       out/result.h5) [ -e out/result.h5.journal ] || same_result >said.log 2>&1 || fail "SIG$signal left a result that is not whole" ;;
     esac
   done
