@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 using test::CommandLine;
+using test::contents;
 using test::expect_bad_input;
 using test::kScene;
 using test::Outcome;
