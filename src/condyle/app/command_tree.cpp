@@ -48,7 +48,7 @@ void refuse_empty_values(CLI::App& program) {
     for (CLI::Option* option : command->get_options()) {
       if (option->get_items_expected_max() == 0) continue;
       const std::string expected = is_number(*option) ? "expected a number" : "expected a value";
-      option->check(CLI::Validator(
+      option->transform(CLI::Validator(  // before its other checks, which say less
           [expected](const std::string& text) { return text.empty() ? expected : std::string(); },
           ""));
     }
