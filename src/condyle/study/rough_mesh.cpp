@@ -18,9 +18,9 @@
 namespace condyle {
 namespace {
 
-constexpr int kWaves = 200;
+constexpr Eigen::Index kWaves = 200;
 /// Of a normal number each: a wave vector, and two whose direction is the phase.
-constexpr int kNumbersOfWave = 5;
+constexpr Eigen::Index kNumbersOfWave = 5;
 
 /// In turns.
 struct Wave {
