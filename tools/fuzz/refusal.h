@@ -3,8 +3,6 @@
 /// What a door may do with what it does not take: refuse it in one line.
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 
@@ -30,7 +28,6 @@ bool taken(const Use& use) {
     use();
     return true;
   } catch (const InputError& refused) {
-    if (std::getenv("CONDYLE_SAY")) std::fprintf(stderr, "%s\n", refused.what());
     expect_one_line(refused.what());
     return false;
   }
