@@ -46,6 +46,31 @@ TEST(ContactSearch, SeesNothingBeyondTheCutoffAndAnOverlapBelowIt) {
   EXPECT_NEAR(minima[0].gap, -3, 1e-9);
 }
 
+// The ellipsoid of a failed pose that touched a socket at one end and stuck far through it: the points of the
+// socket within it face away from what they are closest to.
+TEST(ContactSearch, ASolidThroughAClosedSocketIsAnOverlap) {
+  const ContactPair pair =
+      pair_of(make_sphere({0, 0, 0}, 48, false),
+              make_ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), {58, 48, 41}, true));
+  ContactSearch search(pair);
+  std::vector<GapMinimum> minima;
+  for (const double far : {5.0, 20.0, 60.0}) {
+    search.find({exp_rotation({0.3, -0.5, 0.2}), {0.6 * far, -0.3 * far, 0.7 * far}}, 0.1, minima);
+    ASSERT_FALSE(minima.empty()) << far;
+    EXPECT_LT(minima[0].gap, -1) << far;
+  }
+}
+
+TEST(ContactSearch, SurfacesMuchSmallerThanTheSpacingAreSeen) {
+  const ContactPair pair =
+      pair_of(make_torus({0, 0, 0}, {0, 0, 1}, 14, 6, true), make_sphere({0, 0, 0}, 28, true));
+  ContactSearch search(pair, 43);
+  std::vector<GapMinimum> minima;
+  search.find({Eigen::Matrix3d::Identity(), {47.5, 0, 0}}, 0.1, minima);  // 14 + 6 + 28 = 48
+  ASSERT_EQ(minima.size(), 1u);
+  EXPECT_NEAR(minima[0].gap, -0.5, 1e-9);
+}
+
 // A wavy floor of height 0.5 cos(x) cos(y)-like polynomial bumps: x⁴ - 2x² has two pits at x = ±1
 // (scaled by 10 mm), so a large ball over a double ridge touches in two places.
 TEST(ContactSearch, FindsTwoPlacesWhereABallTouchesTwoRidges) {

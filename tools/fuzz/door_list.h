@@ -2,7 +2,7 @@
 
 /// The doors one by one (doors.cpp has the table): each does with what it accepts what the program would.
 
-#include "fuzz/doors.h"
+#include "fuzz/door.h"
 
 namespace condyle::fuzz {
 

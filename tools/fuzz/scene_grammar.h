@@ -6,11 +6,9 @@
 
 #include <string>
 
-#include "fuzz/choices.h"
+#include "fuzz/scene_lines.h"
 
 namespace condyle::fuzz {
-
-enum class Temper { kTame, kWild };
 
 /// Text of a scene (TOML); tame ones have a sweep of at most five values.
 [[nodiscard]] std::string made_scene(Choices& choices, Temper temper);

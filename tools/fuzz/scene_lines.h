@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "fuzz/choices.h"
-#include "fuzz/scene_grammar.h"
 
 namespace condyle::fuzz {
+
+/// Of a scene: as people write them, or with any line left out, doubled or misspelt.
+enum class Temper { kTame, kWild };
 
 class SceneLines {
  public:

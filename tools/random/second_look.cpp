@@ -8,6 +8,7 @@
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/math/rotation.h"
 #include "condyle/verify/verify.h"
+#include "random/draws.h"
 
 namespace condyle::random_knees {
 namespace {

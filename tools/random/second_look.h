@@ -2,7 +2,10 @@
 
 /// Poses that did not converge, looked at once more: by solvers that start elsewhere.
 
-#include "random/sweep_outcome.h"
+#include <vector>
+
+#include "condyle/results/run_file.h"
+#include "random/outcome.h"
 
 namespace condyle::random_knees {
 

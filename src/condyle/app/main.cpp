@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "condyle/app/commands.h"
+#include "condyle/app/interrupt.h"
 #include "condyle/app/program.h"
 #include "condyle/app/tell.h"
 
@@ -27,6 +28,7 @@ std::vector<SetupCommand> commands() {
 }  // namespace condyle
 
 int main(int argc, char** argv) {
+  condyle::tell_of_signals("condyle");
   try {
     return condyle::run_program("condyle",
                                 "condyle: positions of equilibrium of a knee, from its meshes",

@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 
 #include "condyle/app/command_tree.h"
-#include "condyle/app/interrupt.h"
 #include "condyle/app/standard_streams.h"
 #include "condyle/input_error.h"
 #include "condyle/version.h"
@@ -32,7 +31,6 @@ int run_program(const std::string& name,
                 int argc,
                 char** argv) {
   prepare_standard_streams();
-  tell_of_signals(name);
   CLI::App program(description, name);
   int status = 0;
   program.set_version_flag("--version", name + " " CONDYLE_VERSION);

@@ -1,10 +1,12 @@
 /// condyle-mpi: a study by the ranks of a network. Exit codes as those of condyle.
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
 
+#include "condyle/app/interrupt.h"
 #include "condyle/app/program.h"
 #include "condyle/app/run_study.h"
 #include "condyle/cluster/ranks.h"
@@ -29,6 +31,7 @@ int main(int argc, char** argv) {
   // What rank 0 says is enough.
   if (ranks.rank() != 0 && std::freopen("/dev/null", "w", stdout) == nullptr)
     ranks.end_all("/dev/null cannot be opened");
+  if (ranks.rank() == 0) condyle::tell_of_signals("condyle-mpi");
   std::string failure;
   try {
     return condyle::run(ranks, argc, argv);
@@ -37,5 +40,6 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     failure = error.what();
   }
+  if (ranks.rank() == 0) std::signal(SIGTERM, SIG_IGN);  // of mpirun, which ends all ranks
   ranks.end_all(failure);
 }

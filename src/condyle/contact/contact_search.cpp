@@ -44,6 +44,14 @@ double affordable_spacing(const Surface& surface, double wanted) {
   return wanted;
 }
 
+/// No wider than what the smaller surface takes to be seen: lever arms of a model may be much longer than
+/// its surfaces.
+double spacing_for(const ContactPair& pair, double wanted) {
+  constexpr double kCoarsest = 0.1;  // of its radius
+  const double radius = std::min(pair.on_B->extent().radius, pair.on_A->extent().radius);
+  return radius > 0 ? std::min(wanted, kCoarsest * radius) : wanted;
+}
+
 /// Lowest first; of minima nearer to each other than `merge` [mm] the lowest stays.
 void keep_isolated(std::vector<GapMinimum>& minima, double merge) {
   std::sort(minima.begin(), minima.end(),
@@ -66,8 +74,8 @@ struct ContactCover::Samples {
   std::vector<Place> on_B, on_A;
 
   Samples(const ContactPair& pair, double wanted)
-      : spacing(std::max(affordable_spacing(*pair.on_B, wanted),
-                         affordable_spacing(*pair.on_A, wanted))),
+      : spacing(std::max(affordable_spacing(*pair.on_B, spacing_for(pair, wanted)),
+                         affordable_spacing(*pair.on_A, spacing_for(pair, wanted)))),
         on_B(pair.on_B->samples(spacing)),
         on_A(pair.on_A->samples(spacing)) {}
   [[nodiscard]] bool fewer_on_A() const {
@@ -199,6 +207,9 @@ std::optional<GapMinimum> ContactSearch::refine(int sample,
   minimum.point_B = B.c;
   minimum.n = B.n;
   minimum.gap = B.n.dot(X_BA * A.c - B.c);
+  // A point within a closed solid is an overlap whichever way its own surface faces there.
+  if (!minimum.refined && deepest_ == kInfinity && minimum.gap > 0 && seen(sample).gap < 0)
+    minimum.gap = -minimum.gap;
   minimum.edge = edge_distance(surfaces, places);
   return minimum;
 }
