@@ -12,9 +12,13 @@
 
 namespace condyle {
 
+/// Line ends become blanks, other control characters '?': what a file quotes is one line, and no command to
+/// a terminal.
+[[nodiscard]] std::string one_line(std::string text);
+
 class InputError : public std::runtime_error {
  public:
-  explicit InputError(const std::string& message) : std::runtime_error(message) {}
+  explicit InputError(const std::string& message) : std::runtime_error(one_line(message)) {}
 };
 
 }  // namespace condyle

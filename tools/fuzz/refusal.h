@@ -17,7 +17,8 @@ namespace condyle::fuzz {
 
 /// Throws std::logic_error for a text that a terminal would not show as one line.
 inline void expect_one_line(const std::string& text) {
-  if (text.empty() || text.find('\n') != std::string::npos)
+  const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  if (text.empty() || std::any_of(text.begin(), text.end(), control))
     throw std::logic_error("is not one line: " + text);
 }
 
