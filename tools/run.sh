@@ -6,7 +6,8 @@ source tools/packages.sh
 
 install_packages
 install_npm_where_possible
-TARGET=condyle build build -DCMAKE_BUILD_TYPE=Release
+# With its manual: what is built here can be installed (cmake --install build).
+for target in condyle condyle_manual; do TARGET=$target build build -DCMAKE_BUILD_TYPE=Release; done
 
 mkdir -p out
 build/condyle sweep data/phantom/knee.toml -o out/phantom.h5

@@ -33,6 +33,7 @@ int main() {
   double off = (pose.X_BA.p - Eigen::Vector3d::Constant(kRadius)).norm() / kRadius;
   for (int axis = 0; axis < 3; ++axis)
     off = std::max(off, std::abs(pose.contacts[axis].force + load[axis]) / load.norm());
-  std::printf("condyle %s: %s, off by %.1e\n", CONDYLE_VERSION, pose.reason.c_str(), off);
+  std::printf("condyle %s: %s, off by %.1e\n", CONDYLE_VERSION,
+              pose.converged() ? "converged" : pose.reason.c_str(), off);
   return pose.converged() && off < 1e-12 ? 0 : 1;
 }
