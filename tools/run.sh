@@ -14,3 +14,4 @@ build/condyle sweep data/phantom/knee.toml -o out/phantom.h5
 build/condyle render out/phantom.h5 -o out
 build/condyle plot out/phantom.h5 -o out
 build/condyle report out/phantom.h5 -o out/phantom.html
+echo "Open out/phantom.html in a browser: the knee in three dimensions, its pictures, curves and tables."

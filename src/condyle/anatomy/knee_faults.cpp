@@ -113,7 +113,9 @@ bool is_wider_at_other_end(const TriangleMesh& tibia, const KneeEnds& ends) {
 }
 
 constexpr const char* kUpsideDown = "the tibia is upside down: its plateau does not face the femur";
-constexpr const char* kTwoFemurs = "two femurs: the mesh given as tibia has posterior condyles too";
+constexpr const char* kTwoFemurs =
+    "two femurs, or femur and tibia interchanged (the femur comes first): the mesh given as tibia "
+    "has posterior condyles";
 
 /// The hollows of a tibia's plateau may pass for small condyles.
 constexpr double kLeastRadii = 0.85;  // of one bone's condyles to the other's
@@ -152,13 +154,12 @@ double tell_unit(const KneeEnds& ends, const std::optional<double>& given) {
   if (given && is_a_knee(*given)) return *given;
   for (const double to_mm : {1.0, 10.0, 25.4, 1000.0})
     if (!given && is_a_knee(to_mm)) return to_mm;
-  throw InputError(
-      fmt::format("the ends of femur and tibia that face each other are {:.3g} and {:.3g} wide: in "
-                  "{} is that a "
-                  "knee of {:.0f} to {:.0f} mm{}",
-                  ends.femur_width, ends.tibia_width,
-                  given ? "another unit than the one that is given" : "none of mm, cm, inch and m",
-                  kNarrowest, kWidest, given ? "" : "; say the unit by --units"));
+  throw InputError(fmt::format(
+      "the ends of femur and tibia that face each other are {:.3g} and {:.3g} wide, in the unit of "
+      "the files: in {} is that a knee, which is {:.0f} to {:.0f} mm wide; {}",
+      ends.femur_width, ends.tibia_width,
+      given ? "another unit than the one of --units" : "none of mm, cm, inch and m", kNarrowest,
+      kWidest, given ? "without --units it is told from the width" : "say the unit by --units"));
 }
 
 Condyles find_condyles_or_say_why(CleanMesh& femur, const CleanMesh& tibia, const KneeEnds& ends) {

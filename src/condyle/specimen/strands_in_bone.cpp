@@ -52,13 +52,15 @@ void warn_of_strands(const Scene& scene,
     int count = 0;
     for (const StrandInBone& strand : strands) {
       if (strand.body != static_cast<int>(b)) continue;
-      names += fmt::format("{}\"{}\" by {:.1f} mm at {:.0f} deg", count++ > 0 ? ", " : "",
+      names += fmt::format("{}\"{}\" ({:.1f} mm {}at {:.0f} deg{})", count > 0 ? ", " : "",
                            scene.ligaments[static_cast<std::size_t>(strand.ligament)].name,
-                           strand.depth, strand.flexion / kDegree);
+                           strand.depth, count > 0 ? "" : "deep ", strand.flexion / kDegree,
+                           count > 0 ? "" : " of flexion from the start pose");
+      ++count;
     }
     if (count > 0)
       lines.push_back(fmt::format(
-          "warning: straight through \"{}\", flexed that far from the start pose: {}; "
+          "warning: straight through \"{}\" go {}; "
           "[[wrap]] body = \"{}\", kind = \"ellipsoid\", fit = \"bone\" leads them round",
           scene.bodies[b].name, names, scene.bodies[b].name));
   }
