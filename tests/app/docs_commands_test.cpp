@@ -83,6 +83,25 @@ TEST_F(DocsCommands, RunAsTheyStandThere) {
   EXPECT_GT(count, 20);
 }
 
+// Links within the project and files in backquotes are those that there are; a name without ending is not looked at.
+TEST(DocsPages, NameOnlyFilesThatAreThere) {
+  static const std::regex link(R"(\]\(([^)#:\s]+)(?:#[^)]*)?\))");
+  static const std::regex file(R"(`((?:src|tests|tools|data|docs|meshes)/[\w./-]+\.\w+)`)");
+  std::vector<fs::path> pages = {kRoot / "README.md"};
+  for (const auto& entry : fs::directory_iterator(kRoot / "docs"))
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  int count = 0;
+  for (const fs::path& page : pages) {
+    const std::string text = contents(page);
+    for (const auto& [pattern, from] : {std::pair{&link, page.parent_path()}, {&file, kRoot}})
+      for (std::sregex_iterator it(text.begin(), text.end(), *pattern), end; it != end; ++it) {
+        EXPECT_TRUE(fs::exists(from / (*it)[1].str())) << page << ": " << (*it)[1];
+        ++count;
+      }
+  }
+  EXPECT_GT(count, 100);
+}
+
 class ShippedScene : public CommandLine, public testing::WithParamInterface<const char*> {};
 
 // All poses of ours converge: exit code 0.
