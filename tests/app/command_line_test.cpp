@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <regex>
+#include <set>
 #include <sstream>
 
+#include "condyle/build_info.h"
 #include "condyle/results/run_file.h"
 #include "condyle/version.h"
 
@@ -203,7 +205,23 @@ TEST_F(CommandLine, ExplainsItself) {
     EXPECT_NE(outcome.out.find(command), std::string::npos) << command;
   }
   EXPECT_EQ(run("").code, 1);
-  EXPECT_EQ(run("--version").out, "condyle " CONDYLE_VERSION "\n");
+}
+
+TEST_F(CommandLine, SaysItsVersionAndHowItWasBuilt) {
+  const BuildInfo info = build_info();
+  EXPECT_EQ(run("--version").out,
+            "condyle " CONDYLE_VERSION "\nbuild: " + info.made_by + ", " + info.build_type + ", " +
+                info.compiler + ", " + info.processor + "\n" +
+                build_lines(info).substr(build_lines(info).find('\n') + 1) + "\n");
+  for (const std::string& fact : {info.made_by, info.build_type, info.compiler, info.processor})
+    EXPECT_TRUE(std::isalnum(static_cast<unsigned char>(fact.at(0)))) << fact;
+  std::set<std::string> names;
+  for (const BuiltWith& library : info.libraries) {
+    names.insert(library.name);
+    EXPECT_TRUE(std::isdigit(static_cast<unsigned char>(library.version.at(0)))) << library.name;
+  }
+  EXPECT_EQ(names.size(), info.libraries.size());
+  for (const char* name : {"Eigen", "HDF5", "SUNDIALS", "Ceres"}) EXPECT_EQ(names.count(name), 1U);
 }
 
 }  // namespace

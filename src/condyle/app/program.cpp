@@ -6,6 +6,7 @@
 
 #include "condyle/app/command_tree.h"
 #include "condyle/app/standard_streams.h"
+#include "condyle/build_info.h"
 #include "condyle/input_error.h"
 #include "condyle/version.h"
 
@@ -33,7 +34,8 @@ int run_program(const std::string& name,
   prepare_standard_streams();
   CLI::App program(description, name);
   int status = 0;
-  program.set_version_flag("--version", name + " " CONDYLE_VERSION);
+  program.set_version_flag("--version",
+                           name + " " CONDYLE_VERSION "\n" + build_lines(build_info()));
   program.require_subcommand(1);
   for (const SetupCommand& setup : commands) setup(program, status);
   refuse_empty_values(program);
