@@ -77,8 +77,8 @@ std::string angle_out_of_range(const Model& model, const Drive& drive) {
   return {};
 }
 
-/// What is farthest from what it should be.
-std::string worst_condition(const Model& model, const NewtonSystem& system, double last_step) {
+/// The condition that is farthest from what it should be; empty where all hold.
+std::string unmet_condition(const Model& model, const NewtonSystem& system) {
   constexpr double kUnmet = 1e-6;
   double largest = kUnmet * model.length;
   std::string words;
@@ -91,7 +91,7 @@ std::string worst_condition(const Model& model, const NewtonSystem& system, doub
         fmt::format("condition {} is {:.3g} {} off", quoted(model.condition_names[i]),
                     system.conditions()[i].k * (angle ? 180 / M_PI : 1), angle ? "degrees" : "mm");
   }
-  return words.empty() ? fmt::format("last step {:.3g} mm", last_step) : words;
+  return words;
 }
 
 std::string names_of_pairs(const Model& model) {
@@ -246,15 +246,17 @@ std::string still_driven(const Failure& f) {
 std::string left_all_bounds(const Failure& f) {
   if (f.attempt.newton.outcome != NewtonOutcome::kDiverged) return {};
   f.system.assemble(f.state, f.drive);
+  const std::string unmet = unmet_condition(f.model, f.system);
   return "Newton's method left all bounds: " +
-         worst_condition(f.model, f.system, f.attempt.descent.step);
+         (unmet.empty() ? "no pose was found from where it started" : unmet);
 }
 
 std::string unsettled(const Failure& f) {
   const std::string driven = still_driven(f);
   f.system.assemble(f.state, f.drive);
+  const std::string unmet = unmet_condition(f.model, f.system);
   return "nothing settled within the iteration limit: " +
-         worst_condition(f.model, f.system, f.attempt.descent.step) +
+         (unmet.empty() ? fmt::format("last step {:.3g} mm", f.attempt.descent.step) : unmet) +
          (driven.empty() ? "" : "; " + driven);
 }
 
