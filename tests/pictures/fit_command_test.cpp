@@ -15,6 +15,8 @@ const std::string kPhantom = CONDYLE_SOURCE_DIR "/data/phantom/knee.toml";
 TEST_F(CommandLine, NamesAFolderForPicturesThatCannotBeMadeBeforeItFits) {
   expect_bad_input(run("fit '" + kPhantom + "' -o fit.h5 --pictures no/such/folder"),
                    "no/such/folder: the folder no/such does not exist");
+  expect_bad_input(run("fit '" + kPhantom + "' -o fit.h5 --pictures fit.png"),
+                   "fit.png: is the name of one file, expected a folder for several");
   EXPECT_TRUE(results().empty());
 }
 

@@ -11,6 +11,9 @@ std::filesystem::path make_picture_folder(const std::string& folder) {
   const std::filesystem::path parent = path.has_parent_path() ? path.parent_path() : ".";
   std::error_code error;
   if (std::filesystem::exists(path)) throw InputError(folder + ": expected a folder");
+  for (const char* ending : {".png", ".svg", ".pdf"})
+    if (path.extension() == ending)
+      throw InputError(folder + ": is the name of one file, expected a folder for several");
   if (!std::filesystem::is_directory(parent))
     throw InputError(folder + ": the folder " + parent.string() + " does not exist");
   std::filesystem::create_directory(path, error);

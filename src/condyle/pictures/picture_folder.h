@@ -8,7 +8,7 @@
 namespace condyle {
 
 /// Makes the folder where only its last part is missing. Throws InputError when it cannot be
-/// written into.
+/// written into, or is to be made with the name of a picture.
 [[nodiscard]] std::filesystem::path make_picture_folder(const std::string& folder);
 
 }  // namespace condyle
