@@ -8,6 +8,7 @@ build_packages=(
   libosmesa6-dev libpng-dev libfreetype-dev fonts-dejavu-core gnuplot-nox
   libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libpugixml-dev
   libsundials-dev libceres-dev librandom123-dev libboost-dev libssl-dev libgtest-dev libbenchmark-dev hdf5-tools python3-h5py
+  pybind11-dev python3-dev python3-numpy
 )
 
 missing_packages() {

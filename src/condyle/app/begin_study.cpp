@@ -10,25 +10,6 @@
 
 namespace condyle {
 
-void refuse_to_overwrite(const std::filesystem::path& output,
-                         const std::vector<std::filesystem::path>& inputs) {
-  for (const std::filesystem::path& input : inputs) {
-    std::error_code unknown;
-    if (std::filesystem::equivalent(output, input, unknown))
-      throw InputError(output.string() +
-                       ": is read by this command, expected another file to write");
-  }
-}
-
-void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene& scene) {
-  std::vector<std::filesystem::path> inputs = {scene.file};
-  for (const BodyDescription& body : scene.bodies)
-    if (body.mesh) inputs.push_back(body.mesh->path);
-  for (const SurfaceDescription& surface : scene.surfaces)
-    if (surface.patch.mesh) inputs.push_back(surface.patch.mesh->path);
-  refuse_to_overwrite(output, inputs);
-}
-
 Study begin_study(const Talk& talk,
                   const std::string& scene,
                   const std::string& output,

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "condyle/app/talk.h"
-#include "condyle/results/run_file.h"
+#include "condyle/results/make_run.h"
 #include "condyle/scene/fitted_surface.h"
 
 namespace condyle {
@@ -25,12 +25,5 @@ struct Study {
                                 const std::string& scene,
                                 const std::string& output,
                                 const std::function<void(const Scene&)>& check);
-
-/// Throws InputError where the file to write is one of those that a command reads.
-void refuse_to_overwrite(const std::filesystem::path& output,
-                         const std::vector<std::filesystem::path>& inputs);
-
-/// The same of the scene and its meshes.
-void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene& scene);
 
 }  // namespace condyle

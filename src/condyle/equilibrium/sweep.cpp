@@ -29,20 +29,30 @@ SweepResult sweep(EquilibriumSolver& solver,
   return SweepWalk(solver, swept, options).along(values);
 }
 
+SweepResult sweep(EquilibriumSolver& solver,
+                  const SweepDescription& description,
+                  const SweepOptions& options) {
+  const Swept swept = swept_of(description);
+  const std::vector<double>& values = description.values;
+  if (!description.arc_length || values.size() < 2) return sweep(solver, swept, values, options);
+  PathOptions path;
+  path.on_pose = options.on_pose;
+  return follow_path(solver, swept, values.front(), values.back(), largest_step(values), path);
+}
+
+EquilibriumOptions equilibrium_options(const Scene& scene, const SweepOptions& options) {
+  EquilibriumOptions equilibrium;
+  equilibrium.description.stability = options.stability;
+  equilibrium.description.joint_stiffness = options.stability && scene.joint;
+  return equilibrium;
+}
+
 SweepResult sweep(const Scene& scene,
                   const std::vector<FittedSurface>& surfaces,
                   const SweepOptions& options) {
   assert(scene.sweep);
-  EquilibriumOptions equilibrium;
-  equilibrium.description.stability = options.stability;
-  equilibrium.description.joint_stiffness = options.stability && scene.joint;
-  EquilibriumSolver solver(build_model(scene, surfaces), equilibrium);
-  const Swept swept = swept_of(*scene.sweep);
-  const std::vector<double>& values = scene.sweep->values;
-  if (!scene.sweep->arc_length || values.size() < 2) return sweep(solver, swept, values, options);
-  PathOptions path;
-  path.on_pose = options.on_pose;
-  return follow_path(solver, swept, values.front(), values.back(), largest_step(values), path);
+  EquilibriumSolver solver(build_model(scene, surfaces), equilibrium_options(scene, options));
+  return sweep(solver, *scene.sweep, options);
 }
 
 }  // namespace condyle

@@ -25,8 +25,16 @@ namespace condyle {
                                 const std::vector<double>& values,
                                 const SweepOptions& options = {});
 
-/// One door: the sweep that the scene asks for. `surfaces` as from fit_surfaces. One along the path
-/// of equilibria (arc_length.h) takes nothing over.
+/// The sweep that a scene asks for, by a solver of its model: in steps, or along the path of equilibria (arc_length.h),
+/// which takes nothing over.
+[[nodiscard]] SweepResult sweep(EquilibriumSolver& solver,
+                                const SweepDescription& description,
+                                const SweepOptions& options = {});
+/// What is told of the poses of such a sweep.
+[[nodiscard]] EquilibriumOptions equilibrium_options(const Scene& scene,
+                                                     const SweepOptions& options = {});
+
+/// One door: the sweep that the scene asks for. `surfaces` as from fit_surfaces.
 [[nodiscard]] SweepResult sweep(const Scene& scene,
                                 const std::vector<FittedSurface>& surfaces,
                                 const SweepOptions& options = {});

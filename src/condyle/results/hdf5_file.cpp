@@ -117,6 +117,7 @@ void Hdf5Group::check(int status, const std::string& what) const {
 }
 
 Hdf5Group Hdf5Group::create(const std::string& name) const {
+  if (memory_ != nullptr) return {memory_->make_group(name), place_ + name + "/"};
   const Hdf5Handle properties = ordered_group_properties(H5P_GROUP_CREATE);
   const hid_t id =
       H5Gcreate2(handle_.id(), name.c_str(), H5P_DEFAULT, properties.id(), H5P_DEFAULT);
@@ -124,12 +125,15 @@ Hdf5Group Hdf5Group::create(const std::string& name) const {
 }
 
 Hdf5Group Hdf5Group::open(const std::string& name) const {
+  if (memory_ != nullptr) return {memory_->make_group(name), place_ + name + "/"};
   check_link("group", name);
   const hid_t id = H5Gopen2(handle_.id(), name.c_str(), H5P_DEFAULT);
   return {checked(id, H5Gclose, fmt::format("{} is no group", name)), place_ + name + "/"};
 }
 
 bool Hdf5Group::has(const std::string& name) const {
+  if (memory_ != nullptr)
+    return memory_->group(name) != nullptr || memory_->column(name) != nullptr;
   return H5Lexists(handle_.id(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
@@ -181,6 +185,10 @@ void Hdf5Group::write(const std::string& name,
                       const std::vector<double>& values,
                       const Shape& shape,
                       const std::string& units) const {
+  if (memory_ != nullptr) {
+    memory_->add(name, {values, shape, units});
+    return;
+  }
   const Hdf5Handle dataset = create_dataset(name, H5T_IEEE_F64LE, shape, units);
   check(values.size() == count(shape) ? 0 : -1,
         fmt::format("dataset {} has not the shape {}", name, written(shape)));
@@ -192,6 +200,10 @@ void Hdf5Group::write(const std::string& name,
                       const std::vector<int>& values,
                       const Shape& shape,
                       const std::string& units) const {
+  if (memory_ != nullptr) {
+    memory_->add(name, {values, shape, units});
+    return;
+  }
   const Hdf5Handle dataset = create_dataset(name, H5T_STD_I32LE, shape, units);
   check(values.size() == count(shape) ? 0 : -1,
         fmt::format("dataset {} has not the shape {}", name, written(shape)));
@@ -200,6 +212,10 @@ void Hdf5Group::write(const std::string& name,
 }
 
 void Hdf5Group::write(const std::string& name, const std::vector<std::string>& values) const {
+  if (memory_ != nullptr) {
+    memory_->add(name, {values, {values.size()}, "1"});
+    return;
+  }
   const Hdf5Handle type = text_type();
   const Hdf5Handle dataset = create_dataset(name, type.id(), {values.size()}, "1");
   if (values.empty()) return;
@@ -248,12 +264,20 @@ void Hdf5Group::attach(const Hdf5Handle& object,
 }
 
 void Hdf5Group::write_attribute(const std::string& name, const std::string& text) const {
+  if (memory_ != nullptr) {
+    memory_->attributes[name] = text;
+    return;
+  }
   attach(handle_, name, {text}, true);
 }
 
 void Hdf5Group::write_attribute(const std::string& dataset,
                                 const std::string& name,
                                 const std::vector<std::string>& texts) const {
+  if (memory_ != nullptr) {
+    memory_->columns[dataset].attributes[name] = texts;
+    return;
+  }
   attach(open_dataset(dataset), name, texts, false);
 }
 
@@ -337,6 +361,48 @@ std::string Hdf5Group::read_attribute_of(const Hdf5Handle& object, const std::st
   std::string text = raw == nullptr ? "" : raw;
   H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, &raw);
   return text;
+}
+
+namespace {
+
+DataColumn read_column(const Hdf5Group& group, const std::string& name) {
+  DataColumn column;
+  column.units = group.read_attribute(name, "units");
+  const DatasetKind kind = group.kind(name);
+  if (kind == DatasetKind::kTexts) {
+    std::vector<std::string> texts = group.read_texts(name);
+    column.shape = {texts.size()};
+    column.values = std::move(texts);
+    return column;
+  }
+  Hdf5Array array = group.read(name);
+  column.shape = array.shape;
+  if (kind == DatasetKind::kIntegers)
+    column.values = group.read_integers(name, array.shape);
+  else
+    column.values = std::move(array.values);
+  return column;
+}
+
+}  // namespace
+
+DatasetKind Hdf5Group::kind(const std::string& name) const {
+  const Hdf5Handle dataset = open_dataset(name);
+  const Hdf5Handle type(H5Dget_type(dataset.id()), H5Tclose);
+  const H5T_class_t of = H5Tget_class(type.id());
+  if (of == H5T_STRING) return DatasetKind::kTexts;
+  return of == H5T_INTEGER ? DatasetKind::kIntegers : DatasetKind::kNumbers;
+}
+
+ColumnTree read_columns(const Hdf5Group& group) {
+  ColumnTree tree;
+  for (const std::string& name : group.names()) {
+    if (group.is_group(name))
+      tree.make_group(name) = read_columns(group.open(name));
+    else
+      tree.add(name, read_column(group, name));
+  }
+  return tree;
 }
 
 Hdf5Builder::Hdf5Builder(const std::string& file) : name_(file) {

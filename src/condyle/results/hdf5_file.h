@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "condyle/results/column_tree.h"
 #include "condyle/results/hdf5_handle.h"
 
 namespace condyle {
@@ -44,6 +45,7 @@ class Hdf5Rows {
   std::size_t row_ = 0;
   std::string place_;
 };
+enum class DatasetKind { kNumbers, kIntegers, kTexts };
 enum class StoredAs { kFloat64, kFloat32, kInt32, kUint8 };
 
 class Hdf5Group {
@@ -51,6 +53,8 @@ class Hdf5Group {
   /// `place` names the group in messages: "run.h5: /sweep".
   Hdf5Group(Hdf5Handle handle, std::string place)
       : handle_(std::move(handle)), place_(std::move(place)) {}
+  /// A group that is kept in `memory` and written to no file; create, open, has, write and write_attribute know it.
+  Hdf5Group(ColumnTree& memory, std::string place) : memory_(&memory), place_(std::move(place)) {}
 
   [[nodiscard]] Hdf5Group create(const std::string& name) const;
   [[nodiscard]] Hdf5Group open(const std::string& name) const;
@@ -80,6 +84,7 @@ class Hdf5Group {
                        const std::string& name,
                        const std::vector<std::string>& texts) const;
 
+  [[nodiscard]] DatasetKind kind(const std::string& name) const;
   [[nodiscard]] Hdf5Array read(const std::string& name) const;
   /// The same, of a shape that must be met.
   [[nodiscard]] std::vector<double> read(const std::string& name, const Shape& shape) const;
@@ -113,8 +118,12 @@ class Hdf5Group {
                                               const std::string& name) const;
 
   Hdf5Handle handle_;
+  ColumnTree* memory_ = nullptr;
   std::string place_;
 };
+
+/// All that a group holds, as it stands in the file.
+[[nodiscard]] ColumnTree read_columns(const Hdf5Group& group);
 
 /// A file being built in memory. Groups must be gone before `bytes` is asked.
 class Hdf5Builder {

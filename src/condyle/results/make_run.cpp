@@ -57,4 +57,23 @@ void expect_same(const std::vector<InputFile>& before, const std::vector<InputFi
                        ": has changed while it was read, expected a mesh that stays as it is");
 }
 
+void refuse_to_overwrite(const std::filesystem::path& output,
+                         const std::vector<std::filesystem::path>& inputs) {
+  for (const std::filesystem::path& input : inputs) {
+    std::error_code unknown;
+    if (std::filesystem::equivalent(output, input, unknown))
+      throw InputError(output.string() +
+                       ": is read by this command, expected another file to write");
+  }
+}
+
+void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene& scene) {
+  std::vector<std::filesystem::path> inputs = {scene.file};
+  for (const BodyDescription& body : scene.bodies)
+    if (body.mesh) inputs.push_back(body.mesh->path);
+  for (const SurfaceDescription& surface : scene.surfaces)
+    if (surface.patch.mesh) inputs.push_back(surface.patch.mesh->path);
+  refuse_to_overwrite(output, inputs);
+}
+
 }  // namespace condyle

@@ -2,6 +2,7 @@
 
 /// What a result file holds before anything is computed.
 
+#include <filesystem>
 #include <vector>
 
 #include "condyle/results/run_file.h"
@@ -19,5 +20,12 @@ namespace condyle {
 
 /// Meshes are read more than once. Throws InputError where one is not as it was.
 void expect_same(const std::vector<InputFile>& before, const std::vector<InputFile>& now);
+
+/// Throws InputError where the file to write is one of those that a command reads.
+void refuse_to_overwrite(const std::filesystem::path& output,
+                         const std::vector<std::filesystem::path>& inputs);
+
+/// The same of the scene and its meshes.
+void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene& scene);
 
 }  // namespace condyle

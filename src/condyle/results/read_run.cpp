@@ -13,6 +13,7 @@
 #include "condyle/results/layer_group.h"
 #include "condyle/results/path_group.h"
 #include "condyle/results/rehearsal.h"
+#include "condyle/results/run_columns.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/run_view.h"
 #include "condyle/results/sensitivity_group.h"
@@ -325,6 +326,17 @@ Poses read_sweep(const Hdf5Group& sweep, const Scene& scene, const Unit& unit) {
 Run read_run(const std::filesystem::path& path) {
   rehearse(path, [&] { (void)read_run_at_once(path); });
   return read_run_at_once(path);
+}
+
+RunWithColumns read_run_with_columns(const std::filesystem::path& path) {
+  const auto read = [&] {
+    RunWithColumns found{read_run_at_once(path), {}};
+    const Hdf5Reader reader(path);
+    found.columns = read_columns(reader.root());
+    return found;
+  };
+  rehearse(path, [&] { (void)read(); });
+  return read();
 }
 
 Run read_run_at_once(const std::filesystem::path& path) {

@@ -12,6 +12,7 @@
 #include "condyle/results/layer_group.h"
 #include "condyle/results/output_file.h"
 #include "condyle/results/path_group.h"
+#include "condyle/results/run_columns.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/run_view.h"
 #include "condyle/results/sensitivity_group.h"
@@ -374,6 +375,18 @@ void write_sweep(const Hdf5Group& sweep, const Scene& scene, const Unit& unit, c
   write_pose(sweep, scene, poses);
   write_elements(sweep, scene, poses);
   write_solver(sweep, poses);
+}
+
+ColumnTree columns_of(const Run& run) {
+  ColumnTree columns;
+  write_all(Hdf5Group(columns, "/"), run);
+  return columns;
+}
+
+ColumnTree columns_of(const Scene& scene, const Unit& unit, const PoseResult& pose) {
+  ColumnTree columns;
+  write_sweep(Hdf5Group(columns, "/sweep/"), scene, unit, {pose});
+  return columns;
 }
 
 void write_run(const std::filesystem::path& path, const Run& run) {

@@ -69,8 +69,10 @@ Scene read_scene(const std::filesystem::path& file) {
   return parse(text_of(file, "a scene (TOML)"), file, true);
 }
 
-Scene parse_scene(const std::string& text, const std::filesystem::path& file) {
-  return parse(text, file, false);
+Scene parse_scene(const std::string& text,
+                  const std::filesystem::path& file,
+                  bool meshes_must_exist) {
+  return parse(text, file, meshes_must_exist);
 }
 
 const Choices<double>& length_units() {

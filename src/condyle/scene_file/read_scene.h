@@ -15,7 +15,9 @@ namespace condyle {
 [[nodiscard]] Scene read_scene(const std::filesystem::path& file);
 
 /// The same from text; relative paths are taken from the folder of `file`, which is named in
-/// messages.
-[[nodiscard]] Scene parse_scene(const std::string& text, const std::filesystem::path& file);
+/// messages. The meshes that it names need not be there, unless they are asked to.
+[[nodiscard]] Scene parse_scene(const std::string& text,
+                                const std::filesystem::path& file,
+                                bool meshes_must_exist = false);
 
 }  // namespace condyle

@@ -1,0 +1,33 @@
+"""Positions of equilibrium of the knee: what contacts, ligaments and loads make of it, pose by pose.
+
+    import condyle
+    scene = condyle.read_scene("data/phantom/knee.toml")
+    run = condyle.sweep(scene)                    # a Run: numpy arrays
+    print(run.values, run.ligaments["aACL"].force)
+    run.save("run.h5")                            # what `condyle sweep` writes; condyle.open_run reads it
+
+A scene can also be built of Scene, Body, Surface, Contact, Ligament ..., with the names of the scene file
+(docs/scene.md). `fit` fits its surfaces, a Model is a knee that any number of threads share, a Solver is the workspace
+of one thread.
+
+Given are numbers in the units that the scene declares; results are in mm, N, N mm and deg. Bad input raises InputError, a
+ValueError with the line that the program prints; a pose that is not found is a status (Status), never an exception.
+"""
+
+from enum import IntEnum as _IntEnum
+
+from ._condyle import (Group, InputError, Model, Pose, Run, Solver, Surfaces, __version__, _status_names, build_info, fit,
+                       open_run)
+from .scene import (Body, Calibrate, CalibrateLoad, CalibrateParameter, Condition, Contact, Damper, Drive, End, Fit, Frame,
+                    Joint, Laxity, Ligament, Load, Region, Scene, Simulate, Start, Surface, Sweep, Table, Units, Wrap,
+                    read_scene)
+from .sweeps import sweep
+
+Status = _IntEnum("Status", {name.upper().replace(" ", "_"): i for i, name in enumerate(_status_names)}, module=__name__)
+Status.__doc__ = """How the search for a pose ended: CONVERGED is 0, the others say why there is no pose.
+
+The values are those of Run.status and of /sweep/status in a result file; LEFT_PATCH has numbers all the same, of surfaces
+extrapolated beyond what is known of them."""
+
+__all__ = [name for name in dir() if not name.startswith("_") and name not in ("scene", "sweeps")]
+__all__ += ["__version__"]

@@ -1,0 +1,53 @@
+#include "condyle/python/interrupts.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace condyle::python {
+
+namespace py = pybind11;
+
+void run_interruptibly(const std::function<void(const std::function<bool()>& should_stop)>& work) {
+  std::atomic<bool> stop = false;
+  std::mutex mutex;
+  std::condition_variable ended;
+  bool done = false;
+  std::exception_ptr failure;
+  std::optional<py::error_already_set> raised;
+  {
+    const py::gil_scoped_release unlocked;
+    std::thread worker([&] {
+      try {
+        work([&] { return stop.load(); });
+      } catch (...) {
+        failure = std::current_exception();
+      }
+      const std::lock_guard lock(mutex);
+      done = true;
+      ended.notify_one();
+    });
+    std::unique_lock lock(mutex);
+    while (!ended.wait_for(lock, std::chrono::milliseconds(50), [&] { return done; })) {
+      if (raised) continue;
+      lock.unlock();
+      {
+        const py::gil_scoped_acquire locked;
+        if (PyErr_CheckSignals() != 0) {
+          raised.emplace();
+          stop = true;
+        }
+      }
+      lock.lock();
+    }
+    lock.unlock();
+    worker.join();
+  }
+  if (raised) throw std::move(*raised);
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace condyle::python

@@ -1,0 +1,16 @@
+#include "condyle/python/bindings.h"
+
+PYBIND11_MODULE(_condyle, m) {
+  using namespace condyle::python;
+  m.doc() = "The compiled part of condyle; its names are those of the package condyle.";
+  bind_errors(m);
+  bind_build_info(m);
+  bind_scene(m);
+  bind_columns(m);
+  bind_model(m);
+  bind_pose(m);
+  bind_solver(m);
+  bind_run(m);
+  bind_sweep(m);
+  bind_timings(m);
+}
