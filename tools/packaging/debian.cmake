@@ -1,0 +1,53 @@
+# What Debian's policy asks of a package beyond what is installed elsewhere. CPack runs it on what it has gathered, a folder
+# for each package, before it packs them.
+set(here ${CMAKE_CURRENT_LIST_DIR})
+set(packages program=condyle development=libcondyle-dev python=python3-condyle)
+
+# The head of the changelog is the version that is packed.
+file(READ ${here}/changelog changelog LIMIT 200)
+string(FIND "${changelog}" "condyle (${CPACK_PACKAGE_VERSION})" at)
+if(NOT at EQUAL 0)
+  message(FATAL_ERROR "${here}/changelog does not begin with condyle (${CPACK_PACKAGE_VERSION})")
+endif()
+
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+foreach(package ${packages})
+  string(REPLACE = ";" package ${package})
+  list(GET package 0 part)
+  list(GET package 1 name)
+  set(root ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/${part})
+  if(NOT IS_DIRECTORY ${root})
+    continue()
+  endif()
+  set(usr ${root}${CPACK_PACKAGING_INSTALL_PREFIX})
+  file(MAKE_DIRECTORY ${usr}/share/doc/${name} ${usr}/share/lintian/overrides)
+  file(COPY ${here}/copyright ${here}/changelog DESTINATION ${usr}/share/doc/${name})
+  file(GLOB compressed ${usr}/share/man/*/*.[0-9] ${usr}/share/doc/${name}/changelog)
+  run(gzip -9n ${compressed})
+  if(EXISTS ${here}/${name}.lintian-overrides)
+    configure_file(${here}/${name}.lintian-overrides ${usr}/share/lintian/overrides/${name} COPYONLY)
+  endif()
+
+  # One folder for all versions of Python 3.
+  file(GLOB modules ${usr}/lib/python3.*)
+  foreach(folder ${modules})
+    file(MAKE_DIRECTORY ${usr}/lib/python3)
+    file(RENAME ${folder}/dist-packages ${usr}/lib/python3/dist-packages)
+    file(REMOVE_RECURSE ${folder})
+  endforeach()
+
+  file(GLOB_RECURSE libraries ${usr}/lib/*.a)
+  foreach(library ${libraries})
+    run(strip --strip-debug --enable-deterministic-archives --remove-section=.comment ${library})
+  endforeach()
+  file(GLOB_RECURSE modules ${usr}/lib/python3/*.so)
+  file(GLOB programs ${usr}/bin/*)
+  foreach(file ${programs} ${modules})
+    run(strip --strip-unneeded --remove-section=.comment --remove-section=.note ${file})
+  endforeach()
+  run(find ${root} -type d -empty -delete)
+  run(find ${root} -type d -exec chmod 755 {} +)
+endforeach()
