@@ -6,19 +6,18 @@ namespace {
 using Pose = std::shared_ptr<PoseData>;
 
 /// A pose alone is the only row of its columns.
-py::object part(const Pose& pose, const char* place) {
-  return at_place(pose, pose->tree(), place, 0);
+py::object part(const Pose& pose, const std::string& place) {
+  return at_place(pose, pose->tree_at(place), place, 0);
 }
 
 py::object part_or_none(const Pose& pose, const std::string& name) {
-  if (pose->tree().group(name) == nullptr) return py::none();
-  return at_place(pose, pose->tree(), name, 0);
+  return pose->tree_at(name).group(name) == nullptr ? py::none() : part(pose, name);
 }
 
 py::object status_of(const PoseData& pose) {
   static const py::handle kStatus =
       py::object(py::module_::import("condyle").attr("Status")).release();
-  return kStatus(static_cast<int>(pose.pose.status));
+  return kStatus(static_cast<int>(pose.pose().status));
 }
 
 }  // namespace
@@ -36,13 +35,13 @@ void bind_pose(py::module_& m) {
           "status", [](const PoseData& pose) { return status_of(pose); },
           "How the search ended: a Status.")
       .def_property_readonly(
-          "converged", [](const PoseData& pose) { return pose.pose.converged(); },
+          "converged", [](const PoseData& pose) { return pose.pose().converged(); },
           "True where the pose was found, within the known surfaces.")
       .def_property_readonly(
-          "reason", [](const PoseData& pose) { return pose.pose.reason; },
+          "reason", [](const PoseData& pose) { return pose.pose().reason; },
           "One line where it was not; else empty.")
       .def_property_readonly(
-          "remark", [](const PoseData& pose) { return pose.pose.remark; },
+          "remark", [](const PoseData& pose) { return pose.pose().remark; },
           "What a reader should know of a pose that was found; mostly empty.")
       .def_property_readonly(
           "translation", [](const Pose& pose) { return part(pose, "pose/translation"); },
@@ -67,21 +66,19 @@ void bind_pose(py::module_& m) {
           "stability", [](const Pose& pose) { return part(pose, "stability"); },
           "Group: stable (1, 0; -1 not examined), lowest_stiffness [N/mm].")
       .def_property_readonly(
-          "iterations", [](const PoseData& pose) { return pose.pose.iterations; },
+          "iterations", [](const PoseData& pose) { return pose.pose().iterations; },
           "Iterations of Newton's method.")
       .def_property_readonly(
-          "residual", [](const PoseData& pose) { return pose.pose.residual; },
+          "residual", [](const PoseData& pose) { return pose.pose().residual; },
           "Largest force out of balance [N].")
       .def(
           "__getitem__",
-          [](const Pose& pose, const std::string& place) {
-            return at_place(pose, pose->tree(), place, 0);
-          },
+          [](const Pose& pose, const std::string& place) { return part(pose, place); },
           py::arg("place"),
           "What stands there under /sweep of a result file: pose[\"ligaments/aACL/force\"].")
       .def("__repr__", [](const PoseData& pose) {
-        return std::string("<condyle.Pose: ") + name(pose.pose.status) +
-               (pose.pose.reason.empty() ? "" : ", " + pose.pose.reason) + ">";
+        return std::string("<condyle.Pose: ") + name(pose.pose().status) +
+               (pose.pose().reason.empty() ? "" : ", " + pose.pose().reason) + ">";
       });
 }
 

@@ -17,15 +17,10 @@ const char* kind_name(RunKind kind) {
 }
 
 py::object place_in(const RunPointer& run, const std::string& place, long row = -1) {
-  const std::size_t begin = place.find_first_not_of('/');
-  const std::string inside = begin == std::string::npos ? "" : place.substr(begin);
-  const ColumnTree* tree = run->tree_with(inside.substr(0, inside.find('/')));
-  return at_place(run, tree == nullptr ? run->columns() : *tree, inside, row);
-}
-
-bool has(const RunPointer& run, const char* group, const char* member) {
-  const ColumnTree* tree = run->columns().group(group);
-  return tree != nullptr && (tree->group(member) != nullptr || tree->column(member) != nullptr);
+  const std::string inside = place.substr(std::min(place.find_first_not_of('/'), place.size()));
+  const ColumnTree* tree = run->tree_at(inside);
+  if (tree == nullptr) throw py::key_error("\"" + inside + "\" is not in the run");
+  return at_place(run, *tree, inside, row);
 }
 
 py::object of_sweep(const RunPointer& run, const char* place) {
@@ -36,11 +31,14 @@ py::object of_sweep(const RunPointer& run, const char* place) {
 }
 
 py::object of_sweep_or_none(const RunPointer& run, const char* place) {
-  return has(run, "sweep", place) ? of_sweep(run, place) : py::none();
+  const ColumnTree* tree = run->tree_at(std::string("sweep/") + place);
+  const bool there = tree != nullptr && tree->group("sweep") != nullptr &&
+                     tree->group("sweep")->group(place) != nullptr;
+  return there ? of_sweep(run, place) : py::none();
 }
 
 py::object top_or_none(const RunPointer& run, const std::string& name) {
-  return run->tree_with(name) == nullptr ? py::none() : place_in(run, name);
+  return run->tree_at(name) == nullptr ? py::none() : place_in(run, name);
 }
 
 py::object converged(const RunPointer& run) {

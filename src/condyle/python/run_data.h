@@ -3,8 +3,11 @@
 /// A run as Python holds it: what was computed, and its columns as a file would have them, made when first asked for.
 /// The interpreter's lock is held by whoever asks.
 
-#include <filesystem>
+#include <array>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "condyle/python/knee.h"
 #include "condyle/results/run_columns.h"
@@ -25,26 +28,35 @@ class RunData {
   [[nodiscard]] const std::string& file() const { return file_; }
   /// With all that a file holds.
   [[nodiscard]] Run complete() const;
-  /// Of the poses and what goes with them; `rest`: patches, bodies, inputs.
-  [[nodiscard]] const ColumnTree& columns() const;
-  [[nodiscard]] const ColumnTree& rest() const;
-  /// A group or a column at the top of the tree, wherever it is kept; null where there is none.
-  [[nodiscard]] const ColumnTree* tree_with(const std::string& name) const;
+  /// The tree where "sweep/ligaments/aACL" stands, with that part of it made; null where it has no such beginning.
+  [[nodiscard]] const ColumnTree* tree_at(const std::string& place) const;
 
  private:
+  void make_sweep(const std::string& member) const;
+
   std::shared_ptr<const KneeModel> model_;
   Run run_;
   std::string file_;
-  mutable std::unique_ptr<const ColumnTree> columns_, rest_;
+  mutable std::unique_ptr<ColumnTree> columns_;     ///< of the run
+  mutable std::unique_ptr<const ColumnTree> rest_;  ///< patches, meshes, warnings: of the model
+  mutable std::array<bool, kSweepPartCount> made_{};
 };
 
-/// A solved pose, likewise.
-struct PoseData {
-  std::shared_ptr<const KneeModel> model;
-  PoseResult pose;
-  mutable std::unique_ptr<const ColumnTree> columns = {};
+/// A solved pose, likewise: a sweep of one.
+class PoseData {
+ public:
+  PoseData(std::shared_ptr<const KneeModel> model, const PoseResult& pose)
+      : model_(std::move(model)), poses_{pose} {}
 
-  [[nodiscard]] const ColumnTree& tree() const;
+  [[nodiscard]] const PoseResult& pose() const { return poses_[0]; }
+  /// The columns of /sweep, with those made that have the member that a place begins with.
+  [[nodiscard]] const ColumnTree& tree_at(const std::string& place) const;
+
+ private:
+  std::shared_ptr<const KneeModel> model_;
+  std::vector<PoseResult> poses_;
+  mutable ColumnTree columns_;
+  mutable std::array<bool, kSweepPartCount> made_{};
 };
 
 }  // namespace condyle::python

@@ -65,7 +65,7 @@ std::shared_ptr<PoseData> KneeSolver::solve(const Drive& drive) {
   UnlessDone guard(solver_);
   solver_.solve(drive, result_);
   guard.done();
-  return std::make_shared<PoseData>(PoseData{knee_, result_});
+  return std::make_shared<PoseData>(knee_, result_);
 }
 
 SweepResult KneeSolver::sweep(const SweepDescription& description, const SweepOptions& options) {
@@ -139,7 +139,7 @@ std::shared_ptr<PoseData> solve_once(const std::shared_ptr<KneeModel>& knee,
                                      const py::kwargs& named) {
   const Drive asked = drive_from(*knee, drive_of(*knee->model()), drive, named);
   const py::gil_scoped_release unlocked;
-  return std::make_shared<PoseData>(PoseData{knee, knee->solve_anew(asked)});
+  return std::make_shared<PoseData>(knee, knee->solve_anew(asked));
 }
 
 }  // namespace condyle::python

@@ -3,18 +3,24 @@
 /// What a result file says, without a file: numbers in its units under its names.
 
 #include <filesystem>
-#include <utility>
+#include <vector>
 
 #include "condyle/results/column_tree.h"
 #include "condyle/results/run_file.h"
-#include "condyle/scene/sweep_range.h"
+#include "condyle/results/sweep_group.h"
 
 namespace condyle {
 
 /// All that write_run writes of a run, number by number the same.
 [[nodiscard]] ColumnTree columns_of(const Run& run);
-/// Likewise /sweep of one pose; its value in `unit`.
-[[nodiscard]] ColumnTree columns_of(const Scene& scene, const Unit& unit, const PoseResult& pose);
+/// Of that all but /sweep, which may be made by its parts: one of them, and what is not of single poses.
+[[nodiscard]] ColumnTree columns_beside_sweep(const Run& run);
+void add_columns(ColumnTree& sweep,
+                 SweepPart part,
+                 const Scene& scene,
+                 const Unit& unit,
+                 const std::vector<PoseResult>& poses);
+void add_columns_beside_poses(ColumnTree& sweep, const Run& run);
 
 struct RunWithColumns {
   Run run;

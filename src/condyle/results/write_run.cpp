@@ -210,16 +210,22 @@ void write_condition(const Hdf5Group& group, const Poses& poses, std::size_t ind
   group.write("multiplier", rows(poses, 1, multiplier), {poses.size()}, angle ? "N mm" : "N");
 }
 
-void write_elements(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) {
+void write_contacts(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) {
   const Hdf5Group contacts = sweep.create("contacts");
   for (std::size_t i = 0; i < scene.contacts.size(); ++i)
     write_contact(contacts.create(scene.contacts[i].name), scene, poses, i);
+}
+
+void write_ligaments(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) {
   const Hdf5Group ligaments = sweep.create("ligaments");
   for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
     const Hdf5Group ligament = ligaments.create(scene.ligaments[i].name);
     write_ligament(ligament, poses, i);
     write_path(ligament, scene, poses, i);
   }
+}
+
+void write_conditions(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) {
   const Hdf5Group conditions = sweep.create("conditions");
   for (std::size_t i = 0; i < scene.conditions.size(); ++i) {
     write_condition(conditions.create(scene.conditions[i].name), poses, i,
@@ -344,15 +350,24 @@ void write_inputs(const Hdf5Group& root, const std::vector<InputFile>& inputs) {
   group.write("sha256", digests);
 }
 
-void write_all(const Hdf5Group& root, const Run& run) {
+/// Of /sweep what is not of single poses.
+void write_beside_poses(const Hdf5Group& sweep, const Run& run) {
+  if (run.sensitivities) write_sensitivities(sweep.create("sensitivities"), *run.sensitivities);
+  if (run.uncertainty) write_uncertainty(sweep.create("uncertainty"), *run.uncertainty);
+}
+
+enum class WithSweep { kNo, kYes };
+
+void write_all(const Hdf5Group& root, const Run& run, WithSweep with_sweep) {
   write_head(root, run.scene);
   write_wraps(root, run.scene);
   if (!run.sweep.poses.empty()) {
     const Unit unit = swept_quantity(run).unit;
-    const Hdf5Group sweep = root.create("sweep");
-    write_sweep(sweep, run.scene, unit, run.sweep.poses);
-    if (run.sensitivities) write_sensitivities(sweep.create("sensitivities"), *run.sensitivities);
-    if (run.uncertainty) write_uncertainty(sweep.create("uncertainty"), *run.uncertainty);
+    if (with_sweep == WithSweep::kYes) {
+      const Hdf5Group sweep = root.create("sweep");
+      write_sweep(sweep, run.scene, unit, run.sweep.poses);
+      write_beside_poses(sweep, run);
+    }
     write_events(root.create("events"), run, unit);
   }
   const Hdf5Group patches = root.create("patches");
@@ -370,29 +385,66 @@ void write_all(const Hdf5Group& root, const Run& run) {
 
 }  // namespace
 
+void write_sweep_part(const Hdf5Group& sweep,
+                      SweepPart part,
+                      const Scene& scene,
+                      const Unit& unit,
+                      const Poses& poses) {
+  switch (part) {
+    case SweepPart::kStatus:
+      return write_status(sweep, unit, poses);
+    case SweepPart::kPose:
+      return write_pose(sweep, scene, poses);
+    case SweepPart::kContacts:
+      return write_contacts(sweep, scene, poses);
+    case SweepPart::kLigaments:
+      return write_ligaments(sweep, scene, poses);
+    case SweepPart::kConditions:
+      return write_conditions(sweep, scene, poses);
+    case SweepPart::kSolver:
+      return write_solver(sweep, poses);
+  }
+}
+
+SweepPart part_with(const std::string& member) {
+  if (member == "value" || member == "status" || member == "reason" || member == "remark")
+    return SweepPart::kStatus;
+  if (member == "pose" || member == "joint") return SweepPart::kPose;
+  if (member == "contacts") return SweepPart::kContacts;
+  if (member == "ligaments") return SweepPart::kLigaments;
+  return member == "conditions" ? SweepPart::kConditions : SweepPart::kSolver;
+}
+
 void write_sweep(const Hdf5Group& sweep, const Scene& scene, const Unit& unit, const Poses& poses) {
-  write_status(sweep, unit, poses);
-  write_pose(sweep, scene, poses);
-  write_elements(sweep, scene, poses);
-  write_solver(sweep, poses);
+  for (int part = 0; part < kSweepPartCount; ++part)
+    write_sweep_part(sweep, static_cast<SweepPart>(part), scene, unit, poses);
 }
 
 ColumnTree columns_of(const Run& run) {
   ColumnTree columns;
-  write_all(Hdf5Group(columns, "/"), run);
+  write_all(Hdf5Group(columns, "/"), run, WithSweep::kYes);
   return columns;
 }
 
-ColumnTree columns_of(const Scene& scene, const Unit& unit, const PoseResult& pose) {
+ColumnTree columns_beside_sweep(const Run& run) {
   ColumnTree columns;
-  write_sweep(Hdf5Group(columns, "/sweep/"), scene, unit, {pose});
+  write_all(Hdf5Group(columns, "/"), run, WithSweep::kNo);
   return columns;
+}
+
+void add_columns(
+    ColumnTree& sweep, SweepPart part, const Scene& scene, const Unit& unit, const Poses& poses) {
+  write_sweep_part(Hdf5Group(sweep, "/sweep/"), part, scene, unit, poses);
+}
+
+void add_columns_beside_poses(ColumnTree& sweep, const Run& run) {
+  write_beside_poses(Hdf5Group(sweep, "/sweep/"), run);
 }
 
 void write_run(const std::filesystem::path& path, const Run& run) {
   check_output_file(path);
   const Hdf5Builder builder(path.string());
-  write_all(builder.root(), run);
+  write_all(builder.root(), run, WithSweep::kYes);
   write_output_file(path, builder.bytes());
 }
 

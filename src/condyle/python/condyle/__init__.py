@@ -18,10 +18,11 @@ from enum import IntEnum as _IntEnum
 
 from ._condyle import (Group, InputError, Model, Pose, Run, Solver, Surfaces, __version__, _status_names, build_info, fit,
                        open_run)
-from .scene import (Body, Calibrate, CalibrateLoad, CalibrateParameter, Condition, Contact, Damper, Drive, End, Fit, Frame,
-                    Joint, Laxity, Ligament, Load, Region, Scene, Simulate, Start, Surface, Sweep, Table, Units, Wrap,
-                    read_scene)
+from .described import (Body, Calibrate, CalibrateLoad, CalibrateParameter, Condition, Contact, Damper, Drive, End, Fit, Frame,
+                        Joint, Laxity, Ligament, Load, Region, Simulate, Start, Surface, Sweep, Units, Wrap)
+from .scene import Scene, read_scene
 from .sweeps import sweep
+from .tables import Table, Tables
 
 Status = _IntEnum("Status", {name.upper().replace(" ", "_"): i for i, name in enumerate(_status_names)}, module=__name__)
 Status.__doc__ = """How the search for a pose ended: CONVERGED is 0, the others say why there is no pose.
@@ -29,5 +30,5 @@ Status.__doc__ = """How the search for a pose ended: CONVERGED is 0, the others 
 The values are those of Run.status and of /sweep/status in a result file; LEFT_PATCH has numbers all the same, of surfaces
 extrapolated beyond what is known of them."""
 
-__all__ = [name for name in dir() if not name.startswith("_") and name not in ("scene", "sweeps")]
-__all__ += ["__version__"]
+__all__ = [name for name in dir() if not name.startswith("_")
+           and name not in ("described", "scene", "sweeps", "tables")] + ["__version__"]

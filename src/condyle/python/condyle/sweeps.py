@@ -6,7 +6,8 @@ import copy
 from typing import Callable, Optional, Sequence, Union
 
 from ._condyle import Model, Run, sweep_model
-from .scene import Scene, Sweep
+from .described import Sweep
+from .scene import Scene
 
 
 def sweep(scene: Union[Scene, Model], values: Optional[Sequence[float]] = None, *, vary: Optional[str] = None,
