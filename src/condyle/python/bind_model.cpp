@@ -1,3 +1,5 @@
+#include <exception>
+
 #include "condyle/python/arguments.h"
 #include "condyle/python/bindings.h"
 #include "condyle/python/interrupts.h"
@@ -7,6 +9,7 @@
 namespace condyle::python {
 namespace {
 
+/// Ends a fit.
 struct Stopped {};
 
 /// The columns of patches and their figures, of a fitted knee without poses.
@@ -18,11 +21,22 @@ struct Surfaces {
 std::shared_ptr<const FittedKnee> fit_interruptibly(const KneeScene& scene,
                                                     const OnProgress& progress) {
   std::shared_ptr<const FittedKnee> fitted;
+  std::exception_ptr raised;  // by `progress`, of which the first counts
   run_interruptibly([&](const std::function<bool()>& should_stop) {
-    fitted = fit_knee(scene, [&](int done, int total) {
-      if (should_stop()) throw Stopped{};
-      if (progress) progress(done, total);
-    });
+    const OnProgress on_patch = [&](int done, int total) {
+      if (should_stop() || raised) throw Stopped{};
+      try {
+        if (progress) progress(done, total);
+      } catch (...) {
+        raised = std::current_exception();
+        throw Stopped{};
+      }
+    };
+    try {
+      fitted = fit_knee(scene, on_patch);
+    } catch (const Stopped&) {
+      if (raised) std::rethrow_exception(raised);
+    }
   });
   return fitted;
 }

@@ -69,13 +69,23 @@ class Tables(list[T]):
     """Tables of one kind in their order, by number or by name: scene.ligaments["aACL"]."""
 
     def __getitem__(self, key: Any) -> Any:
+        return list.__getitem__(self, self._place(key))
+
+    def __setitem__(self, key: Any, table: Any) -> None:
+        list.__setitem__(self, self._place(key), table)
+
+    def __delitem__(self, key: Any) -> None:
+        list.__delitem__(self, self._place(key))
+
+    def _place(self, key: Any) -> Any:
+        """The number that a name stands for."""
         if not isinstance(key, str):
-            return list.__getitem__(self, key)
+            return key
         names = [getattr(table, "name", None) for table in self]
         if key in names:
-            return list.__getitem__(self, names.index(key))
+            return names.index(key)
         near = difflib.get_close_matches(key, [str(name) for name in names], 1)
-        raise KeyError(f"{key!r}" + (f', did you mean "{near[0]}"?' if near else ""))
+        raise KeyError(key + (f', did you mean "{near[0]}"?' if near else ""))
 
 
 def _made(kind: Any, value: Any) -> Any:
