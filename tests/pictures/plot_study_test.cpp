@@ -190,5 +190,18 @@ TEST(PlotStudy, OtherQuantitiesThanFlexionAreSweptToo) {
   EXPECT_EQ(shown_pose(study, 24), "120×");
 }
 
+TEST(PlotStudy, APanelWithoutValuesKeepsItsRangesAndNames) {
+  ChartPage page;
+  page.height = 400;
+  PagePanel panel;
+  panel.width = panel.height = 200;
+  panel.y_range = {1.5, -0.5};
+  panel.y_names = {"first", "second"};
+  page.panels = {panel};
+  const std::string script = gnuplot_script(page, PlotFormat::kSvg);
+  EXPECT_EQ(script.find("set yrange [0:1]"), std::string::npos);
+  EXPECT_NE(script.find("set xrange [0:1]"), std::string::npos) << "where none is given";
+}
+
 }  // namespace
 }  // namespace condyle

@@ -35,6 +35,26 @@ TEST(CalibrationSection, TellsWhatItIsAndHoldsItsTables) {
     EXPECT_EQ(page.find(words) == std::string::npos, std::string(words) == "at its bound") << words;
 }
 
+// What is a table on the terminal is a table of the page, and told once.
+TEST(CalibrationSection, WordsAreAListAndNoTablesOfLetters) {
+  const std::string page = page_of(test::made_up_calibration());
+  const std::size_t begin = page.find("<section id=\"calibration\">");
+  const std::string section = page.substr(begin, page.find("</section>", begin) - begin);
+  EXPECT_EQ(section.find("<pre>"), std::string::npos);
+  const std::size_t list = section.find("<ul class=\"words\">");
+  ASSERT_NE(list, std::string::npos);
+  const std::string words = section.substr(list, section.find("<div class=\"table", list) - list);
+  const auto count = [&](const std::string& part) {
+    int n = 0;
+    for (std::size_t at = 0; (at = words.find(part, at)) != std::string::npos; ++at) ++n;
+    return n;
+  };
+  EXPECT_EQ(count("<li>"), count("</li>"));
+  EXPECT_EQ(count("<ul"), count("</ul>"));
+  EXPECT_GT(count("<ul"), 1) << "lists within lines";
+  EXPECT_EQ(words.find("sd/prior"), std::string::npos) << "a head of a table";
+}
+
 TEST(CalibrationSection, AParameterAtItsBoundHasNoDeviation) {
   auto result = test::made_up_calibration();
   result.at_bound[0] = true;

@@ -108,7 +108,7 @@ TEST(StudyPage, HasAllPlots) {
   for (std::size_t at = 0; (at = page.find("<figure class=\"plot\">", at)) != std::string::npos;
        ++at)
     ++count;
-  EXPECT_EQ(count, 10U) << "three of bands, four of indices, failures, two maps";
+  EXPECT_EQ(count, 16U) << "three of bands, four of indices, failures, two maps at four poses";
 }
 #endif
 

@@ -129,6 +129,15 @@ std::vector<std::string> weak_directions(const CalibrationResult& result, int mo
   return lines;
 }
 
+std::vector<std::string> calibration_remarks(const Scene& scene, const CalibrationResult& result) {
+  Lines lines = {head_line(result)};
+  for (const Lines& more :
+       {fit_lines(result), start_lines(result), caution_lines(result), kink_lines(scene, result),
+        direction_lines(result), bound_and_silence_lines(result), chi_square_lines(result)})
+    add(lines, more);
+  return lines;
+}
+
 std::vector<std::string> calibration_lines(const Scene& scene, const CalibrationResult& result) {
   Lines lines = {head_line(result)};
   add(lines, fit_lines(result));

@@ -19,6 +19,11 @@ namespace condyle {
 [[nodiscard]] std::vector<std::string> calibration_lines(const Scene& scene,
                                                          const CalibrationResult& result);
 
+/// Those of these lines that are no rows of a table; what belongs to the line before it begins with two
+/// blanks.
+[[nodiscard]] std::vector<std::string> calibration_remarks(const Scene& scene,
+                                                           const CalibrationResult& result);
+
 /// A line for each direction that is weaker than 1, weakest first, at most `most`: its singular value and
 /// the parameters whose share is above 0.3.
 [[nodiscard]] std::vector<std::string> weak_directions(const CalibrationResult& result, int most);

@@ -201,6 +201,17 @@ std::string axes(const PagePanel& panel, const ChartPage& page, PlotFormat forma
   return script;
 }
 
+/// Axes alone. Ranges that are given stay, and with them what is named along them.
+std::string without_marks(const PagePanel& panel) {
+  const auto free = [](const std::array<double, 2>& ends) {
+    return !std::isfinite(ends[0]) || !std::isfinite(ends[1]);
+  };
+  std::string script;
+  if (free(panel.x_range)) script += "set xrange [0:1]\n";
+  if (free(panel.y_range)) script += "unset logscale y\nset yrange [0:1]\n";
+  return script + "plot NaN notitle";
+}
+
 std::string panel_script(const ChartPage& page, std::size_t index, PlotFormat format) {
   const PagePanel& panel = page.panels[index];
   std::string script = axes(panel, page, format), commands;
@@ -209,8 +220,7 @@ std::string panel_script(const ChartPage& page, std::size_t index, PlotFormat fo
     script += mark.data;
     if (!mark.command.empty()) commands += (commands.empty() ? "plot " : ", ") + mark.command;
   }
-  if (commands.empty())
-    commands = "unset logscale y\nset xrange [0:1]\nset yrange [0:1]\nplot NaN notitle";
+  if (commands.empty()) commands = without_marks(panel);
   return script + commands + "\nunset label\nunset object\nunset arrow\n";
 }
 

@@ -35,10 +35,13 @@ struct NamedMap {
 /// are any, total indices (study_totals). At most 40 parameters and 12 ligaments, the greatest.
 [[nodiscard]] std::vector<NamedMap> study_maps(const StudyView& study);
 
-/// Writes all of them; returns the paths. `beside`: panels of maps beside each other.
+/// Of maps: two beside each other, or a file for each.
+enum class MapPanels { kTogether, kApart };
+
+/// Writes all of them; returns the paths.
 std::vector<std::filesystem::path> plot_study(const StudyView& study,
                                               const std::filesystem::path& folder,
                                               const std::vector<PlotFormat>& formats,
-                                              std::size_t beside = 2);
+                                              MapPanels panels = MapPanels::kTogether);
 
 }  // namespace condyle

@@ -24,11 +24,23 @@ std::string from_to(double before, double after) {
   return short_number(before) + " → " + short_number(after);
 }
 
-/// They hold tables in columns of letters.
+/// A list; lines that begin with blanks are a list within the line before them.
 std::string told(const std::vector<std::string>& lines) {
   std::string text;
-  for (const std::string& line : lines) text += escaped(line) + "\n";
-  return text.empty() ? "" : "<pre>" + text + "</pre>\n";
+  bool within = false;
+  for (const std::string& line : lines) {
+    const std::size_t begin = line.find_first_not_of(' ');
+    if (begin == std::string::npos) continue;
+    const bool belongs = begin > 0 && !text.empty();
+    if (belongs && !within) text += "\n<ul>\n<li>";
+    if (belongs && within) text += "</li>\n<li>";
+    if (!belongs && within) text += "</li>\n</ul>\n";
+    if (!belongs) text += text.empty() ? "<li>" : "</li>\n<li>";
+    within = belongs;
+    text += escaped(line.substr(begin));
+  }
+  if (within) text += "</li>\n</ul>\n";
+  return text.empty() ? "" : "<ul class=\"words\">\n" + text + "</li>\n</ul>\n";
 }
 
 std::vector<std::string> agreement_row(const Agreement& agreement) {
@@ -114,19 +126,30 @@ std::string residual_table(const Scene& scene, const CalibrationResult& result) 
   return table.rows.empty() ? "" : html(table);
 }
 
+std::vector<std::string> suggestion_row(const Scene& scene, const SuggestedTest& test) {
+  const Unit unit = unit_of_level(scene, test.load);
+  return {shown_degrees(test.flexion),
+          load_name(scene, test.load),
+          fmt::format("{:g} {}", test.level / unit.factor, shown_unit(unit.name)),
+          short_number(test.information),
+          number(100 * test.shrinkage, 0),
+          test.reason};
+}
+
+/// The first of them; the others folded away.
 std::string suggestion_table(const Scene& scene, const CalibrationResult& result) {
+  constexpr std::size_t kMostSuggestions = 10;
   HtmlTable table{"Tests that were not made, by what they would tell",
                   {"flexion", "load", "level", "information", "posterior sd [%]", "remark"},
                   {},
                   {1, 5}};
-  for (const SuggestedTest& test : result.suggested) {
-    const Unit unit = unit_of_level(scene, test.load);
-    table.rows.push_back({shown_degrees(test.flexion), load_name(scene, test.load),
-                          fmt::format("{:g} {}", test.level / unit.factor, shown_unit(unit.name)),
-                          short_number(test.information), number(100 * test.shrinkage, 0),
-                          test.reason});
-  }
-  return table.rows.empty() ? "" : html(table);
+  HtmlTable others = table;
+  others.caption.clear();
+  for (const SuggestedTest& test : result.suggested)
+    (table.rows.size() < kMostSuggestions ? table : others)
+        .rows.push_back(suggestion_row(scene, test));
+  if (table.rows.empty()) return "";
+  return html(table) + (others.rows.empty() ? "" : details("Those that tell less", html(others)));
 }
 
 }  // namespace
@@ -136,7 +159,7 @@ std::string calibration_section(const Run& run) {
   const Scene& scene = run.scene;
   const CalibrationResult& result = *run.calibration();
   return section("calibration", "Calibration",
-                 told(calibration_lines(scene, result)) + agreement_table(result) +
+                 told(calibration_remarks(scene, result)) + agreement_table(result) +
                      parameter_table(result) + residual_table(scene, result) +
                      suggestion_table(scene, result));
 }

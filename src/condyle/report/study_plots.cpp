@@ -11,7 +11,7 @@ std::string study_plot_section(const StudyView& study) {
   const PassingFolder folder;
   std::string body;
   int count = 0;
-  for (const auto& file : plot_study(study, folder.path(), {PlotFormat::kSvg}, 1))
+  for (const auto& file : plot_study(study, folder.path(), {PlotFormat::kSvg}, MapPanels::kApart))
     body += plot_figure(file, fmt::format("plot{}-", ++count));
   return section("plots", "Plots", body);
 }
