@@ -31,6 +31,28 @@ TEST(Html, EscapesEveryCellOfATable) {
     EXPECT_NE(text.find(safe), std::string::npos) << safe;
 }
 
+TEST(Html, NoTextEndsAStringOfCss) {
+  EXPECT_EQ(css_string("Knee 1"), "\"Knee 1\"");
+  EXPECT_EQ(css_string("\"}</style>\n a"), R"("\22 \7d \3c \2f style\3e \a  a")");
+  EXPECT_EQ(css_string("µ"), "\"µ\"");
+}
+
+TEST(Html, ATableOfManyColumnsBecomesSeveral) {
+  HtmlTable table{"forces", {"flexion"}, {{"0"}, {"5"}}, {0, 20}, {"", "failed"}};
+  for (int k = 1; k <= 20; ++k) {
+    table.columns.push_back("c" + std::to_string(k));
+    for (auto& row : table.rows) row.push_back("v" + std::to_string(k));
+  }
+  const std::string text = html(table);
+  EXPECT_NE(text.find("<caption>forces, columns 2 to 16 of 21</caption>"), std::string::npos);
+  EXPECT_NE(text.find("<caption>forces, columns 17 to 21 of 21</caption>"), std::string::npos);
+  // Each part begins with the first column, and the last column keeps its side.
+  EXPECT_NE(text.find("<tr class=\"failed\"><td class=\"text\">5</td><td>v16</td>"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("<td class=\"text\">v20</td></tr>"), std::string::npos);
+}
+
 TEST(Html, LeavesOutASectionWithNothingInIt) {
   EXPECT_EQ(section("a", "A", ""), "");
   EXPECT_EQ(section("a", "A & B", "<p>x</p>\n"),

@@ -46,6 +46,17 @@ std::string script_safe(std::string_view json) {
   return out;
 }
 
+std::string css_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = byte >= 0x80 || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
+                       (c >= 'a' && c <= 'z') || c == ' ';
+    out += plain ? std::string(1, c) : fmt::format("\\{:x} ", static_cast<unsigned>(byte));
+  }
+  return out + "\"";
+}
+
 std::string number(double value, int decimals) {
   if (!std::isfinite(value)) return "-";
   std::string text = fmt::format("{:.{}f}", value, decimals);
@@ -57,14 +68,53 @@ std::string short_number(double value) {
   return std::isfinite(value) ? fmt::format("{:.3g}", value) : "-";
 }
 
+namespace {
+
+constexpr std::size_t kMostColumns = 16;  // more are wider than a page
+
+/// The first column of a table and some others.
+HtmlTable part_of(const HtmlTable& table, std::size_t begin, std::size_t end) {
+  HtmlTable part;
+  part.caption =
+      fmt::format("{}{}columns {} to {} of {}", table.caption, table.caption.empty() ? "" : ", ",
+                  begin + 1, end, table.columns.size());
+  part.row_classes = table.row_classes;
+  const auto taken = [&](const std::vector<std::string>& cells) {
+    std::vector<std::string> some = {cells.front()};
+    for (std::size_t k = begin; k < std::min(end, cells.size()); ++k) some.push_back(cells[k]);
+    return some;
+  };
+  part.columns = taken(table.columns);
+  for (const std::vector<std::string>& row : table.rows) part.rows.push_back(taken(row));
+  part.text_columns.clear();
+  for (const int column : table.text_columns) {
+    const auto k = static_cast<std::size_t>(column);
+    if (k == 0) part.text_columns.push_back(0);
+    if (k >= begin && k < end) part.text_columns.push_back(static_cast<int>(k - begin + 1));
+  }
+  return part;
+}
+
+std::string in_parts(const HtmlTable& table) {
+  std::string out;
+  for (std::size_t begin = 1; begin < table.columns.size(); begin += kMostColumns - 1)
+    out += html(part_of(table, begin, std::min(begin + kMostColumns - 1, table.columns.size())));
+  return out;
+}
+
+}  // namespace
+
 std::string html(const HtmlTable& table) {
+  if (table.columns.size() > kMostColumns) return in_parts(table);
   const auto text_class = [&](std::size_t column) {
     const auto& list = table.text_columns;
     return std::find(list.begin(), list.end(), static_cast<int>(column)) == list.end()
                ? ""
                : " class=\"text\"";
   };
-  std::string out = "<div class=\"table\"><table>";
+  constexpr std::size_t kLong = 30;  // rows; on paper it need not keep together
+  std::string out =
+      fmt::format("<div class=\"table{}\"><table>", table.rows.size() > kLong ? " long" : "");
   if (!table.caption.empty()) out += "<caption>" + escaped(table.caption) + "</caption>";
   out += "<thead><tr>";
   for (std::size_t k = 0; k < table.columns.size(); ++k)
@@ -99,9 +149,10 @@ std::string page_head(const std::string& title, const std::string& what) {
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n"
       "<link rel=\"icon\" href=\"data:,\">\n"
-      "<title>{} - condyle</title>\n<style>\n{}</style>\n</head>\n<body>\n"
+      "<title>{} - condyle</title>\n<style>\n{}@page {{ @top-left {{ content: {}; font: 8pt "
+      "sans-serif; color: #555; }} }}\n</style>\n</head>\n<body>\n"
       "<header>\n<h1>{}</h1>\n<p>{}</p>\n</header>\n<main>\n",
-      kPolicy, escaped(title), page_style(), escaped(title), escaped(what));
+      kPolicy, escaped(title), page_style(), css_string(title), escaped(title), escaped(what));
 }
 
 std::string page_foot() { return "</main>\n</body>\n</html>\n"; }

@@ -11,6 +11,9 @@ namespace condyle {
 /// For text and for quoted attributes.
 [[nodiscard]] std::string escaped(std::string_view text);
 
+/// As a string of CSS, in quotes: only letters, digits and blanks stand for themselves.
+[[nodiscard]] std::string css_string(std::string_view text);
+
 /// JSON that may stand in a <script>: nothing in it can end the script.
 [[nodiscard]] std::string script_safe(std::string_view json);
 
@@ -26,7 +29,8 @@ struct HtmlTable {
   std::vector<int> text_columns = {0};  ///< set to the left, the others to the right
   std::vector<std::string> row_classes = {};
 };
-/// Everything in the table is escaped here.
+/// Everything in the table is escaped here. One of very many columns becomes several below each other,
+/// each with the first column.
 [[nodiscard]] std::string html(const HtmlTable& table);
 
 /// A heading with what stands below it; nothing where that is nothing.
