@@ -44,6 +44,36 @@ TEST_F(CommandLine, DoesNotWriteAReportOverItsRun) {
                    "run.h5: is read by this command, expected another file to write");
 }
 
+TEST_F(CommandLine, ComparesRunsInOneReport) {
+  write("other.toml", with(test::kScene, "stiffness = 1500", "stiffness = 1800"));
+  ASSERT_EQ(run("sweep knee.toml -o a.h5 --quiet").code, 0);
+  ASSERT_EQ(run("sweep other.toml -o b.h5 --quiet --step 2.5").code, 0);
+  const auto outcome = run("report a.h5 b.h5 a.h5 -o ab.html");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "wrote ab.html\n");
+  const std::string page = contents(folder_ / "ab.html");
+  EXPECT_EQ(page.rfind("<!DOCTYPE html>", 0), 0U);
+  EXPECT_NE(page.find("<h1>ball and socket: a.h5, b and a.h5 (2)</h1>"), std::string::npos);
+  EXPECT_NE(page.find("1800 (+20 %)"), std::string::npos);
+  EXPECT_NE(run("report a.h5 b.h5 -o ab.html --json").out.find("\"scene_differences\""),
+            std::string::npos);
+}
+
+TEST_F(CommandLine, RefusesRunsThatCannotBeCompared) {
+  write("study.toml",
+        "specimens = \"knee.toml\"\ndesign = \"monte-carlo\"\nsamples = 4\n[[vary]]\n"
+        "what = \"stiffness\"\nof = \"*\"\nsd = 0.1\n");
+  ASSERT_EQ(run("sweep knee.toml -o a.h5 --quiet").code, 0);
+  ASSERT_EQ(run("study study.toml -o s.h5 --quiet").code, 0);
+  expect_bad_input(run("report a.h5 s.h5 -o ab.html"),
+                   "s.h5: is a study, expected runs; a study is reported by itself");
+  expect_bad_input(run("report a.h5 a.h5 a.h5 a.h5 a.h5 a.h5 a.h5 -o ab.html"),
+                   "7 runs to compare, expected at most 6");
+  expect_bad_input(run("report a.h5 s.h5 -o s.h5"),
+                   "s.h5: is read by this command, expected another file to write");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "ab.html"));
+}
+
 TEST_F(CommandLine, ReportsAStudyAndRefusesItWhereARunIsNeeded) {
   write("study.toml",
         "specimens = \"knee.toml\"\ndesign = \"monte-carlo\"\nsamples = 8\n[[vary]]\n"

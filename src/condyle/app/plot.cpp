@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "condyle/app/commands.h"
+#include "condyle/app/run_names.h"
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
 #include "condyle/input_error.h"
@@ -41,20 +41,6 @@ Run read_plottable(const std::string& file, bool alone) {
   if (run.sweep.poses.empty() && !run.laxity() && !run.calibration())
     throw InputError(file + ": holds no poses, expected the result of condyle sweep");
   return run;
-}
-
-/// Names for the legend: those of the files, with their folders where files have the same name.
-std::vector<std::string> run_names(const std::vector<std::string>& files) {
-  std::vector<std::string> names;
-  for (const std::string& file : files) {
-    const std::filesystem::path path(file);
-    const auto alike = [&](const std::string& other) {
-      return std::filesystem::path(other).stem() == path.stem();
-    };
-    const bool unique = std::count_if(files.begin(), files.end(), alike) == 1;
-    names.push_back(unique ? path.stem().string() : file);
-  }
-  return names;
 }
 
 std::vector<std::filesystem::path> plot_all(const PlotCommand& command,

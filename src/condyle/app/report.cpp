@@ -1,15 +1,20 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "condyle/app/commands.h"
 #include "condyle/app/progress.h"
+#include "condyle/app/run_names.h"
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
 #include "condyle/input_error.h"
+#include "condyle/report/compared_runs_json.h"
+#include "condyle/report/compared_runs_page.h"
 #include "condyle/report/report_page.h"
 #include "condyle/report/study_page.h"
 #include "condyle/results/output_file.h"
@@ -21,15 +26,27 @@ namespace {
 
 struct ReportCommand {
   Talk talk;
-  std::string run, output;
+  std::vector<std::string> runs;
+  std::string output;
   bool no_pictures = false, no_viewer = false;
 };
+
+void check_output(const ReportCommand& command) {
+  check_output_file(command.output);
+  for (const std::string& run : command.runs) {
+    std::error_code unknown;
+    if (std::filesystem::equivalent(command.output, run, unknown))
+      throw InputError(command.output +
+                       ": is read by this command, expected another file to write");
+  }
+}
 
 std::string page_of_study(const ReportCommand& command, Progress& progress) {
   StudyPageOptions options;
   options.pictures = !command.no_pictures;
   options.on_part = [&](int done, int total) { progress.at(done, total); };
-  return study_page(read_study_file(command.run), command.run, options);
+  const std::string& file = command.runs.front();
+  return study_page(read_study_file(file), file, options);
 }
 
 std::string page_of_run(const ReportCommand& command, const Run& run, Progress& progress) {
@@ -37,27 +54,62 @@ std::string page_of_run(const ReportCommand& command, const Run& run, Progress& 
   options.pictures = !command.no_pictures;
   options.viewer = !command.no_viewer;
   options.on_part = [&](int done, int total) { progress.at(done, total); };
-  return report_page(run, command.run, options);
+  return report_page(run, command.runs.front(), options);
+}
+
+void write_page(const ReportCommand& command, Progress& progress, const std::string& page) {
+  progress.clear();
+  write_output_file(command.output, page);
+  say(command.talk, "wrote {}\n", command.output);
+}
+
+int report_one(const ReportCommand& command) {
+  CommandClock clock;
+  const std::string& file = command.runs.front();
+  const bool study = is_study_file(file);
+  const Run run = study ? Run{} : read_run(file);
+  Progress progress(command.talk, "sections");
+  write_page(command, progress,
+             study ? page_of_study(command, progress) : page_of_run(command, run, progress));
+  CommandSummary facts = clock.summary(command.talk, file, 0);
+  facts.files.emplace_back(command.output);
+  return finish(command.talk, facts, run);
+}
+
+std::vector<Run> read_compared(const std::vector<std::string>& files) {
+  if (files.size() > kMostComparedRuns)
+    throw InputError(
+        fmt::format("{} runs to compare, expected at most {}", files.size(), kMostComparedRuns));
+  std::vector<Run> runs;
+  for (const std::string& file : files) {
+    if (is_study_file(file))
+      throw InputError(file + ": is a study, expected runs; a study is reported by itself");
+    runs.push_back(read_run(file));
+  }
+  return runs;
+}
+
+int report_compared(const ReportCommand& command) {
+  CommandClock clock;
+  const std::vector<Run> runs = read_compared(command.runs);
+  const std::vector<std::string> names = run_names(command.runs);
+  std::vector<ComparedRun> compared;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    compared.push_back({names[i], command.runs[i], &runs[i]});
+  const RunComparison comparison = compare_runs(compared);
+  Progress progress(command.talk, "sections");
+  write_page(command, progress, compared_runs_page(comparison, [&](int done, int total) {
+               progress.at(done, total);
+             }));
+  CommandSummary facts = clock.summary(command.talk, "", 0);
+  facts.files.emplace_back(command.output);
+  if (command.talk.json) tell("{}\n", json_compared_runs(facts, comparison));
+  return facts.exit_code;
 }
 
 int run_report(const ReportCommand& command) {
-  const Talk& talk = command.talk;
-  CommandClock clock;
-  check_output_file(command.output);
-  std::error_code unknown;
-  if (std::filesystem::equivalent(command.output, command.run, unknown))
-    throw InputError(command.output + ": is read by this command, expected another file to write");
-  const bool study = is_study_file(command.run);
-  const Run run = study ? Run{} : read_run(command.run);
-  Progress progress(talk, "sections");
-  const std::string page =
-      study ? page_of_study(command, progress) : page_of_run(command, run, progress);
-  progress.clear();
-  write_output_file(command.output, page);
-  say(talk, "wrote {}\n", command.output);
-  CommandSummary facts = clock.summary(talk, command.run, 0);
-  facts.files.emplace_back(command.output);
-  return finish(talk, facts, run);
+  check_output(command);
+  return command.runs.size() == 1 ? report_one(command) : report_compared(command);
 }
 
 }  // namespace
@@ -65,8 +117,11 @@ int run_report(const ReportCommand& command) {
 void setup_report(CLI::App& program, int& status) {
   const auto options = std::make_shared<ReportCommand>();
   CLI::App* command =
-      program.add_subcommand("report", "Write a run or a study as one page that any browser opens");
-  command->add_option("RUN", options->run, "result file (HDF5)")->required();
+      program.add_subcommand("report",
+                             "Write a run or a study as one page that any browser opens; several "
+                             "runs beside each other");
+  command->add_option("RUN", options->runs, "result file (HDF5); of two to six runs what differs")
+      ->required();
   command->add_option("-o,--output", options->output, "page to write (HTML)")->required();
   command->add_flag("--no-pictures", options->no_pictures, "without pictures and plots");
   command->add_flag("--no-viewer", options->no_viewer, "without the 3-D view");

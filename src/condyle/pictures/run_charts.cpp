@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "condyle/elements/joint_table.h"
-#include "condyle/pictures/knee_shapes.h"
 #include "condyle/pictures/ligament_groups.h"
 #include "condyle/results/contact_path.h"
 #include "condyle/results/motion_view.h"
