@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
+#include "condyle/elements/force_law.h"
 #include "condyle/exchange/glb_run.h"
 #include "condyle/exchange/shown_poses.h"
 #include "condyle/report/embedded.h"
@@ -33,8 +36,23 @@ constexpr const char* kMarkup = R"(<p id="viewer-message">The 3-D view needs scr
 <div class="toggles" role="group" aria-label="bodies"></div>
 <div class="legend"><span>ligament strain (slack ones grey)</span><div class="scale"></div><div class="marks"></div></div>
 <div class="legend pressures" hidden><span>pressure of the layers</span><div class="scale"></div><div class="marks"></div></div>
+<div class="pick" role="group" aria-label="curves of a ligament or a contact" hidden><p class="note">Curves of a ligament or a contact: click it in the view, or here; Escape ends it.</p></div>
+<div class="picked" aria-live="polite" hidden></div>
 </div>
 )";
+
+struct Pressed {
+  double area = 0, most = 0;  ///< [mm²], [MPa]
+};
+
+/// Nothing of a contact of which no pressure is known, as of an open one.
+std::optional<Pressed> pressure_of(const ContactResult& contact) {
+  if (contact.layer) return Pressed{contact.layer->area, contact.layer->peak_pressure};
+  const ContactPointResult* point = contact.closed ? strongest_point(contact) : nullptr;
+  if (point == nullptr || !point->hertz) return std::nullopt;
+  const auto& axes = point->hertz->semi_axes;
+  return Pressed{M_PI * axes[0] * axes[1], point->hertz->peak_pressure};
+}
 
 class ViewerData {
  public:
@@ -117,19 +135,41 @@ class ViewerData {
     json["moving"] = scene_.bodies.at(static_cast<std::size_t>(scene_.moving_body())).name;
   }
 
+  /// Of a contact its force and, where it has them, area and greatest pressure: of its layers, or
+  /// those of Hertz's theory.
+  [[nodiscard]] Json contact(std::size_t i) const {
+    const ContactDescription& described = scene_.contacts[i];
+    Json json = {{"name", described.name}, {"surfaces", Json::array()}};
+    for (const int surface : described.surfaces)
+      if (surface >= 0 && static_cast<std::size_t>(surface) < scene_.surfaces.size())
+        json["surfaces"].push_back(scene_.surfaces[static_cast<std::size_t>(surface)].name);
+    json["force"] = series([&](const PoseResult& p) { return p.contacts[i].force; });
+    const bool pressed = std::any_of(shown_.begin(), shown_.end(), [&](const ShownPose& shown) {
+      return pressure_of(run_.sweep.poses[shown.index].contacts[i]).has_value();
+    });
+    if (!pressed) return json;
+    for (const auto& [key, part] :
+         {std::pair{"area", &Pressed::area}, {"pressure", &Pressed::most}})
+      json[key] = series([&, part = part](const PoseResult& p) {
+        return pressure_of(p.contacts[i]).value_or(Pressed{}).*part;
+      });
+    return json;
+  }
+
+  [[nodiscard]] Json ligament(std::size_t i) const {
+    const LigamentDescription& described = scene_.ligaments[i];
+    Json json = {{"name", described.name}, {"has_strain", slack_length(described.law) > 0}};
+    for (const auto& column : kLigamentColumns)
+      json[column.name] =
+          series([&](const PoseResult& p) { return p.ligaments[i].*column.member; });
+    return json;
+  }
+
   void add_elements(Json& json) const {
     json["contacts"] = json["ligaments"] = Json::array();
-    for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
-      json["contacts"].push_back(
-          {{"name", scene_.contacts[i].name},
-           {"force", series([&](const PoseResult& p) { return p.contacts[i].force; })}});
-    }
-    for (std::size_t i = 0; i < scene_.ligaments.size(); ++i) {
-      json["ligaments"].push_back(
-          {{"name", scene_.ligaments[i].name},
-           {"strain", series([&](const PoseResult& p) { return p.ligaments[i].strain; })},
-           {"force", series([&](const PoseResult& p) { return p.ligaments[i].force; })}});
-    }
+    for (std::size_t i = 0; i < scene_.contacts.size(); ++i) json["contacts"].push_back(contact(i));
+    for (std::size_t i = 0; i < scene_.ligaments.size(); ++i)
+      json["ligaments"].push_back(ligament(i));
     const StrainScale strain = strain_scale(run_);
     json["strain_top"] = strain.top;
     json["greatest_strain"] = strain.greatest;

@@ -1,6 +1,7 @@
 // Slider, play button, views, what is shown, and the words beside the knee.
 
 import { colorAt, cssGradient, pressureColorAt } from './colors.js';
+import { createPicking } from './picking.js';
 
 const SECONDS = 6;  // of playing from end to end
 
@@ -87,7 +88,7 @@ function addLegend(place, data) {
 function words(scene, data, at) {
   const number = (row, digits) => {
     const value = scene.number(row.values, at);
-    return value === null ? '-' : value.toFixed(digits);
+    return value === null ? '-' : value.toFixed(digits).replace(/^-(0\.?0*)$/, '$1');  // no minus before nothing
   };
   const rows = data.coordinates.map((row) => `${row.name} ${number(row, 1)} ${row.units}`);
   for (const contact of data.contacts)
@@ -152,6 +153,7 @@ export function createControls(place, scene, data) {
   addViews(place.querySelector('.views'), scene, data, toggles);
   addLegend(place.querySelector('.legend'), data);
   addPressureLegend(place.querySelector('.pressures'), data);
+  createPicking(place, scene, data);
   place.hidden = false;
   scene.resize();
   scene.look(data.side === null ? [0.3, 0.2, 1] : [data.side === 'left' ? -0.45 : 0.45, 0.15, 1]);

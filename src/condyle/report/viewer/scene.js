@@ -7,6 +7,7 @@ import {
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { colorAt, pressureColorAt, SLACK } from './colors.js';
+import { addElements } from './elements.js';
 
 const nameOf = (node) => node.userData.name ?? node.name;
 
@@ -22,7 +23,10 @@ const MARGIN = 1.12;  // of the joint in the window
 
 /// Every mesh gets a material of its own, so that one can be coloured or faded without the others.
 function sortMeshes(root, data) {
-  const meshes = { bones: [], cartilage: [], ligaments: new Map(), bodies: new Map(data.bodies.map((b) => [b, []])) };
+  const meshes = {
+    bones: [], cartilage: [], ligaments: new Map(), contacts: new Map(), bodies: new Map(data.bodies.map((b) => [b, []])),
+    surfaceOf: (mesh) => [nameOf(mesh), nameOf(mesh.parent)],  // its names: one of them is that of the surface
+  };
   root.traverse((node) => {
     const name = nameOf(node);
     if (meshes.bodies.has(name) && meshes.bodies.get(name).length === 0) meshes.bodies.get(name).push(node);
@@ -38,6 +42,10 @@ function sortMeshes(root, data) {
     if (kind === 'beyond the edge') {  // a sign: seen through everything
       Object.assign(node.material, { depthTest: false, transparent: true });
       node.renderOrder = 2;
+    }
+    if (kind === 'contact') {
+      const holder = name.startsWith('contact ') ? name : nameOf(node.parent);
+      meshes.contacts.set(holder.slice('contact '.length), [node]);
     }
     if (kind === 'ligament') {
       const holder = name.startsWith('ligament ') ? name : nameOf(node.parent);
@@ -89,7 +97,7 @@ function between(list, at) {
 function pressureMaps(meshes, data) {
   const shade = new Color();
   return (data.pressure?.surfaces ?? []).flatMap((surface) => {
-    const mesh = meshes.cartilage.find((m) => [nameOf(m), nameOf(m.parent)].includes(surface.name));
+    const mesh = meshes.cartilage.find((m) => meshes.surfaceOf(m).includes(surface.name));
     if (!mesh) return [];
     const levels = Uint8Array.from(atob(surface.levels), (c) => c.charCodeAt(0));
     const count = mesh.geometry.attributes.position.count;
@@ -126,7 +134,7 @@ export async function createScene(canvas, model, data) {
   orbit.enableDamping = false;
   const first = data.times[0], end = data.times[data.times.length - 1];
 
-  const api = { at: 0, camera, root: gltf.scene, listeners: [] };
+  const api = { at: 0, picked: null, camera, root: gltf.scene, listeners: [] };
   const draw = () => renderer.render(scene, camera);
 
   /// `at` counts poses: 2.5 is half-way from the third to the fourth.
@@ -156,6 +164,8 @@ export async function createScene(canvas, model, data) {
     draw();
   };
   api.bodyMatrix = (body) => (meshes.bodies.get(body)?.[0]?.matrixWorld.elements ?? []).slice();
+
+  addElements(api, canvas, camera, meshes, data, draw);
 
   mixer.setTime(first);
   gltf.scene.updateMatrixWorld(true);
