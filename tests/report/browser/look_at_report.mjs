@@ -1,36 +1,16 @@
 // node look_at_report.mjs CHROMIUM PAGE.html PICTURES
 // Opens a report in Chromium without a head and without a network: nothing may be asked for and nothing go wrong, the
-// slider has to turn the knee, and the canvas has to show it. Writes what it saw into the folder PICTURES. Each step waits
-// for its event as long as the whole test may last: how long one takes is that of the machine.
+// slider has to turn the knee, the canvas has to show it, and what is picked has to show its curves. Writes what it saw
+// into the folder PICTURES. Each step waits for its event as long as the whole test may last: how long one takes is that of
+// the machine.
 
 import { mkdirSync } from 'node:fs';
-import { pathToFileURL } from 'node:url';
-import { join, resolve } from 'node:path';
-import { chromium } from 'playwright-core';
+import { join } from 'node:path';
+import { endWithVerdict, expect, expectPrintable, expectQuiet, launch, looks, open, photograph } from './browser_page.mjs';
+import { pickElements } from './picking.mjs';
 
 const [program, page_file, folder] = process.argv.slice(2);
-const wrong = [];
-const expect = (holds, what) => {
-  console.log(`${holds ? 'ok' : 'NOT'}: ${what}`);
-  if (!holds) wrong.push(what);
-};
-
-async function open(browser, look) {
-  const context = await browser.newContext({ offline: true, ...look });
-  context.setDefaultTimeout(0);
-  const page = await context.newPage();
-  const said = [], asked = [];
-  page.on('console', (message) => {
-    if (['error', 'warning'].includes(message.type())) said.push(message.text());
-  });
-  page.on('pageerror', (error) => said.push(String(error)));
-  page.on('request', (request) => {
-    if (/^(https?|wss?|ftp):/.test(request.url())) asked.push(request.url());
-  });
-  await page.goto(pathToFileURL(resolve(page_file)).href);
-  await page.waitForFunction(() => window.condyleViewer || document.querySelector('#viewer')?.hidden === false);
-  return { page, said, asked };
-}
+const isReady = () => window.condyleViewer || document.querySelector('#viewer')?.hidden === false;
 
 // Runs in the page: how many pixels of the canvas are drawn on, and how many colours they have.
 function canvasFacts() {
@@ -118,44 +98,24 @@ async function useButtons(page) {
   expect(true, 'the play button plays');
 }
 
-/// Not more than software graphics can hold in one piece.
-async function photograph(page, path) {
-  const size = await page.evaluate(() => [window.innerWidth, document.documentElement.scrollHeight]);
-  await page.screenshot({ path, fullPage: true, clip: { x: 0, y: 0, width: size[0], height: Math.min(8000, size[1]) } });
-}
-
 mkdirSync(folder, { recursive: true });
-// WebGL is drawn in software. The page itself is not rasterised by way of that too: 8000 rows of it took up to 33 s there
-// on a machine that others use, 2.4 s without.
-const browser = await chromium.launch({
-  executablePath: program,
-  timeout: 0,
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-gpu-rasterization',
-    '--disable-dev-shm-usage'],
-});
-const looks = [
-  ['desktop-light', { viewport: { width: 1280, height: 900 }, colorScheme: 'light' }],
-  ['desktop-dark', { viewport: { width: 1280, height: 900 }, colorScheme: 'dark' }],
-  ['narrow-light', { viewport: { width: 400, height: 800 }, colorScheme: 'light' }],
-  ['narrow-dark', { viewport: { width: 400, height: 800 }, colorScheme: 'dark' }],
-];
+const browser = await launch(program);
 try {
   for (const [name, look] of looks) {
     console.log(name);
-    const { page, said, asked } = await open(browser, look);
+    const { page, said, asked } = await open(browser, look, page_file, isReady);
     await opensOnTheJoint(page);
     if (name === 'desktop-light') {
       await turnTheKnee(page);
       await useButtons(page);
     }
     await slideTo(page, 0.4);
-    const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
-    expect(wide <= 0, `the page is no wider than the window (${wide})`);
+    await pickElements(page, name.startsWith('desktop'));
     await photograph(page, join(folder, `${name}.png`));
     const seen = await page.evaluate(canvasFacts);
     expect(seen.share > 0.03, 'the canvas is not blank');
-    expect(said.length === 0, `the console is silent ${said.join(' | ')}`);
-    expect(asked.length === 0, `nothing is asked of a network ${asked.join(' ')}`);
+    await expectQuiet(page, said, asked);
+    await expectPrintable(page);
     await page.evaluate(() => {
       for (const id of ['view', 'pictures', 'plots']) document.getElementById(id)?.remove();
       for (const fold of document.querySelectorAll('details')) fold.open = true;
@@ -166,7 +126,4 @@ try {
 } finally {
   await browser.close();
 }
-if (wrong.length > 0) {
-  console.error(`${wrong.length} wrong:\n${wrong.join('\n')}`);
-  process.exit(1);
-}
+endWithVerdict();
