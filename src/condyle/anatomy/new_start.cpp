@@ -147,11 +147,12 @@ void doubt_start(NewKnee& knee, bool bare, const Vector2d& after) {
                       after[static_cast<int>(c)], side));
   }
   if (bare && *std::max_element(start.offset.begin(), start.offset.end()) > 0)
-    knee.doubts.push_back(
-        fmt::format("no cartilage was given: the bones' surfaces are moved out by {:.2f} (femur) "
-                    "and {:.2f} mm (tibia) medially, "
-                    "{:.2f} and {:.2f} mm laterally, so that they meet",
-                    start.offset[0], start.offset[1], start.offset[2], start.offset[3]));
+    knee.doubts.push_back(fmt::format(
+        "no cartilage was given: the bones' surfaces are moved out by {:.2f} (femur) "
+        "and {:.2f} mm (tibia) medially, "
+        "{:.2f} and {:.2f} mm laterally, so that they meet; poses may be lost by that, which "
+        "the meshes of the cartilage find",
+        start.offset[0], start.offset[1], start.offset[2], start.offset[3]));
   if (std::abs(start.shifted) > kMostShift)
     knee.doubts.push_back(fmt::format("the bones are brought {} by {:.1f} mm",
                                       start.shifted > 0 ? "together" : "apart",
