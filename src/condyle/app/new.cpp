@@ -136,9 +136,9 @@ void setup_new(CLI::App& program, int& status) {
   command->add_option("TIBIA", options->tibia, "mesh of the tibia, in the same frame and unit")
       ->required();
   command
-      ->add_option(
-          "--cartilage", options->cartilage,
-          "meshes of the femoral and the tibial cartilage (two for the tibia if they are apart)")
+      ->add_option("--cartilage", options->cartilage,
+                   "after FEMUR and TIBIA: meshes of the femoral and the tibial cartilage (two for "
+                   "the tibia if they are apart)")
       ->expected(2, 3);
   command->add_option("--side", options->side, "of the body")
       ->check(CLI::IsMember({"auto", "left", "right"}))
