@@ -20,15 +20,16 @@ def phantom() -> "condyle.Model":
     return _phantom[0]
 
 
-def spring(stiffness=100.0, length=10.0, force=5.0, **ligament) -> Scene:
+def spring(force=5.0, **ligament) -> Scene:
     """A body that hangs on a line element along x, pulled by a force: every other motion is prescribed.
 
-    The element's end on the ground is at the origin, that on the body at its origin; x is the length."""
-    law = dict(law="polynomial", coefficients=[-stiffness * length, stiffness]) if "law" not in ligament else {}
+    The element's end on the ground is at the origin, that on the body at its origin; x is the length. Its law is
+    100 N/mm (L - 10 mm), unless another is given."""
+    law = {} if "law" in ligament else {"law": "polynomial", "coefficients": [-1000, 100]}
     return Scene(
         title="A spring",
         units=Units(length="mm", angle="deg", force="N"),
-        bodies=[Body("ground", fixed=True), Body("weight", start=Start(translation=[length + 1, 0, 0]))],
+        bodies=[Body("ground", fixed=True), Body("weight", start=Start(translation=[11, 0, 0]))],
         ligaments=[Ligament("spring", ends=[End(body="ground", at=[0, 0, 0]), End(body="weight", at=[0, 0, 0])],
                             **law, **ligament)],
         conditions=[Condition("y", kind="translation", axis="y", value=0), Condition("z", kind="translation", axis="z", value=0),

@@ -176,7 +176,7 @@ class Loads(unittest.TestCase):
         return pose
 
     def scene(self, function):
-        scene = knees.spring(stiffness=100, length=10)
+        scene = knees.spring()
         scene.loads = [condyle.Load("pull", body="weight", function=function)]
         scene.sweep = None
         return scene

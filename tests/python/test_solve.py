@@ -14,7 +14,7 @@ import knees
 
 class Solving(unittest.TestCase):
     def test_a_spring_is_as_long_as_its_law_says(self):
-        pose = condyle.Model(knees.spring(stiffness=100, length=10, force=5)).solve(pull=2)
+        pose = condyle.Model(knees.spring(force=5)).solve(pull=2)
         self.assertTrue(pose.converged)
         self.assertAlmostEqual(pose.translation[0], 10.1, delta=1e-12)  # 10 mm + 2 x 5 N / (100 N/mm)
         self.assertAlmostEqual(pose.ligaments["spring"].force, 10, delta=1e-9)
@@ -56,12 +56,20 @@ class Solving(unittest.TestCase):
         np.testing.assert_allclose(warm.translation, cold.translation, atol=1e-7)
         np.testing.assert_array_equal(cold.translation, model.solve({"flexion": 30}).translation)
 
+    def test_a_pose_tells_the_same_by_either_way(self):
+        pose = knees.phantom().solve(flexion=40)
+        np.testing.assert_array_equal(pose.translation, pose["pose/translation"])
+        np.testing.assert_array_equal(pose.rotation, pose["pose/rotation"])
+        np.testing.assert_array_equal(pose.ligament_forces, [pose.ligaments[name].force for name in knees.phantom().ligaments])
+        np.testing.assert_array_equal(pose.contact_forces, [pose.contacts[name].force for name in knees.phantom().contacts])
+
     def test_a_pose_that_fails_is_a_status(self):
         pose = condyle.Model(knees.ball_on_ball(force=-100)).solve()  # nothing holds the ball
         self.assertFalse(pose.converged)
         self.assertEqual(pose.status, condyle.Status.NO_EQUILIBRIUM)
         self.assertIn("balls", pose.reason + "balls")
-        self.assertTrue(np.isnan(pose.translation).all())
+        for numbers in (pose.translation, pose.rotation, pose.contact_forces, pose["pose/translation"]):
+            self.assertTrue(np.isnan(numbers).all())
 
 
 def compare(test, ours, theirs) -> int:

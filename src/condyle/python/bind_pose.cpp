@@ -1,3 +1,8 @@
+#include <algorithm>
+#include <limits>
+
+#include <pybind11/numpy.h>
+
 #include "condyle/python/bindings.h"
 
 namespace condyle::python {
@@ -12,6 +17,49 @@ py::object part(const Pose& pose, const std::string& place) {
 
 py::object part_or_none(const Pose& pose, const std::string& name) {
   return pose->tree_at(name).group(name) == nullptr ? py::none() : part(pose, name);
+}
+
+using Array = py::array_t<double>;
+
+/// The quick ways to numbers of one pose, past the columns; NaN where it was not found.
+template <typename Fill>
+Array numbers_of(const PoseData& data, const std::vector<py::ssize_t>& shape, const Fill& fill) {
+  Array array(shape);
+  double* out = array.mutable_data();
+  if (data.pose().solved())
+    fill(data.pose(), out);
+  else
+    std::fill_n(out, array.size(), std::numeric_limits<double>::quiet_NaN());
+  return array;
+}
+
+Array translation_of(const PoseData& data) {
+  return numbers_of(data, {3}, [](const PoseResult& pose, double* out) {
+    std::copy_n(pose.X_BA.p.data(), 3, out);
+  });
+}
+
+Array rotation_of(const PoseData& data) {
+  return numbers_of(data, {3, 3}, [](const PoseResult& pose, double* out) {
+    for (int i = 0; i < 9; ++i) out[i] = pose.X_BA.R(i / 3, i % 3);
+  });
+}
+
+template <typename T>
+void put_forces(const std::vector<T>& all, double* out) {
+  for (const T& one : all) *out++ = one.force;
+}
+
+Array ligament_forces(const PoseData& data) {
+  const auto count = static_cast<py::ssize_t>(data.scene().ligaments.size());
+  return numbers_of(data, {count},
+                    [](const PoseResult& pose, double* out) { put_forces(pose.ligaments, out); });
+}
+
+Array contact_forces(const PoseData& data) {
+  const auto count = static_cast<py::ssize_t>(data.scene().contacts.size());
+  return numbers_of(data, {count},
+                    [](const PoseResult& pose, double* out) { put_forces(pose.contacts, out); });
 }
 
 py::object status_of(const PoseData& pose) {
@@ -43,16 +91,19 @@ void bind_pose(py::module_& m) {
       .def_property_readonly(
           "remark", [](const PoseData& pose) { return pose.pose().remark; },
           "What a reader should know of a pose that was found; mostly empty.")
+      .def_property_readonly("translation", &translation_of,
+                             "Origin of the moving body in the ground frame, (3,) [mm].")
       .def_property_readonly(
-          "translation", [](const Pose& pose) { return part(pose, "pose/translation"); },
-          "Origin of the moving body in the ground frame, (3,) [mm].")
-      .def_property_readonly(
-          "rotation", [](const Pose& pose) { return part(pose, "pose/rotation"); },
+          "rotation", &rotation_of,
           "Rotation of the moving body, (3, 3), columns are its axes in the ground frame.")
       .def_property_readonly(
           "joint", [](const Pose& pose) { return part_or_none(pose, "joint"); },
           "Group: flexion, adduction, internal_rotation [deg], lateral_shift, anterior_drawer,\n"
           "distraction [mm]; None without [joint].")
+      .def_property_readonly("ligament_forces", &ligament_forces,
+                             "Of all ligaments in the order of Model.ligaments, (m,) [N].")
+      .def_property_readonly("contact_forces", &contact_forces,
+                             "Of all contacts in the order of Model.contacts, (k,) [N].")
       .def_property_readonly(
           "ligaments", [](const Pose& pose) { return part(pose, "ligaments"); },
           "Group by name: force [N], length [mm], strain.")

@@ -1,12 +1,11 @@
 /// What Python's share is measured against (tools/python.sh): the same work in C++ alone, timed in the same process.
 
-#include <chrono>
-
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/input_error.h"
 #include "condyle/python/arguments.h"
 #include "condyle/python/bindings.h"
 #include "condyle/python/solver.h"
+#include "condyle/python/thread_seconds.h"
 
 namespace condyle::python {
 namespace {
@@ -38,10 +37,10 @@ double seconds_of_sweep(const std::shared_ptr<KneeModel>& knee,
   const DrivenNumber& number = driven(*knee, name);
   const std::vector<double> all = inside(values, number);
   const py::gil_scoped_release unlocked;
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin = thread_seconds();
   EquilibriumSolver solver(knee->model(), knee->covers(), equilibrium_options(knee->scene()));
   const SweepResult result = sweep(solver, number.which, all);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return thread_seconds() - begin;
 }
 
 }  // namespace

@@ -49,6 +49,7 @@ class PoseData {
       : model_(std::move(model)), poses_{pose} {}
 
   [[nodiscard]] const PoseResult& pose() const { return poses_[0]; }
+  [[nodiscard]] const Scene& scene() const { return model_->scene(); }
   /// The columns of /sweep, with those made that have the member that a place begins with.
   [[nodiscard]] const ColumnTree& tree_at(const std::string& place) const;
 

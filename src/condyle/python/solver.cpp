@@ -1,11 +1,11 @@
 #include "condyle/python/solver.h"
 
-#include <chrono>
 #include <stdexcept>
 
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/input_error.h"
 #include "condyle/python/arguments.h"
+#include "condyle/python/thread_seconds.h"
 
 namespace condyle::python {
 namespace {
@@ -108,14 +108,14 @@ void KneeSolver::set(const std::vector<std::pair<std::string, std::vector<double
 
 double KneeSolver::seconds_of(const Swept& swept, const std::vector<double>& values) {
   UnlessDone guard(solver_);
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin = thread_seconds();
   Drive drive = drive_;
   for (const double value : values) {
     swept.in(drive) = value;
     solver_.solve(drive, result_);
   }
   guard.done();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return thread_seconds() - begin;
 }
 
 Drive drive_from(const KneeModel& knee,

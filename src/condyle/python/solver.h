@@ -34,7 +34,7 @@ class KneeSolver {
   /// Values in the scene's units, one each or three of a vector; all or, where one cannot be, none. Throws InputError.
   void set(const std::vector<std::pair<std::string, std::vector<double>>>& numbers);
 
-  /// Seconds of solving from one value to the next, over and over, in C++ alone: what Python's share is compared with.
+  /// Seconds of the processor for solving from one value to the next, over and over, in C++ alone: what Python's share is compared with.
   [[nodiscard]] double seconds_of(const Swept& swept, const std::vector<double>& values);
 
   /// While it lives the solver is that of one thread; throws std::runtime_error where another one has it.

@@ -89,8 +89,10 @@ double inside(const ModelParameter& p,
 }
 
 void check(const std::string& name, ParameterKind kind, double value) {
-  const bool positive = kind == ParameterKind::kSlackLength || kind == ParameterKind::kStiffness ||
-                        kind == ParameterKind::kTransitionStrain;
+  const bool positive =
+      kind == ParameterKind::kSlackLength || kind == ParameterKind::kTransitionStrain;
+  if (kind == ParameterKind::kStiffness && !(value >= 0))
+    throw InputError(name + " = " + std::to_string(value) + ", expected a number >= 0");
   if (positive && !(value > 0))
     throw InputError(name + " = " + std::to_string(value) + ", expected a number > 0");
   if (kind == ParameterKind::kReferenceStrain && !(value > -1))

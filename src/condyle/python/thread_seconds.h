@@ -1,0 +1,14 @@
+#pragma once
+
+#include <ctime>
+
+namespace condyle::python {
+
+/// Processor time of this thread [s]: other programs do not count.
+[[nodiscard]] inline double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace condyle::python
