@@ -12,13 +12,13 @@ run() { "$CONDYLE" "$@" --quiet 2>"$out/said" || [ $? -eq 2 ] || { cat "$out/sai
 
 # small PNG PICTURE...: side by side, each cut by $cut, in 200 colours.
 small() {
-  local png=$1 inputs=() chain= names= i=0
+  local png=$1 inputs=() chain='' names='' i=0
   shift
   for picture in "$@"; do
     inputs+=(-i "$picture")
     chain+="[$i]${cut:-null}[c$i];" names+="[c$i]" i=$((i + 1))
   done
-  [ $i -eq 1 ] && chain+="${names}null[all]" || chain+="${names}hstack=inputs=$i[all]"
+  [ $i -eq 1 ] && chain+="${names}null[all]" || chain+="${names}hstack=inputs=${i}[all]"
   ffmpeg -loglevel error -y "${inputs[@]}" \
     -filter_complex "$chain;[all]split[x][y];[x]palettegen=max_colors=200[p];[y][p]paletteuse=dither=none" "$to/$png"
 }
