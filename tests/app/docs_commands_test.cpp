@@ -2,7 +2,9 @@
 /// with the commands that it is for.
 
 #include <algorithm>
+#include <cctype>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "app/run_program.h"
@@ -100,6 +102,49 @@ TEST(DocsPages, NameOnlyFilesThatAreThere) {
       }
   }
   EXPECT_GT(count, 100);
+}
+
+/// The anchors of a page: its headings in lower case, with hyphens for blanks and without punctuation; the second of a name
+/// gets "-1".
+std::set<std::string> anchors_of(const fs::path& page) {
+  std::set<std::string> anchors;
+  std::istringstream lines(contents(page));
+  bool code = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("```", 0) == 0) code = !code;
+    const std::size_t text = line.find_first_not_of('#');
+    if (code || text == 0 || text == std::string::npos || line[text] != ' ') continue;
+    std::string anchor;
+    for (const char c : line.substr(text + 1)) {
+      const auto byte = static_cast<unsigned char>(c);
+      if (byte >= 0x80 || std::isalnum(byte) || c == '-' || c == '_')
+        anchor += static_cast<char>(std::tolower(byte));
+      else if (c == ' ')
+        anchor += '-';
+    }
+    std::string name = anchor;
+    for (int again = 1; !anchors.insert(name).second; ++again)
+      name = anchor + "-" + std::to_string(again);
+  }
+  return anchors;
+}
+
+TEST(DocsPages, NameOnlyPlacesThatAreThere) {
+  static const std::regex link(R"(\]\(([^)#:\s]*)#([^)\s]+)\))");
+  std::vector<fs::path> pages = {kRoot / "README.md"};
+  for (const auto& entry : fs::directory_iterator(kRoot / "docs"))
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  int count = 0;
+  for (const fs::path& page : pages) {
+    const std::string text = contents(page);
+    for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it) {
+      const std::string file = (*it)[1].str(), anchor = (*it)[2].str();
+      EXPECT_EQ(anchors_of(file.empty() ? page : page.parent_path() / file).count(anchor), 1U)
+          << page << ": " << file << "#" << anchor;
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 10);
 }
 
 class ShippedScene : public CommandLine, public testing::WithParamInterface<const char*> {};

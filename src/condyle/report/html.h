@@ -14,7 +14,7 @@ namespace condyle {
 /// As a string of CSS, in quotes: only letters, digits and blanks stand for themselves.
 [[nodiscard]] std::string css_string(std::string_view text);
 
-/// JSON that may stand in a <script>: nothing in it can end the script.
+/// JSON that may stand in a script of a page: nothing in it can end the script.
 [[nodiscard]] std::string script_safe(std::string_view json);
 
 /// "-" for a number that is none.
