@@ -52,6 +52,12 @@ const ComparedCurve& curve_named(const RunComparison& comparison,
   throw std::runtime_error("no curve " + group + " " + name);
 }
 
+std::string words_of_page(const RunComparison& comparison) {
+  ComparedRunsPageOptions options;
+  options.pictures = false;
+  return compared_runs_page(comparison, options);
+}
+
 TEST(ComparedRuns, TheGreatestDifferenceIsToldWithItsPlace) {
   const condyle::Run a = block_run();
   condyle::Run b = block_run();
@@ -63,7 +69,7 @@ TEST(ComparedRuns, TheGreatestDifferenceIsToldWithItsPlace) {
   EXPECT_NEAR(d->at, 28.6479, 1e-4);  // 0.5 rad
   EXPECT_EQ(d->count, 3);
   EXPECT_NEAR(d->rms, 50 / std::sqrt(3.0), 1e-12);
-  const std::string page = compared_runs_page(comparison);
+  const std::string page = words_of_page(comparison);
   EXPECT_TRUE(says(page, "Contact force, medial: -50 N at 28.6479°")) << page;
   EXPECT_TRUE(says(page, "<td>-50</td><td>28.6479</td><td>28.9</td><td>3 (0)</td>"));
   EXPECT_EQ(all_words(comparison), "");
@@ -84,7 +90,7 @@ TEST(ComparedRuns, SayHowOtherPlacesAreMetAndNeverCrossFailedPoses) {
   EXPECT_EQ(force.differences[1]->interpolated, 3);
   EXPECT_EQ(force.differences[2]->count, 2);
   EXPECT_TRUE(says(all_words(comparison), "B and C have results at other values than A"));
-  const std::string page = compared_runs_page(comparison);
+  const std::string page = words_of_page(comparison);
   EXPECT_TRUE(says(page, "nothing holds it"));
   EXPECT_TRUE(says(page, "<tr class=\"failed\"><td class=\"text\">C</td>"));
 }
@@ -96,9 +102,9 @@ TEST(ComparedRuns, SideAndNamesThatOnlySomeHaveAreSaid) {
   const RunComparison comparison = compared({&right, &left});
   const std::string words = all_words(comparison);
   EXPECT_TRUE(says(words, "A is right, B left")) << words;
-  EXPECT_TRUE(says(words, "Only in A: LCL (Ligament force, Ligament strain).")) << words;
-  EXPECT_TRUE(says(words, "Only in B: other (Ligament force, Ligament strain).")) << words;
-  EXPECT_TRUE(says(compared_runs_page(comparison), "<svg class=\"curves\""));
+  EXPECT_TRUE(says(words, "Only in A: LCL (ligament force, ligament strain).")) << words;
+  EXPECT_TRUE(says(words, "Only in B: other (ligament force, ligament strain).")) << words;
+  EXPECT_TRUE(says(words_of_page(comparison), "<svg class=\"curves\""));
 }
 
 TEST(ComparedRuns, OfOtherSweptQuantitiesOnlyRangesAreCompared) {
@@ -111,10 +117,23 @@ TEST(ComparedRuns, OfOtherSweptQuantitiesOnlyRangesAreCompared) {
   pulled.scene.sweep = SweepDescription{true, 0, "drawer.scale", {0, 0.5, 1}};
   const RunComparison comparison = compared({&flexed, &pulled});
   EXPECT_TRUE(says(all_words(comparison), "B goes over drawer [N], A over Flexion [°]"));
-  const std::string page = compared_runs_page(comparison);
+  const std::string page = words_of_page(comparison);
   EXPECT_FALSE(says(page, "B minus A"));
   EXPECT_TRUE(says(page, "200 to 200"));
 }
+
+#ifdef CONDYLE_PICTURES
+TEST(ComparedRuns, AreShownBesideEachOtherAtTheSamePlaces) {
+  const condyle::Run a = block_run();
+  condyle::Run b = block_run(), c = block_run();
+  b.sweep.poses[0].status = PoseStatus::kSingular;
+  for (PoseResult& pose : c.sweep.poses) pose.status = PoseStatus::kSingular;
+  const std::string page = compared_runs_page(compared({&a, &b, &c}));
+  EXPECT_EQ(count_of(page, "<img "), 2U) << "of a run without results there is nothing to show";
+  EXPECT_TRUE(says(page, "<figcaption>A, medial view: Flexion 0°, 28.6°, 57.3°</figcaption>"));
+  EXPECT_TRUE(says(page, "<figcaption>B, medial view: Flexion 28.6°, 57.3°</figcaption>"));
+}
+#endif
 
 TEST(ComparedRuns, WithoutAnyResultIsSaid) {
   const condyle::Run a = block_run();
@@ -123,7 +142,7 @@ TEST(ComparedRuns, WithoutAnyResultIsSaid) {
   const RunComparison comparison = compared({&a, &b});
   EXPECT_EQ(all_words(comparison),
             "No pose of B has a result: there is nothing of it to compare.\n");
-  EXPECT_FALSE(says(compared_runs_page(comparison), "nan"));
+  EXPECT_FALSE(says(words_of_page(comparison), "nan"));
 }
 
 TEST(ComparedRuns, ThatCannotBeComparedAreRefusedInOneLine) {

@@ -98,9 +98,10 @@ int report_compared(const ReportCommand& command) {
     compared.push_back({names[i], command.runs[i], &runs[i]});
   const RunComparison comparison = compare_runs(compared);
   Progress progress(command.talk, "sections");
-  write_page(command, progress, compared_runs_page(comparison, [&](int done, int total) {
-               progress.at(done, total);
-             }));
+  ComparedRunsPageOptions options;
+  options.pictures = !command.no_pictures;
+  options.on_part = [&](int done, int total) { progress.at(done, total); };
+  write_page(command, progress, compared_runs_page(comparison, options));
   CommandSummary facts = clock.summary(command.talk, "", 0);
   facts.files.emplace_back(command.output);
   if (command.talk.json) tell("{}\n", json_compared_runs(facts, comparison));

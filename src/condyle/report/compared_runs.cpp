@@ -44,9 +44,7 @@ bool is_compared(const NamedChart& chart, const Panel& panel) {
 /// What the ordinate is, also apart from the title of its chart: that of places says along what alone.
 std::string group_of(const NamedChart& chart, const Panel& panel) {
   if (chart.name != "contact_places") return panel.y_label;
-  std::string along = panel.y_label;
-  along[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(along[0])));
-  return "Contact on the tibia, " + along;
+  return "Contact on the tibia, " + with_small_letter(panel.y_label);
 }
 
 std::vector<ComparedCurve> curves_of(const std::vector<ComparedRun>& runs) {
@@ -103,6 +101,11 @@ std::string units_of(const std::string& label) {
 std::string without_units(const std::string& label) {
   const std::size_t open = label.rfind(" [");
   return open == std::string::npos ? label : label.substr(0, open);
+}
+
+std::string with_small_letter(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+  return text;
 }
 
 bool is_zero(const ComparedCurve& curve) {

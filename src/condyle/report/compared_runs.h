@@ -42,6 +42,8 @@ struct RunComparison {
 /// What stands in the brackets of a label: "N" of "Contact force [N]"; and what before them.
 [[nodiscard]] std::string units_of(const std::string& label);
 [[nodiscard]] std::string without_units(const std::string& label);
+/// Within a sentence.
+[[nodiscard]] std::string with_small_letter(std::string text);
 
 /// Throws InputError for fewer than two or more than kMostComparedRuns runs, a run without poses, and
 /// one that sweeps what the first sweeps in other units.

@@ -109,23 +109,25 @@ std::string compared_source_section(const RunComparison& comparison) {
   return section("source", "Computed from", html(table) + texts);
 }
 
-std::string compared_runs_page(const RunComparison& comparison, const OnProgress& on_part) {
+std::string compared_runs_page(const RunComparison& comparison,
+                               const ComparedRunsPageOptions& options) {
   using Part = std::function<std::string()>;
-  const std::vector<Part> parts = {[&] {
-                                     return page_head(
-                                         title_of_runs(comparison),
-                                         fmt::format("{} runs compared", comparison.runs.size()));
-                                   },
-                                   [&] { return compared_status_section(comparison); },
-                                   [&] { return compared_scenes_section(comparison); },
-                                   [&] { return compared_differences_section(comparison); },
-                                   [&] { return compared_curves_section(comparison); },
-                                   [&] { return compared_source_section(comparison); }};
+  const std::vector<Part> parts = {
+      [&] {
+        return page_head(title_of_runs(comparison),
+                         fmt::format("{} runs compared", comparison.runs.size()));
+      },
+      [&] { return compared_status_section(comparison); },
+      [&] { return compared_scenes_section(comparison); },
+      [&] { return compared_differences_section(comparison); },
+      [&] { return compared_curves_section(comparison); },
+      [&] { return options.pictures ? compared_picture_section(comparison) : std::string(); },
+      [&] { return compared_source_section(comparison); }};
   std::string page;
   int done = 0;
   for (const Part& part : parts) {
     page += part();
-    if (on_part) on_part(++done, static_cast<int>(parts.size()));
+    if (options.on_part) options.on_part(++done, static_cast<int>(parts.size()));
   }
   return page + page_foot();
 }

@@ -10,8 +10,14 @@
 
 namespace condyle {
 
+struct ComparedRunsPageOptions {
+  bool pictures = true;  ///< where the program is built with them
+  OnProgress on_part = {};
+};
+
+/// Throws PictureError where pictures cannot be drawn.
 [[nodiscard]] std::string compared_runs_page(const RunComparison& comparison,
-                                             const OnProgress& on_part = {});
+                                             const ComparedRunsPageOptions& options = {});
 
 // Its sections, each as HTML.
 
@@ -19,6 +25,8 @@ namespace condyle {
 [[nodiscard]] std::string compared_scenes_section(const RunComparison& comparison);
 [[nodiscard]] std::string compared_differences_section(const RunComparison& comparison);
 [[nodiscard]] std::string compared_curves_section(const RunComparison& comparison);
+/// Each run from the medial side, at the same places; nothing in a build without pictures.
+[[nodiscard]] std::string compared_picture_section(const RunComparison& comparison);
 [[nodiscard]] std::string compared_source_section(const RunComparison& comparison);
 
 /// Names of the runs beside their lines.

@@ -117,7 +117,7 @@ void add_turning(const RunComparison& comparison, Names& words) {
   }
 }
 
-/// "Only in A: extra (contact force), xLCL (ligament force, ligament strain)."
+/// "Only in A: extra (contact force); xLCL (ligament force, ligament strain)."
 void add_lonely(const RunComparison& comparison, Names& words) {
   std::vector<std::pair<std::string, std::map<std::string, Names>>> by_owners;
   for (const ComparedCurve& curve : comparison.curves) {
@@ -134,7 +134,7 @@ void add_lonely(const RunComparison& comparison, Names& words) {
     auto at = std::find_if(by_owners.begin(), by_owners.end(),
                            [&](const auto& o) { return o.first == key; });
     if (at == by_owners.end()) at = by_owners.insert(by_owners.end(), {key, {}});
-    at->second[curve.name].push_back(without_units(curve.group));
+    at->second[curve.name].push_back(with_small_letter(without_units(curve.group)));
   }
   for (const auto& [owners, curves] : by_owners) {
     Names items;

@@ -1,3 +1,4 @@
+#include "condyle/report/compared_runs_page.h"
 #include "condyle/report/html.h"
 #include "condyle/report/sections.h"
 #include "condyle/report/study_page.h"
@@ -22,5 +23,7 @@ std::string sensitivity_figure(const Run&) { return ""; }
 ViewerPressures viewer_pressures(const Run&, const ShapeOptions&, const std::vector<ShownPose>&) {
   return {};
 }
+
+std::string compared_picture_section(const RunComparison&) { return ""; }
 
 }  // namespace condyle

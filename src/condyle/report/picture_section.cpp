@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "condyle/pictures/pressure_map.h"
 #include "condyle/pictures/sensitivity_map.h"
 #include "condyle/pictures/strip.h"
+#include "condyle/report/compared_runs_page.h"
 #include "condyle/report/html.h"
 #include "condyle/report/plot_figures.h"
 #include "condyle/report/sections.h"
@@ -66,9 +68,13 @@ std::string angles(const Run& run, const std::vector<std::size_t>& poses) {
   return text;
 }
 
-std::string strip(const Run& run, View view, const std::vector<std::size_t>& poses) {
+/// `whose` begins the caption where a page shows several runs.
+std::string strip(const Run& run,
+                  View view,
+                  const std::vector<std::size_t>& poses,
+                  const std::string& whose = "") {
   return figure(draw_strip(run, view, poses, strip_size(view, poses.size())),
-                fmt::format("{} view: {}", name(view), angles(run, poses)), "strip");
+                fmt::format("{}{} view: {}", whose, name(view), angles(run, poses)), "strip");
 }
 
 std::string single(const Run& run, KneePictures& pictures, View view, std::size_t pose) {
@@ -101,6 +107,22 @@ std::string pair_of(const Run& run, KneePictures& pictures, std::size_t pose) {
   return body + "</div>\n";
 }
 
+/// Of the poses that have a result those nearest to some places of the abscissa, each once.
+std::vector<std::size_t> poses_near(const Run& run, const std::vector<double>& places) {
+  const double per_value = swept_quantity(run).axis_per_inside;
+  std::vector<std::size_t> found;
+  for (const double place : places) {
+    std::optional<std::size_t> nearest;
+    const auto away = [&](std::size_t i) {
+      return std::abs(per_value * run.sweep.poses[i].value - place);
+    };
+    for (std::size_t i = 0; i < run.sweep.poses.size(); ++i)
+      if (run.sweep.poses[i].converged() && (!nearest || away(i) < away(*nearest))) nearest = i;
+    if (nearest && (found.empty() || found.back() != *nearest)) found.push_back(*nearest);
+  }
+  return found;
+}
+
 /// Pages of a calibration that are looked at where something else is asked.
 bool of_second_rank(const fs::path& file) {
   const std::string name = file.stem().string();
@@ -123,6 +145,22 @@ std::string picture_section(const Run& run) {
   if (const auto left = farthest_left_patch(run.sweep)) {
     body += "<p>A contact beyond the edge of the known surface: this pose is no result.</p>\n" +
             pair_of(run, pictures, *left);
+  }
+  return section("pictures", "Pictures", body);
+}
+
+std::string compared_picture_section(const RunComparison& comparison) {
+  std::vector<double> places;
+  const Run& first = *comparison.runs.front().run;
+  for (const std::size_t pose : chosen_poses(first.sweep))
+    places.push_back(swept_quantity(first).axis_per_inside * first.sweep.poses[pose].value);
+  std::string body;
+  for (std::size_t r = 0; r < comparison.runs.size(); ++r) {
+    const Run& run = *comparison.runs[r].run;
+    if (run.bodies.empty() && run.patches.empty()) continue;
+    const std::vector<std::size_t> poses =
+        comparison.overlaid[r] ? poses_near(run, places) : chosen_poses(run.sweep);
+    if (!poses.empty()) body += strip(run, View::kMedial, poses, comparison.runs[r].name + ", ");
   }
   return section("pictures", "Pictures", body);
 }

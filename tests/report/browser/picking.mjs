@@ -36,6 +36,9 @@ async function pickInTheList(page) {
   await slide(page, poses - 1);
   const last = await shown(page);
   expect(last.marks.every((mark, i) => Number(mark) > Number(first.marks[i])), 'the marks move with the pose');
+  const hostile = data.ligaments.at(-1).name;
+  await page.evaluate((name) => window.condyleViewer.pick({ kind: 'ligament', name }), hostile);
+  expect(hostile.includes('<img') && (await shown(page)).title === `ligament ${hostile}`, `a name is a text: ${hostile}`);
   await page.keyboard.press('Escape');
   const none = await shown(page);
   expect(!none.open && none.pressed.length === 0, 'Escape picks none');
