@@ -27,6 +27,10 @@ def cubic_in_c(length, out, user):
     out[0], out[1], out[2] = cubic(length)
 
 
+def ctypes_address(function):
+    return ctypes.cast(function, ctypes.c_void_p).value
+
+
 class Laws(unittest.TestCase):
     def test_a_law_in_python_holds_the_load(self):
         model = condyle.Model(knees.spring(law=cubic, force=16))
@@ -106,6 +110,22 @@ class Laws(unittest.TestCase):
             condyle.Model(knees.spring(law=bad)).solve()
         with self.assertRaisesRegex(TypeError, '"spring": law: int, expected a function'):
             condyle.Model(knees.spring(law=3))
+
+    def test_a_c_function_of_another_declaration_is_refused(self):
+        for other in (ctypes.CDLL(None).abs, LOAD(lambda pose, out, user: None),
+                      ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(lambda x: x)):
+            with self.assertRaisesRegex(TypeError, "ctypes function of another declaration"):
+                condyle.Model(knees.spring(law=other))
+
+    def test_a_function_of_numba_is_known_by_its_address(self):
+        class Compiled:  # as numba.cfunc returns
+            ctypes = cubic_in_c
+            address = ctypes_address(cubic_in_c)
+
+            def __call__(self, length):
+                raise AssertionError("asked in Python")
+        pose = condyle.Model(knees.spring(law=Compiled(), force=16)).solve()
+        self.assertAlmostEqual(pose.translation[0], 12, delta=1e-9)
 
     def test_no_file_holds_a_function(self):
         scene = knees.spring(law=cubic)

@@ -98,6 +98,7 @@ py::object find(const Group& group, const std::string& name) {
 }
 
 std::string none_such(const Group& group, const std::string& name) {
+  if (name.starts_with("__")) return name;  // Python asks for many of its own
   return "\"" + name + "\" is not in " + (group.place.empty() ? "/" : group.place) +
          did_you_mean(name, group.tree->names);
 }

@@ -16,9 +16,19 @@ const char* kind_name(RunKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
+/// The tree with a place. What a model's meshes say is made without the interpreter's lock, which a law of one's own may
+/// want meanwhile in another thread.
+const ColumnTree* tree_at(const RunPointer& run, const std::string& place) {
+  if (run->model() && RunData::is_of_model(place)) {
+    const py::gil_scoped_release unlocked;
+    (void)run->model()->empty_run();
+  }
+  return run->tree_at(place);
+}
+
 py::object place_in(const RunPointer& run, const std::string& place, long row = -1) {
   const std::string inside = place.substr(std::min(place.find_first_not_of('/'), place.size()));
-  const ColumnTree* tree = run->tree_at(inside);
+  const ColumnTree* tree = tree_at(run, inside);
   if (tree == nullptr) throw py::key_error("\"" + inside + "\" is not in the run");
   return at_place(run, *tree, inside, row);
 }
@@ -31,14 +41,14 @@ py::object of_sweep(const RunPointer& run, const char* place) {
 }
 
 py::object of_sweep_or_none(const RunPointer& run, const char* place) {
-  const ColumnTree* tree = run->tree_at(std::string("sweep/") + place);
+  const ColumnTree* tree = tree_at(run, std::string("sweep/") + place);
   const bool there = tree != nullptr && tree->group("sweep") != nullptr &&
                      tree->group("sweep")->group(place) != nullptr;
   return there ? of_sweep(run, place) : py::none();
 }
 
 py::object top_or_none(const RunPointer& run, const std::string& name) {
-  return run->tree_at(name) == nullptr ? py::none() : place_in(run, name);
+  return tree_at(run, name) == nullptr ? py::none() : place_in(run, name);
 }
 
 py::object converged(const RunPointer& run) {

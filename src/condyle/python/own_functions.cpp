@@ -29,9 +29,26 @@ struct CFunction {
   void* user = nullptr;
 };
 
+/// Whether a ctypes function declares (first, pointer, pointer) -> nothing; a pointer is any that ctypes knows.
+template <typename Pointer>
+bool is_declared(const py::object& function, const py::module_& ctypes) {
+  const py::object arguments = function.attr("argtypes");
+  if (!function.attr("restype").is_none() || arguments.is_none() || py::len(arguments) != 3)
+    return false;
+  const py::object pointer = ctypes.attr("_Pointer"), address = ctypes.attr("c_void_p");
+  const auto is_pointer = [&](int i) {
+    const py::object type = arguments[py::int_(i)];
+    return type.is(address) || PyObject_IsSubclass(type.ptr(), pointer.ptr()) == 1;
+  };
+  const bool first = std::is_same_v<Pointer, LawPointer>
+                         ? py::object(arguments[py::int_(0)]).is(ctypes.attr("c_double"))
+                         : is_pointer(0);
+  return first && is_pointer(1) && is_pointer(2);
+}
+
 /// The address in a PyCapsule, a ctypes function, or a numba cfunc; null where the object is none of them.
 template <typename Pointer>
-CFunction<Pointer> c_function(const py::object& object) {
+CFunction<Pointer> c_function(const py::object& object, const std::string& owner) {
   void* address = nullptr;
   void* user = nullptr;
   if (PyCapsule_CheckExact(object.ptr()) != 0) {
@@ -41,6 +58,12 @@ CFunction<Pointer> c_function(const py::object& object) {
   } else if (py::hasattr(object, "_argtypes_") || py::hasattr(object, "argtypes")) {
     const py::module_ ctypes = py::module_::import("ctypes");
     if (!py::isinstance(object, ctypes.attr("_CFuncPtr"))) return {};
+    if (!is_declared<Pointer>(object, ctypes))
+      throw py::type_error(
+          owner + ": a ctypes function of another declaration, expected " +
+          (std::is_same_v<Pointer, LawPointer>
+               ? "CFUNCTYPE(None, c_double, POINTER(c_double), c_void_p)"
+               : "CFUNCTYPE(None, POINTER(c_double), POINTER(c_double), c_void_p)"));
     const py::object as_pointer = ctypes.attr("cast")(object, ctypes.attr("c_void_p"));
     address = PyLong_AsVoidPtr(py::object(as_pointer.attr("value")).ptr());
   } else if (py::hasattr(object, "address") && py::hasattr(object, "ctypes")) {  // numba.cfunc
@@ -131,7 +154,8 @@ void write_pose(const RigidTransform& X, double* pose) {
 
 CustomLaw own_law(const py::object& function, const std::string& owner) {
   const auto held = kept(function);
-  if (const CFunction<LawPointer> c = c_function<LawPointer>(function); c.pointer != nullptr) {
+  if (const CFunction<LawPointer> c = c_function<LawPointer>(function, owner);
+      c.pointer != nullptr) {
     return {[c, held, owner](double length) {
       double out[3] = {};
       c.pointer(length, out, c.user);
@@ -149,7 +173,8 @@ CustomLaw own_law(const py::object& function, const std::string& owner) {
 
 OwnLoad own_load(const py::object& function, const std::string& owner) {
   const auto held = kept(function);
-  if (const CFunction<LoadPointer> c = c_function<LoadPointer>(function); c.pointer != nullptr) {
+  if (const CFunction<LoadPointer> c = c_function<LoadPointer>(function, owner);
+      c.pointer != nullptr) {
     return load_of([c, held, owner](const RigidTransform& X, double* out) {
       double pose[12];
       write_pose(X, pose);

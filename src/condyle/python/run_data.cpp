@@ -51,6 +51,11 @@ Run RunData::complete() const {
   return run;
 }
 
+bool RunData::is_of_model(const std::string& place) {
+  const std::string group = first_names(place)[0];
+  return group == "patches" || group == "bodies" || group == "inputs" || group == "fit";
+}
+
 const ColumnTree* RunData::tree_at(const std::string& place) const {
   const std::vector<std::string> names = first_names(place);
   const std::string& group = names[0];
@@ -58,7 +63,7 @@ const ColumnTree* RunData::tree_at(const std::string& place) const {
     return tree.group(group) != nullptr || tree.column(group) != nullptr ? &tree : nullptr;
   };
   if (!model_) return holding(*columns_);
-  if (group == "patches" || group == "bodies" || group == "inputs" || group == "fit") {
+  if (is_of_model(place)) {
     if (!rest_) rest_ = std::make_unique<const ColumnTree>(columns_of(model_->empty_run()));
     return holding(*rest_);
   }

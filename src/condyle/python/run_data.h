@@ -28,6 +28,8 @@ class RunData {
   [[nodiscard]] const std::string& file() const { return file_; }
   /// With all that a file holds.
   [[nodiscard]] Run complete() const;
+  /// Does a place begin with what a model knows without poses: its patches, meshes, warnings?
+  [[nodiscard]] static bool is_of_model(const std::string& place);
   /// The tree where "sweep/ligaments/aACL" stands, with that part of it made; null where it has no such beginning.
   [[nodiscard]] const ColumnTree* tree_at(const std::string& place) const;
 
