@@ -1,5 +1,3 @@
-#include <exception>
-
 #include "condyle/python/arguments.h"
 #include "condyle/python/bindings.h"
 #include "condyle/python/interrupts.h"
@@ -8,9 +6,6 @@
 
 namespace condyle::python {
 namespace {
-
-/// Ends a fit.
-struct Stopped {};
 
 /// The columns of patches and their figures, of a fitted knee without poses.
 struct Surfaces {
@@ -21,23 +16,8 @@ struct Surfaces {
 std::shared_ptr<const FittedKnee> fit_interruptibly(const KneeScene& scene,
                                                     const OnProgress& progress) {
   std::shared_ptr<const FittedKnee> fitted;
-  std::exception_ptr raised;  // by `progress`, of which the first counts
-  run_interruptibly([&](const std::function<bool()>& should_stop) {
-    const OnProgress on_patch = [&](int done, int total) {
-      if (should_stop() || raised) throw Stopped{};
-      try {
-        if (progress) progress(done, total);
-      } catch (...) {
-        raised = std::current_exception();
-        throw Stopped{};
-      }
-    };
-    try {
-      fitted = fit_knee(scene, on_patch);
-    } catch (const Stopped&) {
-      if (raised) std::rethrow_exception(raised);
-    }
-  });
+  run_interruptibly(progress,
+                    [&](const OnProgress& on_patch) { fitted = fit_knee(scene, on_patch); });
   return fitted;
 }
 

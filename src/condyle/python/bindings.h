@@ -30,6 +30,9 @@ void bind_pose(py::module_& m);
 void bind_solver(py::module_& m);
 void bind_run(py::module_& m);
 void bind_sweep(py::module_& m);
+void bind_laxity(py::module_& m);
+void bind_compare(py::module_& m);
+void bind_simulate(py::module_& m);
 void bind_timings(py::module_& m);
 
 /// A progress callback of Python, or nothing for None; to be called without the interpreter's lock.

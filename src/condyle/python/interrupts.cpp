@@ -11,6 +11,13 @@ namespace condyle::python {
 
 namespace py = pybind11;
 
+namespace {
+
+/// Ends work that is asked to stop.
+struct Stopped {};
+
+}  // namespace
+
 void run_interruptibly(const std::function<void(const std::function<bool()>& should_stop)>& work) {
   std::atomic<bool> stop = false;
   std::mutex mutex;
@@ -48,6 +55,27 @@ void run_interruptibly(const std::function<void(const std::function<bool()>& sho
   }
   if (raised) throw std::move(*raised);
   if (failure) std::rethrow_exception(failure);
+}
+
+void run_interruptibly(const OnProgress& progress,
+                       const std::function<void(const OnProgress& on_progress)>& work) {
+  run_interruptibly([&](const std::function<bool()>& should_stop) {
+    std::exception_ptr raised;  // by `progress`, of which the first counts
+    const OnProgress on_progress = [&](int done, int total) {
+      if (should_stop() || raised) throw Stopped{};
+      try {
+        if (progress) progress(done, total);
+      } catch (...) {
+        raised = std::current_exception();
+        throw Stopped{};
+      }
+    };
+    try {
+      work(on_progress);
+    } catch (const Stopped&) {
+      if (raised) std::rethrow_exception(raised);
+    }
+  });
 }
 
 }  // namespace condyle::python

@@ -12,5 +12,8 @@ PYBIND11_MODULE(_condyle, m) {
   bind_solver(m);
   bind_run(m);
   bind_sweep(m);
+  bind_laxity(m);
+  bind_compare(m);
+  bind_simulate(m);
   bind_timings(m);
 }

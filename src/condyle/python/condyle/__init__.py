@@ -16,8 +16,8 @@ ValueError with the line that the program prints; a pose that is not found is a 
 
 from enum import IntEnum as _IntEnum
 
-from ._condyle import (Group, InputError, Model, Pose, Run, Solver, Surfaces, __version__, _status_names, build_info, fit,
-                       open_run)
+from ._condyle import (Group, InputError, Model, Pose, Run, Solver, Surfaces, __version__, _status_names, build_info,
+                       compare, fit, laxity, open_run, simulate)
 from .described import (Body, Calibrate, CalibrateLoad, CalibrateParameter, Condition, Contact, Damper, Drive, End, Fit, Frame,
                         Joint, Laxity, Ligament, Load, Region, Simulate, Start, Surface, Sweep, Units, Wrap)
 from .scene import Scene, read_scene
