@@ -154,7 +154,7 @@ class Motion(Folder):
         np.testing.assert_array_equal(run.values, run.simulation.time)
 
     def test_a_mass_on_a_spring_swings_as_the_formula_says(self):
-        scene = knees.spring(stiffness=100.0, length=10.0, force=5.0)
+        scene = knees.spring(force=5.0)
         weight = scene.bodies["weight"]
         weight.mass, weight.center, weight.inertia = 0.5, [0, 0, 0], [[100, 0, 0], [0, 100, 0], [0, 0, 100]]
         at_once = condyle.Drive(load="pull", shape="table", times=[0, 1e-7, 1], factors=[0, 1, 1])
