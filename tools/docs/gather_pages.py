@@ -1,6 +1,7 @@
 """gather_pages.py ROOT FOLDER SITE: lays out what mkdocs reads: the pages of docs, README.md as index.md, the files of the
 project that pages link to, notebooks as pages where nbconvert is there, and mkdocs.yml with its folders."""
 
+import os
 import pathlib
 import re
 import shutil
@@ -10,26 +11,34 @@ import sys
 ROOT, FOLDER, SITE = (pathlib.Path(name).resolve() for name in sys.argv[1:])
 PAGES = FOLDER / "pages"
 LINK = re.compile(r"\]\(([^)#\s]+)(#[^)\s]*)?\)")
+UPWARDS = re.compile(r"\]\((\.\./[^)#\s]+)(#[^)\s]*)?\)")
+
+# Makes pages of notebooks; without it they go along as files.
+CONVERTER = [sys.executable, "-m", "nbconvert"]
+if subprocess.run([*CONVERTER, "--version"], capture_output=True, check=False).returncode != 0:
+    CONVERTER = None
 
 
-def linked(match, place):
-    """A link as it is on the site; place: folder of the project that it was written in."""
+def linked(match, place, up=""):
+    """A link as it is on the site; place: folder of the project that it was written in; up: from its page to the first ones."""
     target, anchor = match.group(1), match.group(2) or ""
     if re.match(r"[a-z]+:", target):
         return match.group(0)
-    file = (place / target).resolve()
+    file = pathlib.Path(os.path.normpath(place / target))
     if file == ROOT / "README.md":
-        return f"](index.md{anchor})"
-    if file.is_relative_to(ROOT / "docs"):
-        return f"]({file.relative_to(ROOT / 'docs')}{anchor})"
-    if file.is_dir():
-        sys.exit(f"{place}: a link to the folder {target}, expected a file")
+        return f"]({up}index.md{anchor})"
+    if file.suffix == ".ipynb" and CONVERTER:
+        file = file.with_suffix(".md")
+    if file.is_relative_to(ROOT / "docs") and file.suffix != ".ipynb":
+        return f"]({up}{file.relative_to(ROOT / 'docs')}{anchor})"
+    if not file.is_file():
+        sys.exit(f"{place}: a link to {target}, expected a file that is there")
     # Sources and data go along as plain text.
-    name = f"files/{file.relative_to(ROOT)}.txt"
+    name = f"files/{file.relative_to(ROOT)}" + ("" if file.suffix == ".ipynb" else ".txt")
     copy = PAGES / name
     copy.parent.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(file, copy)
-    return f"]({name})"
+    return f"]({up}{name})"
 
 
 def indented(text):
@@ -68,17 +77,15 @@ def lay_out(source, name):
 def lay_out_notebooks():
     """Lines of the navigation."""
     notebooks = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
-    if not notebooks:
+    if not notebooks or not CONVERTER:
         return []
-    converter = [sys.executable, "-m", "nbconvert"]
-    if subprocess.run([*converter, "--version"], capture_output=True, check=False).returncode != 0:
-        print("no nbconvert: notebooks are no pages", file=sys.stderr)
-        return []
-    subprocess.run([*converter, "--to", "markdown", "--log-level", "ERROR", "--output-dir", PAGES / "notebooks", *notebooks], check=True)
+    subprocess.run([*CONVERTER, "--to", "markdown", "--log-level", "ERROR", "--output-dir", PAGES / "notebooks", *notebooks], check=True)
     lines = []
     for notebook in notebooks:
         page = PAGES / "notebooks" / f"{notebook.stem}.md"
-        title = re.search(r"^# (.+)", page.read_text(encoding="utf-8"), re.M)
+        text = page.read_text(encoding="utf-8")
+        title = re.search(r"^# (.+)", text, re.M)
+        page.write_text(UPWARDS.sub(lambda match: linked(match, ROOT / "docs" / "notebooks", "../"), text), encoding="utf-8")
         lines.append(f"- \"{title.group(1) if title else notebook.stem}\": notebooks/{notebook.stem}.md")
     return lines
 
