@@ -36,8 +36,11 @@ function [run, info] = condyle_read_run(file, group)
 if nargin < 2
   group = '/';
 end
-if ~ischar(file) || exist(file, 'file') ~= 2
-  error('condyle:read_run', '%s: no such file, expected a result of condyle (HDF5)', char(file));
+if isstring(file)
+  file = char(file);
+end
+if exist(file, 'file') ~= 2
+  error('condyle:read_run', '%s: no such file, expected a result of condyle (HDF5)', file);
 end
 if exist('h5info', 'file') > 0 || exist('h5info', 'builtin') > 0
   items = items_by_h5info(file, group);
