@@ -144,6 +144,24 @@ TEST_F(NewKneeOfThePhantom, IsASceneThatCanBeRead) {
                 *knee.model.scene.ligaments[l].reference_strain, 1e-4);
 }
 
+// Bones that were scanned 3 mm apart, as their cartilage keeps them.
+TEST_F(NewKneeOfThePhantom, OfBonesAloneHasOffsetsAndCondylesThatGoOnAtTheirSides) {
+  NewKneeFiles apart = files({});
+  TriangleMesh tibia = load_mesh(kMeshes / "tibia.stl", 1);
+  for (Vector3d& v : tibia.vertices) v.y() -= 3;
+  write_output_file(apart.tibia, ply(tibia));
+  const fs::path file = folder_ / "knee.toml";
+  const Scene bare = parse_scene(new_scene_text(knee_from_meshes(apart, {}), file), file);
+  for (const SurfaceDescription& surface : bare.surfaces) {
+    EXPECT_NEAR(surface.patch.offset, 1.5, 0.3) << surface.name;
+    const bool goes_on = surface.patch.region_least_cosine.value_or(1) == 0;
+    EXPECT_EQ(goes_on, surface.name.ends_with("condyle")) << surface.name;
+  }
+  const Scene touching = parse_scene(new_scene_text(knee_from_meshes(files({}), {}), file), file);
+  for (const SurfaceDescription& surface : touching.surfaces)
+    EXPECT_FALSE(surface.patch.region_least_cosine) << surface.name;
+}
+
 TEST_F(NewKneeOfThePhantom, NamesWhatIsWrong) {
   const auto refused = [](const NewKneeFiles& files, const std::string& words) {
     try {

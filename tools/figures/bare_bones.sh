@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What `condyle new` makes of bones without their cartilage: poses of a sweep from 0 to 120 degrees by 5 that are found and true,
-# with the meshes of the cartilage where they are at hand, without them, and without them on condyles that go on at their sides.
+# with the meshes of the cartilage, without them, and without them on condyles that end at their sides as those of cartilage do.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source tools/figures/program.sh
@@ -22,16 +22,15 @@ poses() {
 knee() {
   local name=$1 with=-
   "$CONDYLE" new "$2" "$3" -o "$out/bare.toml" >/dev/null 2>&1
-  awk '/^\[\[/ { condyle = 0 } /^name = ".* condyle"/ { condyle = 1 } /^offset/ && condyle { print "region = { least_cosine = 0 }" } { print }' \
-    "$out/bare.toml" >"$out/wide.toml"
+  grep -v '^region = { least_cosine = 0 }' "$out/bare.toml" >"$out/narrow.toml"
   if [ $# -gt 3 ]; then
     "$CONDYLE" new "$2" "$3" --cartilage "${@:4}" -o "$out/cartilage.toml" >/dev/null 2>&1
     with=$(poses "$out/cartilage.toml")
   fi
-  printf '| %s | %s | %s | %s |\n' "$name" "$with" "$(poses "$out/bare.toml")" "$(poses "$out/wide.toml")"
+  printf '| %s | %s | %s | %s |\n' "$name" "$with" "$(poses "$out/bare.toml")" "$(poses "$out/narrow.toml")"
 }
 
-printf '| knee | with its cartilage | bones alone | bones, `least_cosine = 0` |\n|---|---|---|---|\n'
+printf '| knee | with its cartilage | bones alone | bones, narrow condyles |\n|---|---|---|---|\n'
 knee OAI "$oai"/{femur,tibia}_bone.ply "$oai"/{femur_cartilage,tibia_cartilage_lateral,tibia_cartilage_medial}.ply
 knee "Clouthier's mean" "$model"/mean_{Femur,Tibia_shifted,Femur_Cartilage,Tibia_Cartilage_shifted}.ply
 for k in S001 S010 S020 S030 S040 S060 S080 S100; do

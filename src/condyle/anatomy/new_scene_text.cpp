@@ -122,6 +122,8 @@ class SceneText {
       add_mesh(cartilage[femoral ? 0 : static_cast<std::size_t>(tibial_file(compartment))]);
     const double offset = knee_.start.offset[2 * compartment + (femoral ? 0 : 1)];
     if (offset > 0) line("offset = {}                # in place of cartilage", number(offset));
+    if (offset > 0 && femoral)
+      line("region = {{ least_cosine = 0 }}                # bone may touch beside the eminence");
   }
   [[nodiscard]] int tibial_file(std::size_t compartment) const {
     return knee_.files.cartilage.size() > 2 ? knee_.tibial_file[compartment] : 1;
