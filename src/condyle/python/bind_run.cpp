@@ -123,6 +123,10 @@ void bind_studies(py::class_<RunData, RunPointer>& run) {
           "calibration", [](const RunPointer& r) { return top_or_none(r, "calibrate"); },
           "Group of a calibration; None of other runs.")
       .def_property_readonly(
+          "posterior", [](const RunPointer& r) { return top_or_none(r, "posterior"); },
+          "Group of the samples of a calibration's posterior: samples (n, p), parameter, units; "
+          "None where there are none.")
+      .def_property_readonly(
           "comparison", [](const RunPointer& r) { return top_or_none(r, "compare"); },
           "Group of a comparison with Wismans' model; None of other runs.");
 }

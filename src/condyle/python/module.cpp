@@ -15,5 +15,6 @@ PYBIND11_MODULE(_condyle, m) {
   bind_laxity(m);
   bind_compare(m);
   bind_simulate(m);
+  bind_calibrate(m);
   bind_timings(m);
 }

@@ -35,6 +35,11 @@ long long whole_number(const py::handle& value,
   return number;
 }
 
+int threads_of(const py::handle& threads) {
+  constexpr int kMost = 4096;
+  return threads.is_none() ? 0 : static_cast<int>(whole_number(threads, "threads", 1, kMost));
+}
+
 std::shared_ptr<const KneeModel> model_without_own_loads(const py::object& scene,
                                                          const std::string& study) {
   auto knee = model_of(scene);

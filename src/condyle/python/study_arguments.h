@@ -18,6 +18,9 @@ namespace condyle::python {
                                      long long least,
                                      long long most);
 
+/// None: 0, as many as there are cores.
+[[nodiscard]] int threads_of(const pybind11::handle& threads);
+
 /// The model that `scene` means (bindings.h). Throws InputError where it has loads that are functions: `study` makes
 /// models of its own, which do not know them.
 [[nodiscard]] std::shared_ptr<const KneeModel> model_without_own_loads(

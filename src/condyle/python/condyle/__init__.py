@@ -17,7 +17,8 @@ ValueError with the line that the program prints; a pose that is not found is a 
 from enum import IntEnum as _IntEnum
 
 from ._condyle import (Group, InputError, Model, Pose, Run, Solver, Surfaces, __version__, _status_names, build_info,
-                       compare, fit, laxity, open_run, simulate)
+                       calibrate, compare, fit, laxity, open_run, simulate)
+from .calibrations import fitted_scene
 from .described import (Body, Calibrate, CalibrateLoad, CalibrateParameter, Condition, Contact, Damper, Drive, End, Fit, Frame,
                         Joint, Laxity, Ligament, Load, Region, Simulate, Start, Surface, Sweep, Units, Wrap)
 from .scene import Scene, read_scene
@@ -31,4 +32,4 @@ The values are those of Run.status and of /sweep/status in a result file; LEFT_P
 extrapolated beyond what is known of them."""
 
 __all__ = [name for name in dir() if not name.startswith("_")
-           and name not in ("described", "scene", "sweeps", "tables")] + ["__version__"]
+           and name not in ("calibrations", "described", "scene", "sweeps", "tables")] + ["__version__"]
