@@ -92,6 +92,11 @@ TEST(ComparedRuns, SayHowOtherPlacesAreMetAndNeverCrossFailedPoses) {
   EXPECT_TRUE(says(all_words(comparison), "B and C have results at other values than A"));
   const std::string page = words_of_page(comparison);
   EXPECT_TRUE(says(page, "nothing holds it"));
+  EXPECT_FALSE(says(page, "Hollow circles"));
+  c.sweep.poses[1].status = PoseStatus::kLeftPatch;
+  const std::string left = words_of_page(compared({&a, &c}));
+  EXPECT_TRUE(says(left, "Hollow circles"));
+  EXPECT_TRUE(says(left, "class=\"point run2 hollow\""));
   EXPECT_TRUE(says(page, "<tr class=\"failed\"><td class=\"text\">C</td>"));
 }
 

@@ -97,6 +97,19 @@ std::string range_of(const Curve& curve) {
   return low > high ? "-" : fmt::format("{:.3g} to {:.3g}", low, high);
 }
 
+/// What hollow circles are, where there are any.
+std::string hollow_note(const RunComparison& comparison) {
+  const bool any =
+      std::any_of(comparison.curves.begin(), comparison.curves.end(), [](const auto& c) {
+        return std::any_of(c.of.begin(), c.of.end(), [](const std::optional<Curve>& of) {
+          return of && !of->hollow_x.empty();
+        });
+      });
+  return any ? "<p class=\"note\">Hollow circles: in equilibrium, but with a contact beyond the "
+               "edge of the known surface; they are no results.</p>\n"
+             : "";
+}
+
 /// Least and greatest values, which need no common abscissa.
 std::string range_table(const RunComparison& comparison) {
   HtmlTable table{"Least and greatest values", {"what", "of"}, {}, {0, 1}};
@@ -161,7 +174,7 @@ std::string compared_curves_section(const RunComparison& comparison) {
     add(group.front()->group, figures);
   }
   add("Of the whole knee", others);
-  if (!body.empty()) body.insert(0, run_legend(comparison));
+  if (!body.empty()) body.insert(0, run_legend(comparison) + hollow_note(comparison));
   if (!zero.empty())
     body += fmt::format("<p class=\"note\">Zero in all runs: {}.</p>\n",
                         escaped(fmt::format("{}", fmt::join(zero, ", "))));

@@ -1,10 +1,9 @@
 // Ligaments and contacts in the view: which of them lies at a place of the window, and a rim about the one that is picked.
 
-import { BackSide, Mesh, MeshBasicMaterial, Raycaster, Vector2, Vector3 } from 'three';
+import { BackSide, CylinderGeometry, Mesh, MeshBasicMaterial, Raycaster, SphereGeometry, Vector2, Vector3 } from 'three';
 
 const RINGS = [0, 4, 9];  // pixels about the pointer, the first that meets a ligament or a point of contact counts
-const RIM = 1.9;          // of a ligament's radius
-const BEHIND = 1500;      // depths that a rim lies behind what it is about: of a bent ligament's pieces none is before the next
+const RIM = 1.9;          // of the radius of what it is about
 const GLOW = 0.15;        // of a picked contact's surfaces
 
 const isShown = (node) => {
@@ -24,6 +23,17 @@ function targetsOf(meshes, data) {
   for (const [name, all] of meshes.ligaments) for (const mesh of all) add(mesh, { kind: 'ligament', name });
   for (const [name, all] of meshes.contacts) for (const mesh of all) add(mesh, { kind: 'contact', name });
   return targets;
+}
+
+/// The inside of a wider shell, of a ligament without ends: those of a bent one's pieces would stand before the next piece.
+function rimOf(mesh, ligament, color) {
+  mesh.geometry.computeBoundingBox();
+  const radius = RIM * mesh.geometry.boundingBox.max.x;
+  const shell = ligament ? new CylinderGeometry(radius, radius, 1, 24, 1, true).translate(0, 0.5, 0) : new SphereGeometry(radius, 24, 16);
+  const rim = new Mesh(shell, new MeshBasicMaterial({ color, side: BackSide }));
+  rim.raycast = () => {};
+  mesh.add(rim);
+  return rim;
 }
 
 export function addElements(api, canvas, camera, meshes, data, draw) {
@@ -63,20 +73,17 @@ export function addElements(api, canvas, camera, meshes, data, draw) {
   let rims = [], glowing = [];
   const dark = window.matchMedia('(prefers-color-scheme: dark)');
   api.highlight = (choice) => {
-    for (const rim of rims) rim.removeFromParent();
+    for (const rim of rims) {
+      rim.removeFromParent();
+      rim.geometry.dispose();
+      rim.material.dispose();
+    }
     for (const mesh of glowing) mesh.material.emissive.setScalar(0);
     rims = glowing = [];
     if (choice !== null) {
       const ligament = choice.kind === 'ligament';
-      rims = ((ligament ? meshes.ligaments : meshes.contacts).get(choice.name) ?? []).map((mesh) => {
-        const material = new MeshBasicMaterial({ color: dark.matches ? 0xffffff : 0x101418, side: BackSide });
-        Object.assign(material, { polygonOffset: true, polygonOffsetUnits: BEHIND });
-        const rim = new Mesh(mesh.geometry, material);
-        rim.scale.set(RIM, ligament ? 1 : RIM, RIM);
-        rim.raycast = () => {};
-        mesh.add(rim);
-        return rim;
-      });
+      const all = (ligament ? meshes.ligaments : meshes.contacts).get(choice.name) ?? [];
+      rims = all.map((mesh) => rimOf(mesh, ligament, dark.matches ? 0xffffff : 0x101418));
       const surfaces = ligament ? [] : data.contacts.find((c) => c.name === choice.name).surfaces;
       glowing = meshes.cartilage.filter((mesh) => surfaces.some((surface) => meshes.surfaceOf(mesh).includes(surface)));
       for (const mesh of glowing) mesh.material.emissive.setScalar(GLOW);
