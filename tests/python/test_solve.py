@@ -84,6 +84,7 @@ def compare(test, ours, theirs) -> int:
             continue
         np.testing.assert_array_equal(ours[name], theirs[name], err_msg=name)
         test.assertEqual(ours.units(name), theirs.units(name), name)
+        test.assertEqual(ours.meaning(name), theirs.meaning(name), name)
         count += 1
     return count
 

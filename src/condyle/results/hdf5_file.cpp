@@ -345,6 +345,25 @@ std::string Hdf5Group::read_attribute(const std::string& dataset, const std::str
   return read_attribute_of(open_dataset(dataset), name);
 }
 
+std::vector<std::string> Hdf5Group::read_attribute_texts(const std::string& dataset,
+                                                         const std::string& name) const {
+  const Hdf5Handle object = open_dataset(dataset);
+  if (H5Aexists(object.id(), name.c_str()) <= 0) return {};
+  const Hdf5Handle attribute =
+      checked(H5Aopen(object.id(), name.c_str(), H5P_DEFAULT), H5Aclose,
+              fmt::format("attribute {} of {} cannot be opened", name, dataset));
+  const Hdf5Handle type = text_type();
+  const Hdf5Handle space(H5Aget_space(attribute.id()), H5Sclose);
+  std::vector<char*> raw(count(shape_of(space)), nullptr);
+  if (raw.empty()) return {};
+  check(H5Aread(attribute.id(), type.id(), raw.data()),
+        fmt::format("attribute {} of {} cannot be read as texts", name, dataset));
+  std::vector<std::string> texts;
+  for (const char* text : raw) texts.emplace_back(text == nullptr ? "" : text);
+  H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, raw.data());
+  return texts;
+}
+
 std::string Hdf5Group::read_attribute_of(const Hdf5Handle& object, const std::string& name) const {
   const hid_t id = H5Aexists(object.id(), name.c_str()) > 0
                        ? H5Aopen(object.id(), name.c_str(), H5P_DEFAULT)
@@ -367,7 +386,10 @@ namespace {
 
 DataColumn read_column(const Hdf5Group& group, const std::string& name) {
   DataColumn column;
-  column.units = group.read_attribute(name, "units");
+  for (std::string& units : group.read_attribute_texts(name, "units"))
+    column.units = std::move(units);
+  std::vector<std::string> meanings = group.read_attribute_texts(name, "meaning");
+  if (!meanings.empty()) column.attributes["meaning"] = std::move(meanings);
   const DatasetKind kind = group.kind(name);
   if (kind == DatasetKind::kTexts) {
     std::vector<std::string> texts = group.read_texts(name);

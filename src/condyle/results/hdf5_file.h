@@ -94,6 +94,10 @@ class Hdf5Group {
   [[nodiscard]] std::string read_attribute(const std::string& dataset,
                                            const std::string& name) const;
 
+  /// The texts of an attribute of a dataset; none where there is no such attribute.
+  [[nodiscard]] std::vector<std::string> read_attribute_texts(const std::string& dataset,
+                                                              const std::string& name) const;
+
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
