@@ -32,14 +32,14 @@ end
 
 function items = items_of_text(text)
 % Lines of structure begin with a capital or a brace; numbers and quoted texts do not.
-[from, to] = regexp(text, '^ *[A-Z}][^\n]*$', 'start', 'end', 'lineanchors');
+[from, to, words] = regexp(text, '^ *(GROUP|DATASET|ATTRIBUTE|DATATYPE|DATASPACE|DATA|\})[^\n]*$', 'start', 'end', 'tokens', 'lineanchors');
 items = struct('path', {}, 'is_group', {}, 'value', {}, 'attributes', {});
 open = struct('kind', {}, 'path', {}, 'name', {}, 'item', {});
 texts = false;
 shape = [];
-for k = 2:numel(from)  % the first names the file
-  line = strtrim(text(from(k):to(k)));
-  word = strtok(line);
+for k = 1:numel(from)
+  line = text(from(k):to(k));
+  word = words{k}{1};
   switch word
     case {'GROUP', 'DATASET'}
       path = path_below(open, name_of(line));
