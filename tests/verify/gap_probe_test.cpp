@@ -76,6 +76,58 @@ TEST(GapProbe, SeesBallsInSocketsAndToriFromAllSides) {
   }
 }
 
+/// Counts how often it is asked for the closest point.
+class Counted final : public SurfaceSide {
+ public:
+  explicit Counted(std::unique_ptr<SurfaceSide> side) : side_(std::move(side)) {}
+  [[nodiscard]] std::vector<Cell> cells(double size) const override { return side_->cells(size); }
+  [[nodiscard]] ChartPoint at(int chart, double u, double v) const override {
+    return side_->at(chart, u, v);
+  }
+  [[nodiscard]] double edge(int chart, double u, double v) const override {
+    return side_->edge(chart, u, v);
+  }
+  [[nodiscard]] double curvature(int chart, double u, double v) const override {
+    return side_->curvature(chart, u, v);
+  }
+  [[nodiscard]] ClosestPoint closest(const Vector3d& p) const override {
+    ++asked;
+    return side_->closest(p);
+  }
+  mutable int asked = 0;
+
+ private:
+  std::unique_ptr<SurfaceSide> side_;
+};
+
+std::unique_ptr<SurfaceSide> ball_of(double radius) {
+  SurfaceDescription sphere = described(SurfaceKind::kSphere);
+  sphere.radius = radius;
+  return make_exact_side(sphere);
+}
+
+TEST(GapProbe, TellsADeepOverlapThatIsAsDeepEverywhereWithoutDividingAllCells) {
+  const Counted outer(ball_of(25));
+  const auto inner = ball_of(20);
+  EXPECT_NEAR(GapProbe(*inner, outer).lowest({}).gap, -5, 0.05);
+  EXPECT_LT(outer.asked, 50000);
+}
+
+TEST(GapProbe, LooksAtWhatIsLargeAsAtWhatIsSmall) {
+  for (const double scale : {1e-3, 1.0, 1e3, 1e6}) {
+    const Counted ground(floor_of(30 * scale));
+    const RigidTransform X{exp_rotation({0.3, -0.2, 0.4}), scale * Vector3d(1.2, -2.3, 19.5)};
+    EXPECT_NEAR(GapProbe(*ball_of(20 * scale), ground).lowest(X).gap, -0.5 * scale, 0.005 * scale);
+    EXPECT_LT(ground.asked, 50000) << scale;
+  }
+}
+
+TEST(GapProbe, SaysThatNumbersAreTooGreat) {
+  const auto ball = ball_of(1e99), ground = floor_of(30);
+  const RigidTransform far{Eigen::Matrix3d::Identity(), Vector3d(0, 0, 1e300)};
+  EXPECT_TRUE(std::isnan(GapProbe(*ground, *ball).lowest(far).gap));
+}
+
 /// A sheet over [0, 30]² with a random field of height on it, 3 mm from control point to control
 /// point.
 PatchData bumpy(double rms, unsigned seed) {

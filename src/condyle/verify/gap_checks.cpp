@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace condyle::verification {
 
 GapCheck::GapCheck(const Subject& subject, std::vector<std::string>& not_checked)
@@ -27,19 +29,24 @@ void GapCheck::check(const PoseResult& pose, Ledger& ledger) const {
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
   for (const Pair& pair : pairs_) {
     const LowestGap fixed = pair.from_fixed.lowest(pose.X_BA.inverse()),
-                    moving = pair.from_moving.lowest(pose.X_BA);
-    const bool on_fixed = fixed.gap < moving.gap;
+                    moving = std::isnan(fixed.gap) ? fixed : pair.from_moving.lowest(pose.X_BA);
+    const bool on_fixed = std::isnan(fixed.gap) || fixed.gap < moving.gap;
     const LowestGap& lowest = on_fixed ? fixed : moving;
     const int surface = on_fixed ? pair.sides.fixed_surface : pair.sides.moving_surface;
     const std::string& body = scene.bodies[at(scene.surfaces[at(surface)].body)].name;
     const double rounding = 1e-13 * pose.X_BA.p.norm();
-    ledger.note(Check::kGap, std::isinf(lowest.gap) ? 0 : std::max(0.0, -lowest.gap),
-                fmt::format("contact \"{}\"", scene.contacts[pair.contact].name),
-                fmt::format("surfaces \"{}\" and \"{}\" overlap by {:.6g} mm at "
-                            "[{:.3f}, {:.3f}, {:.3f}] mm of {}",
-                            scene.surfaces[at(pair.sides.fixed_surface)].name,
-                            scene.surfaces[at(pair.sides.moving_surface)].name, -lowest.gap,
-                            lowest.point.x(), lowest.point.y(), lowest.point.z(), body),
+    const auto name = [&](int i) { return scene.surfaces[at(i)].name; };
+    const std::string between =
+        fmt::format("surfaces \"{}\" and \"{}\"", name(pair.sides.fixed_surface),
+                    name(pair.sides.moving_surface));
+    const std::string words =
+        std::isnan(lowest.gap)
+            ? between +
+                  " cannot be told apart: their gap has no number, or too many places to look at"
+            : fmt::format("{} overlap by {:.6g} mm at [{:.3f}, {:.3f}, {:.3f}] mm of {}", between,
+                          -lowest.gap, lowest.point.x(), lowest.point.y(), lowest.point.z(), body);
+    ledger.note(Check::kGap, std::isnan(lowest.gap) ? lowest.gap : std::max(0.0, -lowest.gap),
+                fmt::format("contact \"{}\"", scene.contacts[pair.contact].name), words,
                 1e-6 + rounding);
   }
 }

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kCell = 2;         ///< [mm]
 constexpr double kNoise = 5e-7;     ///< gaps of which no lower ones are looked for beside [mm]
+constexpr double kOfDepth = 0.01;   ///< and that of an overlap: how deep is told to 1 %
 constexpr std::size_t kGroup = 24;  ///< cells
 constexpr double kBeside =
     1;  ///< so near to each other two points have closest points that do too [mm]
@@ -20,7 +21,7 @@ constexpr double kLeaf = 0.15;  ///< [mm]
 
 GapProbe::GapProbe(const SurfaceSide& sampled, const SurfaceSide& other)
     : sampled_(sampled), other_(other) {
-  // A size that fits small things too: 2 mm for a knee.
+  // A size that fits what is small or large too: 2 mm for a knee.
   const std::vector<Cell> coarse = sampled.cells(1e9);
   if (coarse.empty()) return;
   Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -30,12 +31,12 @@ GapProbe::GapProbe(const SurfaceSide& sampled, const SurfaceSide& other)
         const Vector3d p = sampled.at(cell.chart, u, v).p;
         low = low.cwiseMin(p), high = high.cwiseMax(p);
       }
-  const double extent = (high - low).norm(), size = std::min(kCell, extent / 20);
+  const double extent = (high - low).norm(), size = std::clamp(kCell, extent / 200, extent / 20);
   leaf_ = kLeaf / kCell * size;
   for (const Cell& cell : sampled.cells(size)) {
     const Node made = node(cell);
     const double edge = sampled.edge(cell.chart, (cell.u0 + cell.u1) / 2, (cell.v0 + cell.v1) / 2);
-    if (edge > -1.5 * made.radius) cells_.push_back(made);
+    if (!(edge <= -1.5 * made.radius)) cells_.push_back(made);
   }
   if (!cells_.empty()) group(0, cells_.size());
 }
@@ -96,7 +97,7 @@ LowestGap GapProbe::refine(
 }
 
 void GapProbe::keep(const LowestGap& found, LowestGap& best) const {
-  if (found.gap < best.gap) best = found;
+  if (found.gap < best.gap) best.gap = found.gap, best.point = found.point;
 }
 
 /// The middle of a leaf, or a corner where that is not known.
@@ -104,6 +105,8 @@ void GapProbe::look_closely(const RigidTransform& X,
                             const Node& node,
                             const ClosestPoint* near,
                             LowestGap& best) const {
+  constexpr int kRefinement = 30;  // closest points, about
+  best.left -= kRefinement;
   const Cell& c = node.cell;
   const double u = (c.u0 + c.u1) / 2, v = (c.v0 + c.v1) / 2;
   LowestGap found = refine(X, c.chart, u, v, near);
@@ -117,6 +120,7 @@ void GapProbe::look(const RigidTransform& X,
                     const Node& node,
                     const ClosestPoint* near,
                     LowestGap& best) const {
+  if (--best.left < 0) return;
   if (near == nullptr && other_.is_clear(X * node.middle, node.radius)) return;
   const Cell& c = node.cell;
   look_into(X, node, read(X, c.chart, (c.u0 + c.u1) / 2, (c.v0 + c.v1) / 2, near), best);
@@ -128,7 +132,8 @@ void GapProbe::look_into(const RigidTransform& X,
                          const Node& node,
                          const Reading& at,
                          LowestGap& best) const {
-  const double wanted = std::min(best.gap, 0.0) - kNoise, r = node.radius;
+  const double found = std::min(best.gap, 0.0), r = node.radius;
+  const double wanted = found - std::max(kNoise, -kOfDepth * found);
   const Cell& c = node.cell;
   if (at.known) keep({at.gap, at.point}, best);
   // Below what is not known of the other side nothing is said.
@@ -138,7 +143,7 @@ void GapProbe::look_into(const RigidTransform& X,
     bound = std::max(
         bound, at.gap - at.slope * r - (node.curvature + 2 * at.closest.curvature) * r * r / 2);
   if (bound > wanted) return;
-  if (r <= leaf_) return look_closely(X, node, &at.closest, best);
+  if (!(r > leaf_)) return look_closely(X, node, &at.closest, best);
   const double du = (c.u1 - c.u0) / 2, dv = (c.v1 - c.v0) / 2;
   for (const double a : {c.u0, c.u0 + du})
     for (const double b : {c.v0, c.v0 + dv}) {
@@ -186,6 +191,8 @@ LowestGap GapProbe::lowest(const RigidTransform& X) const {
       const Cell& c = node.cell;
       if (other_.is_clear(X * node.middle, node.radius)) continue;
       seen.push_back({&node, read(X, c.chart, (c.u0 + c.u1) / 2, (c.v0 + c.v1) / 2)});
+      if (!std::isfinite(seen.back().at.gap) || !std::isfinite(node.radius))
+        return {std::numeric_limits<double>::quiet_NaN(), node.middle};
     }
   }
   // First where it is lowest by the middles of the cells: all bounds are then the sharper.
@@ -198,6 +205,7 @@ LowestGap GapProbe::lowest(const RigidTransform& X) const {
     break;
   }
   for (const Seen& one : seen) look_into(X, *one.node, one.at, best);
+  if (best.left < 0 && best.gap > -kNoise) best.gap = std::numeric_limits<double>::quiet_NaN();
   return best;
 }
 

@@ -13,8 +13,11 @@
 namespace condyle::verification {
 
 struct LowestGap {
-  double gap = std::numeric_limits<double>::infinity();  ///< [mm], negative: overlap
-  Vector3d point;                                        ///< in the frame of the sampled side
+  /// [mm], negative: overlap; NaN: no number.
+  double gap = std::numeric_limits<double>::infinity();
+  Vector3d point;  ///< in the frame of the sampled side
+  /// Closest points that may still be asked for; below 0 not all was looked at.
+  int left = 120000;
 };
 
 /// Samples one side; the sides must outlive it.
@@ -25,8 +28,9 @@ class GapProbe {
   /// Does the sampled side have bounds, so that there is anything to look at?
   [[nodiscard]] bool covers() const { return !cells_.empty(); }
 
-  /// X takes the sampled side's frame to the other's. Exact where some gap is below zero or within
-  /// a fraction of a cell of it; where all are greater, the lowest that was met.
+  /// X takes the sampled side's frame to the other's. Exact where the lowest gap is within a fraction
+  /// of a cell of zero; where it is greater, the lowest that was met; an overlap to 1 % of its depth.
+  /// NaN where numbers are too great to tell, or where nothing is found and not all was looked at.
   [[nodiscard]] LowestGap lowest(const RigidTransform& X) const;
 
  private:
