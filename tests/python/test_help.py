@@ -29,6 +29,14 @@ class Docstrings(unittest.TestCase):
                 if not member.startswith("_") and (callable(getattr(thing, member)) or isinstance(vars(thing)[member], property)):
                     self.assertTrue((getattr(thing, member).__doc__ or "").strip(), f"{name}.{member}")
 
+    def test_none_speaks_of_c_plus_plus_and_all_are_at_home_in_condyle(self):
+        for name in condyle.__all__:
+            thing = getattr(condyle, name)
+            for member in [thing, *(getattr(thing, member) for member in dir(thing))]:
+                self.assertNotIn("::", str(getattr(member, "__doc__", "")), name)
+            if name != "__version__":
+                self.assertEqual(thing.__module__, "condyle", name)
+
     def test_help_says_units_and_shapes(self):
         text = " ".join(condyle.sweep.__doc__.split())
         for words in ("values: (n,)", "scene's unit", "Returns a Run", "InputError", "status"):

@@ -1,5 +1,7 @@
 #include "condyle/build_info.h"
 
+#include <string>
+
 #include "condyle/python/bindings.h"
 #include "condyle/version.h"
 
@@ -10,8 +12,8 @@ py::dict build_info_of_module() {
   const BuildInfo info = build_info();
   py::dict libraries;
   for (const BuiltWith& library : info.libraries) libraries[library.name.c_str()] = library.version;
-  libraries["pybind11"] = PYBIND11_TOSTRING(PYBIND11_VERSION_MAJOR) "." PYBIND11_TOSTRING(
-      PYBIND11_VERSION_MINOR) "." PYBIND11_TOSTRING(PYBIND11_VERSION_PATCH);
+  libraries["pybind11"] =
+      std::to_string(PYBIND11_VERSION_MAJOR) + "." + std::to_string(PYBIND11_VERSION_MINOR);
   py::dict out;
   out["version"] = info.version;
   out["made_by"] = info.made_by;

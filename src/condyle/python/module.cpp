@@ -7,8 +7,8 @@ PYBIND11_MODULE(_condyle, m) {
   bind_build_info(m);
   bind_scene(m);
   bind_columns(m);
-  bind_model(m);
   bind_pose(m);
+  bind_model(m);
   bind_solver(m);
   bind_run(m);
   bind_sweep(m);

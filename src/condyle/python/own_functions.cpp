@@ -1,5 +1,8 @@
 #include "condyle/python/own_functions.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -84,10 +87,10 @@ void check_finite(const double* values,
                   std::size_t count,
                   const std::string& owner,
                   const std::string& at) {
-  for (std::size_t i = 0; i < count; ++i)
-    if (!std::isfinite(values[i]))
-      throw InputError(owner + " returned " + std::to_string(values[i]) + at +
-                       ", expected finite numbers");
+  const double* bad =
+      std::find_if_not(values, values + count, [](double v) { return std::isfinite(v); });
+  if (bad == values + count) return;
+  throw InputError(fmt::format("{} returned {}{}, expected finite numbers", owner, *bad, at));
 }
 
 /// Numbers of a sequence that has so many, or TypeError.

@@ -33,3 +33,8 @@ extrapolated beyond what is known of them."""
 
 __all__ = [name for name in dir() if not name.startswith("_")
            and name not in ("calibrations", "described", "scene", "sweeps", "tables")] + ["__version__"]
+
+# Their home is here, wherever they are written.
+for _name in __all__:
+    if hasattr(globals()[_name], "__module__"):
+        globals()[_name].__module__ = __name__
