@@ -62,7 +62,11 @@ used() {
   "$@" condyle sweep /usr/share/condyle/data/phantom/knee.toml -o /tmp/run.h5 --quiet
   "$@" condyle verify /tmp/run.h5 | tail -n 1
   if [ -e "$module" ]; then
-    "$@" /usr/bin/python3 -c 'import condyle; print(condyle.__file__, condyle.build_info())'
+    "$@" /usr/bin/python3 -c '
+import condyle
+run = condyle.sweep(condyle.read_scene("/usr/share/condyle/data/phantom/knee.toml"))
+assert run.converged.all()
+print(condyle.__file__, condyle.build_info())'
   fi
 }
 

@@ -17,7 +17,7 @@ case "$site" in
   *) echo "installed into $site" && exit 1 ;;
 esac
 cd "$work"
-PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$site "$python" - "$site" <<'PYTHON'
+PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$site "$python" - "$site" "$root" <<'PYTHON'
 import sys
 
 import condyle
@@ -26,6 +26,8 @@ assert condyle.__file__.startswith(sys.argv[1]), condyle.__file__
 info = condyle.build_info()
 assert info["version"] == condyle.__version__, info
 assert info["made_by"] and info["build_type"] and info["compiler"] and info["libraries"]["HDF5"], info
+run = condyle.sweep(condyle.read_scene(sys.argv[2] + "/data/phantom/knee.toml"))
+assert run.converged.all()
 print(condyle.__file__, info)
 PYTHON
 # Nothing of it leads back to the build.
