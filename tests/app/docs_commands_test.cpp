@@ -147,6 +147,15 @@ TEST(DocsPages, NameOnlyPlacesThatAreThere) {
   EXPECT_GT(count, 10);
 }
 
+TEST(DocsPages, AreAllInTheNavigationOfTheSite) {
+  const std::string site = contents(kRoot / "tools/docs/mkdocs.yml");
+  for (const auto& entry : fs::directory_iterator(kRoot / "docs")) {
+    if (entry.path().extension() != ".md") continue;
+    EXPECT_NE(site.find(": " + entry.path().filename().string() + "\n"), std::string::npos)
+        << entry.path();
+  }
+}
+
 class ShippedScene : public CommandLine, public testing::WithParamInterface<const char*> {};
 
 // All poses of ours converge: exit code 0.

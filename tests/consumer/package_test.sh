@@ -70,7 +70,7 @@ print(condyle.__file__, condyle.build_info())'
   fi
 }
 
-if [ "$(id -u)" -eq 0 ] && unshare --mount true 2>/dev/null && make_clean_root "$work/root" "${packages[@]}"; then
+if [ "$(id -u)" -eq 0 ] && make_clean_root "$work/root" "${packages[@]}"; then
   mkdir -p "$work/root/packages"
   cp "${packages[@]}" "$work/root/packages"
   chroot "$work/root" sh -c 'dpkg --install --force-unsafe-io /packages/*.deb' >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
