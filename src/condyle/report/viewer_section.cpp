@@ -37,7 +37,7 @@ constexpr const char* kMarkup = R"(<p id="viewer-message">The 3-D view needs scr
 <div class="legend"><span>ligament strain (slack ones grey)</span><div class="scale"></div><div class="marks"></div></div>
 <div class="legend pressures" hidden><span>pressure of the layers</span><div class="scale"></div><div class="marks"></div></div>
 <div class="pick" role="group" aria-label="curves of a ligament or a contact" hidden><p class="note">Curves of a ligament or a contact: click it in the view, or here; Escape ends it.</p></div>
-<div class="picked" aria-live="polite" hidden></div>
+<div class="picked" role="region" aria-label="curves of what is picked" hidden></div>
 </div>
 )";
 

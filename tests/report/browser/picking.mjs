@@ -11,7 +11,7 @@ const shown = (page) => page.evaluate(() => {
     marks: [...panel.querySelectorAll('circle.now')].map((mark) => mark.getAttribute('cx')),
     points: [...panel.querySelectorAll('path.line')].map((line) => line.getAttribute('d').split(/[ML]/).length - 1),
     letters: [...panel.querySelectorAll('text')].map((text) => text.textContent),
-    numbers: [...panel.querySelectorAll('output')].map((number) => number.textContent),
+    numbers: [...panel.querySelectorAll('.number')].map((number) => number.textContent),
     pressed: [...document.querySelectorAll('#viewer .pick [aria-pressed=true]')].map((button) => button.textContent),
   };
 });

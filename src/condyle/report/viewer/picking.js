@@ -50,7 +50,7 @@ function panelOf(choice, curves, clear) {
   const close = made('button', { type: 'button', textContent: 'clear (Esc)' });
   close.addEventListener('click', clear);
   const figures = curves.map((curve) => {
-    curve.now = made('output', {});
+    curve.now = made('span', { className: 'number' });
     const caption = made('figcaption', {}, made('strong', { textContent: curve.name }), ` [${curve.units}] `, curve.now);
     return made('figure', { className: 'small' }, caption, curve.svg);
   });
