@@ -2,7 +2,7 @@
 # Reads a run of each kind under Octave with tools/matlab and compares every dataset with what h5py reads, to the last bit;
 # and draws the examples without a display. octave_test.sh PROGRAM. Ends with 77 where something of it is not there.
 set -euo pipefail
-program=$1
+program=$(realpath "$1")
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$here/../..
 python=/usr/bin/python3  # Debian's, which has its h5py
