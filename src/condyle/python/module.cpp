@@ -16,5 +16,6 @@ PYBIND11_MODULE(_condyle, m) {
   bind_compare(m);
   bind_simulate(m);
   bind_calibrate(m);
+  bind_study(m);
   bind_timings(m);
 }

@@ -382,8 +382,6 @@ std::string Hdf5Group::read_attribute_of(const Hdf5Handle& object, const std::st
   return text;
 }
 
-namespace {
-
 DataColumn read_column(const Hdf5Group& group, const std::string& name) {
   DataColumn column;
   for (std::string& units : group.read_attribute_texts(name, "units"))
@@ -405,8 +403,6 @@ DataColumn read_column(const Hdf5Group& group, const std::string& name) {
     column.values = std::move(array.values);
   return column;
 }
-
-}  // namespace
 
 DatasetKind Hdf5Group::kind(const std::string& name) const {
   const Hdf5Handle dataset = open_dataset(name);

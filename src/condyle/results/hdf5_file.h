@@ -126,7 +126,9 @@ class Hdf5Group {
   std::string place_;
 };
 
-/// All that a group holds, as it stands in the file.
+/// A dataset as it stands in the file.
+[[nodiscard]] DataColumn read_column(const Hdf5Group& group, const std::string& name);
+/// All that a group holds.
 [[nodiscard]] ColumnTree read_columns(const Hdf5Group& group);
 
 /// A file being built in memory. Groups must be gone before `bytes` is asked.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "condyle/scene_file/read_sections.h"
 #include "condyle/scene_file/read_study_parts.h"
@@ -119,9 +120,13 @@ void expect_countable(const Section& root, const ReadStudy& read) {
 }  // namespace
 
 ReadStudy read_study(const std::filesystem::path& file) {
+  return parse_study(text_of(file, "a study (TOML)"), file);
+}
+
+ReadStudy parse_study(std::string text, const std::filesystem::path& file) {
   ReadStudy read;
   StudyDescription& study = read.study;
-  study.text = text_of(file, "a study (TOML)");
+  study.text = std::move(text);
   study.file = file;
   const Source source{file.string(), file.parent_path()};
   const Value document = parse_document(study.text, source.file);

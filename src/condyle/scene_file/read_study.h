@@ -3,6 +3,7 @@
 /// Study files (TOML, docs/study.md).
 
 #include <filesystem>
+#include <string>
 
 #include "condyle/scene/study_with_scenes.h"
 
@@ -13,5 +14,8 @@ namespace condyle {
 /// and what was expected; for scenes whose sweeps do not visit the same values, or which do not have
 /// the numbers that vary.
 [[nodiscard]] ReadStudy read_study(const std::filesystem::path& file);
+
+/// The same of a text; paths are told from the folder of `file`, which need not be there.
+[[nodiscard]] ReadStudy parse_study(std::string text, const std::filesystem::path& file);
 
 }  // namespace condyle

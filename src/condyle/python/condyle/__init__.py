@@ -16,8 +16,8 @@ ValueError with the line that the program prints; a pose that is not found is a 
 
 from enum import IntEnum as _IntEnum
 
-from ._condyle import (Group, InputError, Model, Pose, Run, Solver, Surfaces, __version__, _status_names, build_info,
-                       calibrate, compare, fit, laxity, open_run, simulate)
+from ._condyle import (Group, InputError, Model, Pose, Run, Solver, Study, Surfaces, __version__, _status_names, build_info,
+                       calibrate, compare, fit, laxity, open_run, open_study, simulate, study)
 from .calibrations import fitted_scene
 from .described import (Body, Calibrate, CalibrateLoad, CalibrateParameter, Condition, Contact, Damper, Drive, End, Fit, Frame,
                         Joint, Laxity, Ligament, Load, Region, Simulate, Start, Surface, Sweep, Units, Wrap)

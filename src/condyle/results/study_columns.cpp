@@ -1,0 +1,52 @@
+#include "condyle/results/study_columns.h"
+
+#include <algorithm>
+
+#include "condyle/results/rehearsal.h"
+
+namespace condyle {
+
+StudyColumns::StudyColumns(const std::filesystem::path& path)
+    : view_(read_study_file_at_once(path)),
+      reader_(path),
+      outputs_(reader_.root().open("outputs")) {
+  const Hdf5Group root = reader_.root();
+  for (const std::string& name : root.names()) {
+    if (name == "outputs")
+      columns_.make_group(name).names = outputs_.names();
+    else if (root.is_group(name))
+      columns_.make_group(name) = read_columns(root.open(name));
+    else
+      columns_.add(name, read_column(root, name));
+  }
+}
+
+void StudyColumns::read_output(const std::string& name) {
+  ColumnTree& outputs = columns_.make_group("outputs");
+  const bool there =
+      std::find(outputs.names.begin(), outputs.names.end(), name) != outputs.names.end();
+  if (there && outputs.column(name) == nullptr) outputs.columns[name] = read_column(outputs_, name);
+}
+
+const ColumnTree& StudyColumns::tree_at(const std::string& place) {
+  const std::string group = "outputs";
+  if (place == group || place == group + "/")
+    for (const std::string& name : columns_.group(group)->names) read_output(name);
+  else if (place.starts_with(group + "/"))
+    read_output(place.substr(group.size() + 1));
+  return columns_;
+}
+
+std::shared_ptr<StudyColumns> open_own_study(const std::filesystem::path& path) {
+  return std::shared_ptr<StudyColumns>(new StudyColumns(path));
+}
+
+std::shared_ptr<StudyColumns> open_study(const std::filesystem::path& path) {
+  rehearse(path, [&] {
+    const auto study = open_own_study(path);
+    (void)study->tree_at("outputs");
+  });
+  return open_own_study(path);
+}
+
+}  // namespace condyle

@@ -1,0 +1,40 @@
+#pragma once
+
+/// What the file of a study says, under its names (docs/results.md), for those who look into it.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "condyle/results/column_tree.h"
+#include "condyle/results/hdf5_file.h"
+#include "condyle/results/study_file.h"
+
+namespace condyle {
+
+/// All but /outputs is in memory; of these each is read when it is first asked for, since together they may be as large
+/// as memory. The file is held open, and may be removed meanwhile.
+class StudyColumns {
+ public:
+  [[nodiscard]] const StudyView& view() const { return view_; }
+  /// The tree with what stands at "outputs/aACL.force" read, and of "outputs" all; other places are there.
+  [[nodiscard]] const ColumnTree& tree_at(const std::string& place);
+
+ private:
+  explicit StudyColumns(const std::filesystem::path& path);
+  friend std::shared_ptr<StudyColumns> open_study(const std::filesystem::path& path);
+  friend std::shared_ptr<StudyColumns> open_own_study(const std::filesystem::path& path);
+  void read_output(const std::string& name);
+
+  StudyView view_;
+  Hdf5Reader reader_;
+  Hdf5Group outputs_;
+  ColumnTree columns_;
+};
+
+/// Throws InputError for a file that is missing, damaged, or no study.
+[[nodiscard]] std::shared_ptr<StudyColumns> open_study(const std::filesystem::path& path);
+/// One that this process has just written: it is not read in a rehearsal first.
+[[nodiscard]] std::shared_ptr<StudyColumns> open_own_study(const std::filesystem::path& path);
+
+}  // namespace condyle
