@@ -114,6 +114,45 @@ TEST(ContactSearch, FindsTheSameMinimumWarmAndFresh) {
 
 // The ball rests on the inner side of the right ridge (z' = 0.1428 at x = 7), so far over that it
 // runs into the left one: 60 mm from its centre, but for the way that Pythagoras tells.
+// Corners of two edges, where a sample faces the other surface's known part or not by a hair.
+TEST(ContactSearch, FindsTheSameAtCornersOfEdgesWarmAndFresh) {
+  const ContactPair pair = pair_of(make_polynomial({0, 0, 0}, Eigen::Matrix3d::Identity(),
+                                                   {{2, 0, -0.03}, {0, 2, -0.025}}, true, 12),
+                                   make_polynomial({0, 0, 0}, Eigen::Matrix3d::Identity(),
+                                                   {{2, 0, -0.04}, {0, 2, -0.035}}, false, 12));
+  const auto cover = std::make_shared<const ContactCover>(pair, 1.2);
+  std::vector<GapMinimum> minima, fresh;
+  const auto lowest = [&](const RigidTransform& X) {
+    ContactSearch(cover).find(X, 0, fresh);
+    return fresh.empty() ? 0 : fresh[0].gap;
+  };
+  ContactSearch warm(cover);
+  int at_corners = 0;
+  for (int k = 0; k < 8; ++k) {
+    const double t = 1.3 * k;
+    RigidTransform X{exp_rotation({0.1 * std::sin(t), 0.12 * std::cos(1.3 * t), 0.4 * t}),
+                     {8 + std::sin(2 * t), 8 + std::cos(t), 0}};
+    double clear = 10, deep = -10;
+    for (int halving = 0; halving < 12; ++halving) {
+      X.p.z() = 0.5 * (clear + deep);
+      (lowest(X) < 0 ? deep : clear) = X.p.z();
+    }
+    for (const double sunk : {0.002, 0.02}) {
+      X.p.z() = deep - sunk;
+      if (lowest(X) == 0) continue;
+      at_corners += !fresh[0].refined ? 1 : 0;
+      for (int from = 0; from < 12; ++from) {
+        const Eigen::Vector3d aside(0.15 * std::sin(from), 0.15 * std::cos(from), 0);
+        warm.find({X.R, X.p + aside}, 0, minima);
+        warm.find(X, 0, minima);
+        ASSERT_FALSE(minima.empty()) << k;
+        ASSERT_NEAR(minima[0].gap, fresh[0].gap, 1e-8) << k;
+      }
+    }
+  }
+  EXPECT_GT(at_corners, 10);
+}
+
 TEST(ContactSearch, AKnownContactHidesNoOverlapElsewhere) {
   const ContactPair pair = pair_of(make_polynomial({0, 0, 0}, Eigen::Matrix3d::Identity(),
                                                    {{2, 0, 0.02}, {4, 0, -0.0001}}, true),

@@ -39,6 +39,34 @@ TEST(RimMinimum, OfATiltedDiscIsItsLowestPoint) {
   EXPECT_FALSE(below(rim->gap - 0.1).has_value());
 }
 
+// The same over a plane that is known within a circle which the tilted edge crosses before its lowest
+// point: there it ends.
+TEST(RimMinimum, EndsWhereWhatItFacesDoes) {
+  constexpr double kTilt = 0.2, kHeight = 3, kKnown = 16;
+  const Vector3d center(6, 4, 0);
+  const auto disc = make_plane(kOrigin, kUp, kRadius), plane = make_plane(center, -kUp, kKnown);
+  const RigidTransform X{exp_rotation({0, kTilt, 0}), {0, 0, -kHeight}};
+  const auto on_edge = [&](double angle) {
+    return Vector3d(-kRadius * std::cos(angle), kRadius * std::sin(angle), 0);
+  };
+  const auto beyond = [&](double angle) {
+    const Vector3d d = X * on_edge(angle) - center;
+    return std::hypot(d.x(), d.y()) - kKnown;
+  };
+  double out = 0, in = 1.5;
+  ASSERT_GT(beyond(out), 0);
+  ASSERT_LT(beyond(in), 0);
+  for (int k = 0; k < 60; ++k) (beyond(0.5 * (out + in)) > 0 ? out : in) = 0.5 * (out + in);
+  const double exact = kHeight - kRadius * std::cos(in) * std::sin(kTilt);
+  for (const double aside : {-0.05, 0.0, 0.02, 0.1}) {
+    const Place start{11.0 / kRadius * on_edge(in + aside)};
+    const auto rim = rim_minimum(*disc, start, *plane, {center}, X, kReach, kAnyGap);
+    ASSERT_TRUE(rim.has_value());
+    EXPECT_GT(rim->gap, exact - 1e-9);
+    EXPECT_LT(rim->gap, exact + 2e-4);
+  }
+}
+
 TEST(RimMinimum, ASurfaceWithoutAnEdgeHasNone) {
   const auto ball = make_sphere(kOrigin, 20, true), plane = make_plane(kOrigin, -kUp, 100);
   EXPECT_FALSE(

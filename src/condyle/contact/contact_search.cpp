@@ -236,27 +236,38 @@ void ContactSearch::add_rims(const RigidTransform& X_BA,
                              double cutoff,
                              std::vector<GapMinimum>& minima) const {
   const double reach = kRimReach * spacing_;
-  const RigidTransform X = from_to(X_BA);
   const Surface &own = sampled().surface(), &facing = other().surface();
   for (const int sample : near_) {
     if (seen(sample).lower > cutoff) continue;
-    const Place &place = sampled().place(sample), &there = closest(sample).place;
-    const bool of_own = own.edge_distance(place) < reach;
-    if (!of_own && !(facing.edge_distance(there) < reach)) continue;
-    const std::optional<RimMinimum> rim =
-        of_own ? rim_minimum(own, place, facing, there, X, reach, cutoff)
-               : rim_minimum(facing, there, own, place, X.inverse(), reach, cutoff);
-    if (!rim || !(rim->gap < cutoff)) continue;
-    GapMinimum minimum;
-    const bool rim_of_A = of_own == sampled_on_A_;
-    minimum.places.on_A = rim_of_A ? rim->on_rim : rim->facing;
-    minimum.places.on_B = rim_of_A ? rim->facing : rim->on_rim;
-    const SurfacePoint B = surfaces().on_B.evaluate_frame(minimum.places.on_B);
-    minimum.point_B = B.c;
-    minimum.n = B.n;
-    minimum.gap = rim->gap;
-    minima.push_back(minimum);
+    const bool of_own = own.edge_distance(sampled().place(sample)) < reach;
+    const bool of_facing = facing.edge_distance(closest(sample).place) < reach;
+    if (of_own) add_rim(sample, sampled_on_A_, X_BA, cutoff, minima);
+    if (of_facing) add_rim(sample, !sampled_on_A_, X_BA, cutoff, minima);
   }
+}
+
+/// The edge near a sample, of the one surface or of the other.
+void ContactSearch::add_rim(int sample,
+                            bool of_A,
+                            const RigidTransform& X_BA,
+                            double cutoff,
+                            std::vector<GapMinimum>& minima) const {
+  const double reach = kRimReach * spacing_;
+  const Place &own = sampled().place(sample), &there = closest(sample).place;
+  const Place &on_A = sampled_on_A_ ? own : there, &on_B = sampled_on_A_ ? there : own;
+  const SurfacePair pair = surfaces();
+  const std::optional<RimMinimum> rim =
+      of_A ? rim_minimum(pair.on_A, on_A, pair.on_B, on_B, X_BA, reach, cutoff)
+           : rim_minimum(pair.on_B, on_B, pair.on_A, on_A, X_BA.inverse(), reach, cutoff);
+  if (!rim || !(rim->gap < cutoff)) return;
+  GapMinimum minimum;
+  minimum.places.on_A = of_A ? rim->on_rim : rim->facing;
+  minimum.places.on_B = of_A ? rim->facing : rim->on_rim;
+  const SurfacePoint B = pair.on_B.evaluate_frame(minimum.places.on_B);
+  minimum.point_B = B.c;
+  minimum.n = B.n;
+  minimum.gap = rim->gap;
+  minima.push_back(minimum);
 }
 
 /// A measured sample whose closest point lies less than a cell beyond the edge may stand for a

@@ -155,6 +155,7 @@ class ContactSearch {
   void gather_lowest(const RigidTransform& X_from_to);
   [[nodiscard]] bool is_beside(const Eigen::Vector3d& p, double r, const Closest& closest) const;
   [[nodiscard]] Facing face_closest(const Eigen::Vector3d& p, double r, Closest& closest);
+  bool faces_known_part(const Eigen::Vector3d& p, double r, Closest& closest, Facing& facing);
   void find_closest(const Eigen::Vector3d& p, double close, Closest& closest) const;
   [[nodiscard]] double height_over(int sample, int neighbour) const;
   [[nodiscard]] bool is_lowest_of_neighbours(int sample) const;
@@ -162,6 +163,11 @@ class ContactSearch {
   [[nodiscard]] bool nearly_faces_known_part(int sample) const;
   [[nodiscard]] bool leads_elsewhere(int sample, const RigidTransform& X_BA, double cutoff) const;
   void add_rims(const RigidTransform& X_BA, double cutoff, std::vector<GapMinimum>& minima) const;
+  void add_rim(int sample,
+               bool of_A,
+               const RigidTransform& X_BA,
+               double cutoff,
+               std::vector<GapMinimum>& minima) const;
   void add_minimum(int sample,
                    const RigidTransform& X_BA,
                    double cutoff,

@@ -198,6 +198,22 @@ Facing ContactSearch::face_closest(const Eigen::Vector3d& p, double r, Closest& 
   return facing;
 }
 
+/// Does p face what is known of the other surface? Where its closest point is no better known than it
+/// is near the edge, it is found to the last digit: what it stands for must not depend on the pose before.
+bool ContactSearch::faces_known_part(const Eigen::Vector3d& p,
+                                     double r,
+                                     Closest& closest,
+                                     Facing& facing) {
+  constexpr double kSure = 2;  // times the way to the closest point
+  const Surface& surface = other().surface();
+  const double edge = surface.edge_distance(closest.place);
+  if (!closest.close || std::abs(edge) > kSure * facing.beside.norm()) return edge >= 0;
+  closest.place = surface.closest(p, closest.place);
+  closest.at = surface.evaluate(closest.place);
+  facing = face_closest(p, r, closest);
+  return surface.edge_distance(closest.place) >= 0;
+}
+
 /// By the quadric of the sample nearest to its centre p: as far as its cell, and by the way beyond.
 bool ContactSearch::is_clear_of_sample(const SurfaceCover::Cluster& cluster,
                                        const Eigen::Vector3d& p,
@@ -313,10 +329,10 @@ void ContactSearch::estimate(int sample,
   now.measured = !facing.at;
   now.stamp = now_;
   if (now.measured) facing = face_closest(p, r, there);
+  now.faces = now.measured ? faces_known_part(p, r, there, facing)
+                           : other().edge_distance(there.near) > kToEdge * facing.beside.norm();
   now.gap = gap_over(facing);
   now.error = facing.error;
-  now.faces = now.measured ? other().surface().edge_distance(there.place) >= 0
-                           : other().edge_distance(there.near) > kToEdge * facing.beside.norm();
   now.lower = bound_of_cell(facing, own, X_from_to.R, r, sampled().cell_change(sample), cutoff);
 }
 
@@ -325,8 +341,10 @@ void ContactSearch::measure(int sample, const RigidTransform& X_from_to) {
   Seen& now = seen(sample);
   if (now.measured) return;
   Closest& there = closest(sample);
-  now.gap = gap_over(face_closest(X_from_to * sampled().sample(sample).c, 0, there));
-  now.faces = other().surface().edge_distance(there.place) >= 0;
+  const Eigen::Vector3d p = X_from_to * sampled().sample(sample).c;
+  Facing facing = face_closest(p, 0, there);
+  now.faces = faces_known_part(p, 0, there, facing);
+  now.gap = gap_over(facing);
   now.error = 0;
   now.measured = true;
 }

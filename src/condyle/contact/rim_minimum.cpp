@@ -119,6 +119,23 @@ std::optional<RimMinimum> rim_minimum(const Surface& rim,
   for (int i = -kParts; i <= kParts; ++i)
     // cppcheck-suppress containerOutOfBounds ; it takes the size for 2 (cppcheck 2.10)
     gaps[static_cast<std::size_t>(i + kParts)] = look(reach * i / kParts);
+  // Where what it faces ends, it may lie lowest: at a corner of both edges.
+  const auto look_where_it_ends = [&](double facing_way, double other_way) {
+    constexpr int kHalvings = 10;
+    for (int k = 0; k < kHalvings; ++k) {
+      const double middle = 0.5 * (facing_way + other_way);
+      (look(middle) < kNone ? facing_way : other_way) = middle;
+    }
+  };
+  const double part = reach / kParts;
+  for (int i = 0; i < 2 * kParts; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const bool faces = gaps[k] < kNone, faces_next = gaps[k + 1] < kNone;
+    // By the way of one part a gap falls by no more than that.
+    if (faces == faces_next || std::min(gaps[k], gaps[k + 1]) - part > cutoff) continue;
+    const double way = part * (i - kParts);
+    look_where_it_ends(faces ? way : way + part, faces ? way + part : way);
+  }
   if (!lowest || lowest->gap - kBetween * change_beside_lowest(gaps) > cutoff) return std::nullopt;
   for (double step = 0.5 * reach / kParts; step > kLeast * reach; step *= 0.5) {
     const double middle = best;
