@@ -14,6 +14,11 @@ import numpy as np
 import condyle
 import knees
 
+try:
+    import h5py
+except ImportError:
+    h5py = None
+
 
 def with_layers() -> condyle.Scene:
     """Two balls with elastic layers, and derivatives."""
@@ -166,6 +171,27 @@ class Files(unittest.TestCase):
         with self.assertRaises(condyle.InputError):
             run.save(self.folder)
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["cut.h5", "empty.h5", "text.h5"])
+
+    @unittest.skipIf(h5py is None, "h5py is not installed")
+    def test_what_others_add_to_a_file_is_read_or_passed_over(self):
+        path = self.folder / "run.h5"
+        run = condyle.sweep(knees.ball_on_ball())
+        run.save(path)
+        with h5py.File(path, "r+") as file:
+            notes = file.create_group("notes")
+            notes["ids"] = np.array([2**40, -1])
+            notes["flags"] = np.array([True, False])
+            notes["fixed"] = np.array([b"ab", b"c"])
+            notes["pair"] = np.zeros(2, dtype=[("a", "f8"), ("b", "i4")])
+            notes["single"] = np.float32(0.5)
+            notes["small"] = np.array([[1, 2], [3, 4]], dtype=np.uint8)
+            del file["sweep/value"].attrs["units"]
+        opened = condyle.open_run(path)
+        np.testing.assert_array_equal(opened["notes"].ids, [2**40, -1])
+        np.testing.assert_array_equal(opened["notes"].small, [[1, 2], [3, 4]])
+        self.assertEqual((opened["notes"].single, opened["sweep"].units("value")), (0.5, ""))
+        self.assertEqual(set(opened["notes"]), {"ids", "single", "small"})
+        np.testing.assert_array_equal(opened.translation, run.translation)
 
     def test_a_run_of_any_kind_is_opened(self):
         scene = self.folder / "balls.toml"

@@ -54,7 +54,7 @@ def sweeps(model):
     """Per pose: a sweep in C++, from Python, and the columns that a plot needs on top of it."""
     values = np.linspace(0, 90, POSES)
     alone, whole, columns = [], [], []
-    for turn in range(6):
+    for turn in range(10):
         runs = []
 
         def in_cpp():

@@ -408,17 +408,21 @@ DatasetKind Hdf5Group::kind(const std::string& name) const {
   const Hdf5Handle dataset = open_dataset(name);
   const Hdf5Handle type(H5Dget_type(dataset.id()), H5Tclose);
   const H5T_class_t of = H5Tget_class(type.id());
-  if (of == H5T_STRING) return DatasetKind::kTexts;
-  return of == H5T_INTEGER ? DatasetKind::kIntegers : DatasetKind::kNumbers;
+  if (of == H5T_FLOAT) return DatasetKind::kNumbers;
+  if (of == H5T_STRING && H5Tis_variable_str(type.id()) > 0) return DatasetKind::kTexts;
+  if (of != H5T_INTEGER) return DatasetKind::kOther;
+  const bool fits = H5Tget_size(type.id()) + (H5Tget_sign(type.id()) == H5T_SGN_NONE ? 1 : 0) <= 4;
+  return fits ? DatasetKind::kIntegers : DatasetKind::kNumbers;
 }
 
 ColumnTree read_columns(const Hdf5Group& group) {
   ColumnTree tree;
   for (const std::string& name : group.names()) {
-    if (group.is_group(name))
+    if (group.is_group(name)) {
       tree.make_group(name) = read_columns(group.open(name));
-    else
+    } else if (group.kind(name) != DatasetKind::kOther) {
       tree.add(name, read_column(group, name));
+    }
   }
   return tree;
 }

@@ -45,7 +45,8 @@ class Hdf5Rows {
   std::size_t row_ = 0;
   std::string place_;
 };
-enum class DatasetKind { kNumbers, kIntegers, kTexts };
+/// kOther: nothing that condyle writes, as others may add to a file.
+enum class DatasetKind { kNumbers, kIntegers, kTexts, kOther };
 enum class StoredAs { kFloat64, kFloat32, kInt32, kUint8 };
 
 class Hdf5Group {
@@ -128,7 +129,7 @@ class Hdf5Group {
 
 /// A dataset as it stands in the file.
 [[nodiscard]] DataColumn read_column(const Hdf5Group& group, const std::string& name);
-/// All that a group holds.
+/// All numbers and texts that a group holds.
 [[nodiscard]] ColumnTree read_columns(const Hdf5Group& group);
 
 /// A file being built in memory. Groups must be gone before `bytes` is asked.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <ctime>
 #include <functional>
 #include <limits>
@@ -189,13 +190,25 @@ void write_contact(const Hdf5Group& group,
   write_layers(group, scene, poses, index);
 }
 
-void write_ligament(const Hdf5Group& group, const Poses& poses, std::size_t index) {
-  for (const auto& column : kLigamentColumns) {
-    const FillRow fill = [&](const PoseResult& p, double* row) {
-      *row = p.ligaments.at(index).*column.member;
-    };
-    group.write(column.name, rows(poses, 1, fill), {poses.size()}, column.units);
+/// Columns of all ligaments, filled in one walk over the poses: walks over many poses cost more than what they fetch.
+using LigamentNumbers = std::array<std::vector<double>, kLigamentColumns.size()>;
+
+std::vector<LigamentNumbers> ligament_numbers(const Poses& poses, std::size_t ligaments) {
+  LigamentNumbers none;
+  none.fill(std::vector<double>(poses.size(), kNone));
+  std::vector<LigamentNumbers> numbers(ligaments, none);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (!poses[i].solved()) continue;
+    for (std::size_t k = 0; k < ligaments; ++k)
+      for (std::size_t c = 0; c < kLigamentColumns.size(); ++c)
+        numbers[k][c][i] = poses[i].ligaments.at(k).*kLigamentColumns[c].member;
   }
+  return numbers;
+}
+
+void write_ligament(const Hdf5Group& group, const Poses& poses, const LigamentNumbers& numbers) {
+  for (std::size_t c = 0; c < kLigamentColumns.size(); ++c)
+    group.write(kLigamentColumns[c].name, numbers[c], {poses.size()}, kLigamentColumns[c].units);
 }
 
 void write_condition(const Hdf5Group& group, const Poses& poses, std::size_t index, bool angle) {
@@ -218,9 +231,10 @@ void write_contacts(const Hdf5Group& sweep, const Scene& scene, const Poses& pos
 
 void write_ligaments(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) {
   const Hdf5Group ligaments = sweep.create("ligaments");
+  const std::vector<LigamentNumbers> numbers = ligament_numbers(poses, scene.ligaments.size());
   for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
     const Hdf5Group ligament = ligaments.create(scene.ligaments[i].name);
-    write_ligament(ligament, poses, i);
+    write_ligament(ligament, poses, numbers[i]);
     write_path(ligament, scene, poses, i);
   }
 }
