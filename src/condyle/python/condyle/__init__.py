@@ -15,6 +15,7 @@ ValueError with the line that the program prints; a pose that is not found is a 
 """
 
 from enum import IntEnum as _IntEnum
+from types import ModuleType as _Module
 
 from ._condyle import (Group, InputError, Model, Pose, Run, Solver, Study, Surfaces, __version__, _status_names, build_info,
                        calibrate, compare, fit, laxity, open_run, open_study, simulate, study)
@@ -31,8 +32,8 @@ Status.__doc__ = """How the search for a pose ended: CONVERGED is 0, the others 
 The values are those of Run.status and of /sweep/status in a result file; LEFT_PATCH has numbers all the same, of surfaces
 extrapolated beyond what is known of them."""
 
-__all__ = [name for name in dir() if not name.startswith("_")
-           and name not in ("calibrations", "described", "scene", "sweeps", "tables")] + ["__version__"]
+__all__ = [name for name, _thing in list(globals().items())
+           if not name.startswith("_") and not isinstance(_thing, _Module)] + ["__version__"]
 
 # Their home is here, wherever they are written.
 for _name in __all__:
