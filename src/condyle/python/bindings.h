@@ -35,6 +35,7 @@ void bind_compare(py::module_& m);
 void bind_simulate(py::module_& m);
 void bind_calibrate(py::module_& m);
 void bind_study(py::module_& m);
+void bind_new_scene(py::module_& m);
 void bind_timings(py::module_& m);
 
 /// A progress callback of Python, or nothing for None; to be called without the interpreter's lock.

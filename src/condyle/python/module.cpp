@@ -17,5 +17,6 @@ PYBIND11_MODULE(_condyle, m) {
   bind_simulate(m);
   bind_calibrate(m);
   bind_study(m);
+  bind_new_scene(m);
   bind_timings(m);
 }

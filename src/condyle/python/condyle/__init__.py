@@ -19,9 +19,9 @@ from types import ModuleType as _Module
 
 from ._condyle import (Group, InputError, Model, Pose, Run, Solver, Study, Surfaces, __version__, _status_names, build_info,
                        calibrate, compare, fit, laxity, open_run, open_study, simulate, study)
-from .calibrations import fitted_scene
 from .described import (Body, Calibrate, CalibrateLoad, CalibrateParameter, Condition, Contact, Damper, Drive, End, Fit, Frame,
                         Joint, Laxity, Ligament, Load, Region, Simulate, Start, Surface, Sweep, Units, Wrap)
+from .made_scenes import fitted_scene, new_scene
 from .scene import Scene, read_scene
 from .sweeps import sweep
 from .tables import Table, Tables
