@@ -76,6 +76,24 @@ class Arguments(unittest.TestCase):
         changed.loads[0].vector = [100, 0, 0]
         self.assertAlmostEqual(solver.solve().translation[0], condyle.Model(changed).solve().translation[0], delta=1e-12)
 
+    def test_objects_without_init_hold_nothing_and_say_so(self):
+        for kind in (condyle.Run, condyle.Pose, condyle.Group, condyle.Surfaces, condyle.Study):
+            for make in (kind, lambda kind=kind: kind.__new__(kind), lambda kind=kind: type("Mine", (kind,), {})(),
+                         lambda kind=kind: object.__new__(kind)):
+                with self.assertRaises(TypeError):
+                    make()
+        for kind in (condyle.Model, condyle.Solver):
+            empty = kind.__new__(kind)
+            for name in dir(kind):
+                if name.startswith("__"):
+                    continue
+                with self.assertRaises((RuntimeError, TypeError)):
+                    getattr(empty, name)()
+            for use in (repr, condyle.sweep, condyle.Solver, lambda thing: condyle.Model(knees.spring(), thing)):
+                if not (kind is condyle.Solver and use is repr):
+                    with self.assertRaises((RuntimeError, TypeError)):
+                        use(empty)
+
     def test_surfaces_of_another_scene_are_refused(self):
         fitted = condyle.fit(condyle.read_scene(knees.PHANTOM))
         with self.assertRaisesRegex(condyle.InputError, "surfaces: fitted for another scene"):

@@ -177,15 +177,17 @@ py::object at_place(const std::shared_ptr<const void>& owner,
 }
 
 void bind_columns(py::module_& m) {
-  py::class_<Group>(m, "Group",
-                    "A group of results, under the names of the HDF5 file (docs/results.md).\n\n"
-                    "Members are reached as group.force or group[\"force\"], those whose name is "
-                    "no word of Python by the\n"
-                    "latter: run.contacts[\"medial\"].force. A group within is a Group, numbers "
-                    "are numpy arrays, read-only and\n"
-                    "not copied, that keep the run alive; texts are tuples. Of a single pose, "
-                    "numbers are float or int.")
-      .def("__getitem__", &member_at, py::arg("name"))
+  py::class_<Group> group(
+      m, "Group",
+      "A group of results, under the names of the HDF5 file (docs/results.md).\n\n"
+      "Members are reached as group.force or group[\"force\"], those whose name is "
+      "no word of Python by the\n"
+      "latter: run.contacts[\"medial\"].force. A group within is a Group, numbers "
+      "are numpy arrays, read-only and\n"
+      "not copied, that keep the run alive; texts are tuples. Of a single pose, "
+      "numbers are float or int.");
+  only_returned(group);
+  group.def("__getitem__", &member_at, py::arg("name"))
       .def("__getattr__", &attribute, py::arg("name"))
       .def("__contains__",
            [](const Group& g, const std::string& name) { return static_cast<bool>(find(g, name)); })

@@ -13,6 +13,20 @@ void bind_errors(py::module_& m) {
       "it has a status.";
 }
 
+namespace {
+
+PyObject* refuse_new(PyTypeObject* type, PyObject*, PyObject*) {
+  PyErr_Format(PyExc_TypeError,
+               "%s is not made by calling it, expected a function that returns one", type->tp_name);
+  return nullptr;
+}
+
+}  // namespace
+
+void only_returned(const py::handle& type) {
+  reinterpret_cast<PyTypeObject*>(type.ptr())->tp_new = &refuse_new;
+}
+
 OnProgress progress_of(const py::object& progress) {
   if (progress.is_none()) return {};
   if (PyCallable_Check(progress.ptr()) == 0)

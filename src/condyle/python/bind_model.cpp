@@ -7,6 +7,9 @@
 namespace condyle::python {
 namespace {
 
+/// A method that is given the pointer cannot be called on an object without __init__; a reference it could.
+using ModelPointer = std::shared_ptr<KneeModel>;
+
 /// The columns of patches and their figures, of a fitted knee without poses.
 struct Surfaces {
   std::shared_ptr<const FittedKnee> fitted;
@@ -81,19 +84,22 @@ std::shared_ptr<const KneeModel> model_of(const py::object& scene_or_model) {
 }
 
 void bind_model(py::module_& m) {
-  py::class_<Surfaces>(m, "Surfaces",
-                       "The surfaces of a scene that can be evaluated, as condyle.fit returns "
-                       "them: for Model(scene, surfaces).")
-      .def_property_readonly("patches", &patches,
-                             "Group: for each patch degree, knots, control points and, in `fit`, "
-                             "the figures of its fit [mm].");
+  py::class_<Surfaces> surfaces(
+      m, "Surfaces",
+      "The surfaces of a scene that can be evaluated, as condyle.fit returns "
+      "them: for Model(scene, surfaces).");
+  only_returned(surfaces);
+  surfaces.def_property_readonly(
+      "patches", &patches,
+      "Group: for each patch degree, knots, control points and, in `fit`, "
+      "the figures of its fit [mm].");
   m.def("fit", &fit, py::arg("scene"), py::arg("progress") = py::none(),
         "Fit the patches of a scene to its meshes.\n\n"
         "scene: a Scene. progress: a function of (done, total) patches.\n"
         "Returns Surfaces, for Model(scene, surfaces). Raises InputError for meshes that cannot be "
         "used. Takes a second\n"
         "or so; Ctrl-C ends it.");
-  py::class_<KneeModel, std::shared_ptr<KneeModel>>(
+  py::class_<KneeModel, ModelPointer>(
       m, "Model",
       "A knee that can be solved: constant, shared by any number of threads.\n\n"
       "Model(scene, surfaces=None, *, progress=None): `surfaces` as from condyle.fit(scene), else "
@@ -111,19 +117,19 @@ void bind_model(py::module_& m) {
            "value. Returns a Pose; one that is not found says so in its status. Any number of "
            "threads may call it at once.")
       .def_property_readonly(
-          "title", [](const KneeModel& model) { return model.scene().title; },
+          "title", [](const ModelPointer& model) { return model->scene().title; },
           "Title of the scene.")
       .def_property_readonly(
-          "scene_text", [](const KneeModel& model) { return model.scene().text; },
+          "scene_text", [](const ModelPointer& model) { return model->scene().text; },
           "The scene as TOML.")
       .def_property_readonly(
           "warnings",
-          [](const KneeModel& model) {
+          [](const ModelPointer& model) {
             {
               const py::gil_scoped_release unlocked;
-              (void)model.empty_run();
+              (void)model->empty_run();
             }
-            const std::vector<std::string>& start = model.empty_run().start;
+            const std::vector<std::string>& start = model->empty_run().start;
             py::tuple lines(start.size());
             for (std::size_t i = 0; i < start.size(); ++i) lines[i] = py::str(start[i]);
             return lines;
@@ -131,21 +137,22 @@ void bind_model(py::module_& m) {
           "What `condyle check` says of the start pose, one line each; what matters begins with "
           "\"warning: \".")
       .def_property_readonly(
-          "ligaments", [](const KneeModel& model) { return names_of(model.scene().ligaments); },
+          "ligaments", [](const ModelPointer& model) { return names_of(model->scene().ligaments); },
           "Names of the ligaments, in the scene's order.")
       .def_property_readonly(
-          "contacts", [](const KneeModel& model) { return names_of(model.scene().contacts); },
+          "contacts", [](const ModelPointer& model) { return names_of(model->scene().contacts); },
           "Names of the contacts.")
       .def_property_readonly(
-          "conditions", [](const KneeModel& model) { return names_of(model.scene().conditions); },
+          "conditions",
+          [](const ModelPointer& model) { return names_of(model->scene().conditions); },
           "Names of the prescribed motions.")
       .def_property_readonly(
-          "loads", [](const KneeModel& model) { return names_of(model.scene().loads); },
+          "loads", [](const ModelPointer& model) { return names_of(model->scene().loads); },
           "Names of the loads.")
-      .def("__repr__", [](const KneeModel& model) {
-        return "<condyle.Model \"" + model.scene().title +
-               "\": " + std::to_string(model.scene().ligaments.size()) + " ligaments, " +
-               std::to_string(model.scene().contacts.size()) + " contacts>";
+      .def("__repr__", [](const ModelPointer& model) {
+        return "<condyle.Model \"" + model->scene().title +
+               "\": " + std::to_string(model->scene().ligaments.size()) + " ligaments, " +
+               std::to_string(model->scene().contacts.size()) + " contacts>";
       });
 }
 

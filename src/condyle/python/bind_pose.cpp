@@ -74,12 +74,14 @@ void bind_pose(py::module_& m) {
   py::list statuses;
   for (int i = 0; i < kPoseStatusCount; ++i) statuses.append(name(static_cast<PoseStatus>(i)));
   m.attr("_status_names") = statuses;
-  py::class_<PoseData, Pose>(m, "Pose",
-                             "One position of equilibrium, or the reason why there is none. "
-                             "Lengths in mm, forces in N, moments\n"
-                             "in N mm, angles in deg, whatever the scene's units; numbers of a "
-                             "pose that was not found are NaN.")
-      .def_property_readonly(
+  py::class_<PoseData, Pose> type(
+      m, "Pose",
+      "One position of equilibrium, or the reason why there is none. "
+      "Lengths in mm, forces in N, moments\n"
+      "in N mm, angles in deg, whatever the scene's units; numbers of a "
+      "pose that was not found are NaN.");
+  only_returned(type);
+  type.def_property_readonly(
           "status", [](const PoseData& pose) { return status_of(pose); },
           "How the search ended: a Status.")
       .def_property_readonly(

@@ -190,6 +190,7 @@ void bind_run(py::module_& m) {
       "be written. run[i] is pose i as a Group; run[\"sweep/joint/flexion\"] any dataset of "
       "docs/results.md. Not to be\n"
       "pickled: save it.");
+  only_returned(run);
   bind_columns_of(run);
   bind_studies(run);
   run.def_property_readonly(

@@ -64,8 +64,7 @@ void bind_scene(py::module_& m) {
   py::class_<KneeScene, std::shared_ptr<KneeScene>>(m, "ParsedScene",
                                                     "A scene as its reader understands it.")
       .def(py::init(&parse), py::arg("text"), py::arg("file"), py::arg("meshes_must_exist"),
-           py::arg("laws"), py::arg("loads"))
-      .def_property_readonly("title", [](const KneeScene& knee) { return knee.scene.title; });
+           py::arg("laws"), py::arg("loads"));
   m.def(
       "scene_text",
       [](const py::object& file) {

@@ -6,19 +6,22 @@
 namespace condyle::python {
 namespace {
 
-std::unique_ptr<KneeSolver> make_solver(const py::object& model, bool stability) {
+/// As ModelPointer of bind_model.cpp.
+using SolverPointer = std::shared_ptr<KneeSolver>;
+
+SolverPointer make_solver(const py::object& model, bool stability) {
   auto knee = model_of(model);
   const py::gil_scoped_release unlocked;
-  return std::make_unique<KneeSolver>(std::move(knee), stability);
+  return std::make_shared<KneeSolver>(std::move(knee), stability);
 }
 
-std::shared_ptr<PoseData> solve(KneeSolver& solver,
+std::shared_ptr<PoseData> solve(const SolverPointer& solver,
                                 const py::object& drive,
                                 const py::kwargs& named) {
-  const KneeSolver::Use use(solver);
-  const Drive asked = drive_from(*solver.knee(), solver.drive(), drive, named);
+  const KneeSolver::Use use(*solver);
+  const Drive asked = drive_from(*solver->knee(), solver->drive(), drive, named);
   const py::gil_scoped_release unlocked;
-  return solver.solve(asked);
+  return solver->solve(asked);
 }
 
 using Numbers = std::vector<std::pair<std::string, std::vector<double>>>;
@@ -34,8 +37,8 @@ void add_number(const py::handle& name, const py::handle& value, Numbers& out) {
   out.emplace_back(std::move(text), std::move(values));
 }
 
-void set_numbers(KneeSolver& solver, const py::object& numbers, const py::object& value) {
-  const KneeSolver::Use use(solver);
+void set_numbers(const SolverPointer& solver, const py::object& numbers, const py::object& value) {
+  const KneeSolver::Use use(*solver);
   Numbers found;
   if (py::isinstance<py::str>(numbers)) {
     add_number(numbers, value, found);
@@ -45,25 +48,25 @@ void set_numbers(KneeSolver& solver, const py::object& numbers, const py::object
     for (const auto& [name, number] : py::reinterpret_borrow<py::dict>(numbers))
       add_number(name, number, found);
   }
-  solver.set(found);
+  solver->set(found);
 }
 
-py::object get_number(KneeSolver& solver, const std::string& name) {
-  const KneeSolver::Use use(solver);
-  const std::vector<double> values = solver.get(name);
+py::object get_number(const SolverPointer& solver, const std::string& name) {
+  const KneeSolver::Use use(*solver);
+  const std::vector<double> values = solver->get(name);
   if (values.size() == 1) return py::float_(values[0]);
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-void reset(KneeSolver& solver) {
-  const KneeSolver::Use use(solver);
-  solver.reset();
+void reset(const SolverPointer& solver) {
+  const KneeSolver::Use use(*solver);
+  solver->reset();
 }
 
 }  // namespace
 
 void bind_solver(py::module_& m) {
-  py::class_<KneeSolver>(
+  py::class_<KneeSolver, SolverPointer>(
       m, "Solver",
       "The workspace of one thread: solves poses of a Model, each from the last one that was "
       "found.\n\n"
@@ -90,8 +93,8 @@ void bind_solver(py::module_& m) {
       .def("reset", &reset, "Forget the poses solved so far; numbers that were set stay.")
       .def_property_readonly(
           "model",
-          [](const KneeSolver& solver) {
-            return std::const_pointer_cast<KneeModel>(solver.knee());
+          [](const SolverPointer& solver) {
+            return std::const_pointer_cast<KneeModel>(solver->knee());
           },
           "The Model.");
 }

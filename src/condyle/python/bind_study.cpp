@@ -113,6 +113,7 @@ void bind_study(py::module_& m) {
       "docs/results.md: study[\"bands/aACL.force/mean\"]; of several knees also "
       "study[\"knees/NAME/bands\"]. They keep the\n"
       "study alive; its file may be removed meanwhile.");
+  only_returned(study);
   bind_study_columns(study);
   study
       .def_property_readonly(

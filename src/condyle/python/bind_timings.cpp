@@ -23,12 +23,14 @@ std::vector<double> inside(const py::object& values, const DrivenNumber& number)
   return out;
 }
 
-double seconds_of_solves(KneeSolver& solver, const std::string& name, const py::object& values) {
-  const KneeSolver::Use use(solver);
-  const DrivenNumber& number = driven(*solver.knee(), name);
+double seconds_of_solves(const std::shared_ptr<KneeSolver>& solver,
+                         const std::string& name,
+                         const py::object& values) {
+  const KneeSolver::Use use(*solver);
+  const DrivenNumber& number = driven(*solver->knee(), name);
   const std::vector<double> all = inside(values, number);
   const py::gil_scoped_release unlocked;
-  return solver.seconds_of(number.which, all);
+  return solver->seconds_of(number.which, all);
 }
 
 double seconds_of_sweep(const std::shared_ptr<KneeModel>& knee,

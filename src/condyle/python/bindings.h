@@ -38,6 +38,9 @@ void bind_study(py::module_& m);
 void bind_new_scene(py::module_& m);
 void bind_timings(py::module_& m);
 
+/// Of a class whose objects functions return: Python may not make one, which would have nothing inside.
+void only_returned(const py::handle& type);
+
 /// A progress callback of Python, or nothing for None; to be called without the interpreter's lock.
 [[nodiscard]] OnProgress progress_of(const py::object& progress);
 
