@@ -21,7 +21,9 @@ fi
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-"$python" tools/docs/gather_pages.py . "$work" "$site"
+module=$PWD/build/python  # by which notebooks get their figures
+if [ "$reference" = no ] || ! PYTHONPATH=$module "$python" -c 'import condyle, ipykernel, matplotlib' 2>/dev/null; then module=; fi
+"$python" tools/docs/gather_pages.py . "$work" "$site" ${module:+"$module"}
 if [ "$reference" = no ]; then
   mkdir -p "$work/pages/reference"
   for page in index files annotated namespacemembers_func; do : >"$work/pages/reference/$page.html"; done

@@ -1,5 +1,6 @@
-"""gather_pages.py ROOT FOLDER SITE: lays out what mkdocs reads: the pages of docs, README.md as index.md, the files of the
-project that pages link to, notebooks as pages where nbconvert is there, and mkdocs.yml with its folders."""
+"""gather_pages.py ROOT FOLDER SITE [MODULE]: lays out what mkdocs reads: the pages of docs, README.md as index.md, the files of
+the project that pages link to, notebooks as pages where nbconvert is there, with their figures where MODULE is a folder with
+the Python module that they import, and mkdocs.yml with its folders."""
 
 import os
 import pathlib
@@ -8,7 +9,8 @@ import shutil
 import subprocess
 import sys
 
-ROOT, FOLDER, SITE = (pathlib.Path(name).resolve() for name in sys.argv[1:])
+ROOT, FOLDER, SITE = (pathlib.Path(name).resolve() for name in sys.argv[1:4])
+MODULE = sys.argv[4] if len(sys.argv) > 4 else None
 PAGES = FOLDER / "pages"
 LINK = re.compile(r"\]\(([^)#\s]+)(#[^)\s]*)?\)")
 UPWARDS = re.compile(r"\]\((\.\./[^)#\s]+)(#[^)\s]*)?\)")
@@ -79,7 +81,9 @@ def lay_out_notebooks():
     notebooks = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
     if not notebooks or not CONVERTER:
         return []
-    subprocess.run([*CONVERTER, "--to", "markdown", "--log-level", "ERROR", "--output-dir", PAGES / "notebooks", *notebooks], check=True)
+    execute = ["--execute"] if MODULE else []
+    subprocess.run([*CONVERTER, *execute, "--to", "markdown", "--log-level", "ERROR", "--output-dir", PAGES / "notebooks", *notebooks],
+                   check=True, env={**os.environ, **({"PYTHONPATH": MODULE, "PYDEVD_DISABLE_FILE_VALIDATION": "1"} if MODULE else {})})
     lines = []
     for notebook in notebooks:
         page = PAGES / "notebooks" / f"{notebook.stem}.md"
