@@ -50,6 +50,7 @@ class Laxity(Folder):
         scene = drawer()
         run, theirs = condyle.laxity(scene), self.of_program("laxity", scene)
         self.assertEqual((run.kind, len(run)), ("laxity", 0))
+        self.assertEqual(repr(run), '<condyle.Run "Wismans-type knee: drawer test": laxity>')
         expect_same(self, run.laxity, theirs.laxity)
         self.assertEqual(run.laxity.intact.ours.joint.anterior_drawer.shape, (2, 3))
         np.testing.assert_allclose(run.laxity.flexion, [0, 60], rtol=1e-15)

@@ -8,6 +8,7 @@
 
 #include "condyle/input_error.h"
 #include "condyle/results/hdf5_file.h"
+#include "condyle/results/study_columns.h"
 #include "condyle/results/study_tables.h"
 #include "condyle/results/study_words.h"
 #include "results/made_up_study.h"
@@ -190,6 +191,34 @@ TEST_F(StudyFile, TablesHaveARowForEachNumber) {
   EXPECT_NE(bands.find("\nall,aACL.force,N,0,147,0,"), std::string::npos) << bands;
   const std::vector<std::string> lines = study_lines(view);
   EXPECT_EQ(lines[1], "450 poses, 9 failed (2 %) in 9 samples: 9 no equilibrium");
+}
+
+TEST_F(StudyFile, IsLookedIntoWhileItIsOpenAndOutputsAreReadWhenAsked) {
+  (void)write(made_up_study(), {0, 1, 2});
+  const auto study = open_study(result_);
+  fs::remove(result_);
+  const ColumnTree* outputs = study->tree_at("bands").group("outputs");
+  ASSERT_NE(outputs, nullptr);
+  EXPECT_EQ(outputs->columns.size(), 0);
+  EXPECT_EQ(outputs->names.size(), study->view().outputs.size() + 1);  // and the status
+  EXPECT_NE(study->tree_at("bands").group("bands")->group("aACL.force"), nullptr);
+  (void)study->tree_at("outputs/aACL.force");
+  (void)study->tree_at("outputs/none such");
+  ASSERT_EQ(outputs->columns.size(), 1);
+  const DataColumn& force = *outputs->column("aACL.force");
+  EXPECT_EQ(force.shape, (std::vector<std::size_t>{150, 3}));
+  EXPECT_EQ(force.units, "N");
+  const auto* values = &std::get<std::vector<double>>(force.values);
+  (void)study->tree_at("outputs");
+  EXPECT_EQ(outputs->columns.size(), outputs->names.size());
+  EXPECT_EQ(values, &std::get<std::vector<double>>(outputs->column("aACL.force")->values));
+}
+
+TEST_F(StudyFile, IsRefusedWhereItIsDamagedBeforeAnythingOfItIsShown) {
+  (void)write(made_up_study(), {0, 1, 2});
+  fs::resize_file(result_, fs::file_size(result_) / 2);
+  EXPECT_THROW((void)open_study(result_), InputError);
+  EXPECT_THROW((void)open_study(folder_ / "missing.h5"), InputError);
 }
 
 }  // namespace

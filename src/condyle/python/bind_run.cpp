@@ -106,10 +106,12 @@ py::tuple event_words(const RunData& run) {
 
 std::string run_repr(const RunData& run) {
   const SweepResult& sweep = run.computed().sweep;
-  return "<condyle.Run \"" + run.computed().scene.title +
-         "\": " + kind_name(run.computed().kind()) + ", " +
-         std::to_string(sweep.count_converged()) + " of " + std::to_string(sweep.poses.size()) +
-         " poses converged>";
+  std::string text =
+      "<condyle.Run \"" + run.computed().scene.title + "\": " + kind_name(run.computed().kind());
+  if (!sweep.poses.empty())
+    text += ", " + std::to_string(sweep.count_converged()) + " of " +
+            std::to_string(sweep.poses.size()) + " poses converged";
+  return text + ">";
 }
 
 void bind_studies(py::class_<RunData, RunPointer>& run) {
