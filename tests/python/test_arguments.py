@@ -38,6 +38,19 @@ class Arguments(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, 'did you mean "flexion"'):
             solver.solve(flexio=3)
 
+    def test_a_number_that_is_given_twice_is_refused(self):
+        solver = condyle.Solver(knees.phantom())
+        for solve in (solver.solve, knees.phantom().solve):
+            with self.assertRaisesRegex(TypeError, "flexion is given twice"):
+                solve({"flexion": 10}, flexion=20)
+            self.assertTrue(solve({"compression.scale": 1.1}, flexion=20).converged)
+        with self.assertRaisesRegex(TypeError, "value: expected none beside a dict"):
+            solver.set({"aACL.stiffness": 1000}, 2000)
+
+    def test_a_solver_is_not_swept_and_says_what_is(self):
+        with self.assertRaisesRegex(TypeError, "condyle.Solver, expected a condyle.Scene or a condyle.Model"):
+            condyle.sweep(condyle.Solver(knees.phantom()), [0])
+
     def test_values_of_a_sweep_are_named(self):
         for values, error in (([], condyle.InputError), (3, condyle.InputError), ([[1, 2]], condyle.InputError),
                               ([1, float("nan")], condyle.InputError), (["1"], TypeError), ("123", TypeError), ([None], TypeError),

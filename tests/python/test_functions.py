@@ -127,6 +127,17 @@ class Laws(unittest.TestCase):
         pose = condyle.Model(knees.spring(law=Compiled(), force=16)).solve()
         self.assertAlmostEqual(pose.translation[0], 12, delta=1e-9)
 
+    def test_numbers_of_another_law_are_refused_beside_a_function(self):
+        for numbers, said in (({"law": "toe-linear", "stiffness": 1000, "slack_length": 10}, "stiffness = 1000"),
+                              ({"law": "polynomial", "coefficients": [0.0, 1.0]}, r"coefficients = \[0.0, 1.0\]")):
+            scene = knees.spring(**numbers)
+            scene.ligaments["spring"].law = cubic
+            with self.assertRaisesRegex(condyle.InputError, f"'spring': law is a function, expected no {said} beside it"):
+                condyle.Model(scene)
+            for key in numbers.keys() - {"law"}:
+                delattr(scene.ligaments["spring"], key)
+            self.assertTrue(condyle.Model(scene).solve().converged)
+
     def test_no_file_holds_a_function(self):
         scene = knees.spring(law=cubic)
         with self.assertRaisesRegex(condyle.InputError, "law is a function"):

@@ -162,6 +162,8 @@ class Files(unittest.TestCase):
         for path in (text, cut, empty, self.folder, self.folder / "missing.h5"):
             with self.assertRaisesRegex(condyle.InputError, str(path)):
                 condyle.open_run(path)
+        with self.assertRaisesRegex(condyle.InputError, "is a folder, expected a run"):
+            condyle.open_run(self.folder)
         for path in (3, None, []):
             with self.assertRaisesRegex(TypeError, "path: "):
                 condyle.open_run(path)

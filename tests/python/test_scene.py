@@ -177,6 +177,14 @@ class Changing(unittest.TestCase):
         with self.assertRaisesRegex(KeyError, 'did you mean "aACL"'):
             scene.ligaments["aACLL"]
 
+    def test_a_key_that_is_deleted_is_not_given(self):
+        scene = knees.spring(law="toe-linear", stiffness=1000, slack_length=10, transition_strain=0.04)
+        del scene.ligaments["spring"].transition_strain
+        self.assertEqual(scene, knees.spring(law="toe-linear", stiffness=1000, slack_length=10))
+        self.assertNotIn("transition_strain", scene.to_toml() + repr(scene))
+        with self.assertRaisesRegex(AttributeError, 'did you mean "stiffness"'):
+            del scene.ligaments["spring"].stifness
+
     def test_scenes_are_compared_copied_and_pickled(self):
         scene = condyle.read_scene(knees.PHANTOM)
         for other in (copy.deepcopy(scene), pickle.loads(pickle.dumps(scene))):

@@ -80,6 +80,10 @@ py::tuple names_of(const std::vector<T>& items) {
 std::shared_ptr<const KneeModel> model_of(const py::object& scene_or_model) {
   if (py::isinstance<KneeModel>(scene_or_model))
     return py::cast<std::shared_ptr<KneeModel>>(scene_or_model);
+  if (py::isinstance<KneeSolver>(scene_or_model))
+    throw py::type_error(
+        "scene: condyle.Solver, expected a condyle.Scene or a condyle.Model: with the numbers set "
+        "in a solver poses are solved one by one");
   return make_model(scene_or_model, py::none(), py::none());
 }
 

@@ -45,6 +45,7 @@ void set_numbers(const SolverPointer& solver, const py::object& numbers, const p
   } else {
     if (PyDict_Check(numbers.ptr()) == 0)
       throw py::type_error("numbers: expected a name and a value, or a dict {name: value}");
+    if (!value.is_none()) throw py::type_error("value: expected none beside a dict {name: value}");
     for (const auto& [name, number] : py::reinterpret_borrow<py::dict>(numbers))
       add_number(name, number, found);
   }

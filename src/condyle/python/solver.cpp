@@ -130,7 +130,12 @@ Drive drive_from(const KneeModel& knee,
     for (const auto& [name, value] : py::reinterpret_borrow<py::dict>(given))
       put(knee, name, value, drive);
   }
-  for (const auto& [name, value] : named) put(knee, name, value, drive);
+  for (const auto& [name, value] : named) {
+    if (!given.is_none() && given.contains(name))
+      throw py::type_error(py::cast<std::string>(name) +
+                           " is given twice, expected once: in the dict or as a keyword");
+    put(knee, name, value, drive);
+  }
   return drive;
 }
 

@@ -470,6 +470,8 @@ void Hdf5DiskFile::close() {
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : name_(file.string()) {
   silence();
   std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    throw InputError(name_ + ": is a folder, expected a run (HDF5)");
   if (!std::filesystem::is_regular_file(file, error))
     throw InputError(name_ + ": no such file, expected a run (HDF5)");
   file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);

@@ -113,6 +113,9 @@ _PLURALS = {"body": "bodies", "surface": "surfaces", "contact": "contacts", "wra
             "condition": "conditions", "load": "loads"}
 _SINGULARS = {plural: singular for singular, plural in _PLURALS.items()}
 
+_NUMBERS_OF_LAWS = ("stiffness", "transition_strain", "slack_length", "reference_strain", "reference_length", "coefficients",
+                    "tension_only", "lengths", "forces")
+
 Scene._tables = {"units": Units, "bodies": [Body], "joint": Joint, "surfaces": [Surface], "contacts": [Contact],
                  "wraps": [Wrap], "ligaments": [Ligament], "conditions": [Condition], "loads": [Load], "sweep": Sweep,
                  "laxity": Laxity, "simulate": Simulate, "calibrate": Calibrate}
@@ -138,6 +141,10 @@ def _lines(table: Any, place: str, functions_too: bool) -> str:
 def _file_items(table: Table, place: str, functions_too: bool) -> Iterator[tuple[str, Any]]:
     """What a file says of a table. Functions are put in once it is read: till then a law is 0, a load nothing."""
     own_load = isinstance(table, Load) and table.function is not None
+    if isinstance(table, Ligament) and _is_function(table.law):
+        beside = [key for key in _NUMBERS_OF_LAWS if getattr(table, key) is not None]
+        if beside:
+            raise InputError(f"{place}: law is a function, expected no {beside[0]} = {getattr(table, beside[0])!r} beside it")
     for key, value in table._items():
         own = (isinstance(table, Ligament) and key == "law" and _is_function(value)) or key == "function"
         if own and not functions_too:

@@ -47,6 +47,10 @@ class Table:
             value = _made(self._tables.get(key), value)
         object.__setattr__(self, key, value)
 
+    def __delattr__(self, key: str) -> None:
+        """A key that is deleted is not given, as one that is None."""
+        setattr(self, key, None)
+
     def _items(self) -> Iterator[tuple[str, Any]]:
         for key in self._keys:
             value = getattr(self, key)
