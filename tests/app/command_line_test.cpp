@@ -42,6 +42,24 @@ TEST_F(CommandLine, NamesACommandThatItDoesNotKnow) {
   EXPECT_TRUE(results().empty());
 }
 
+TEST_F(CommandLine, SaysWhichCommandOrOptionWasMeant) {
+  const std::string commands = run("swep knee.toml -o run.h5").err;
+  EXPECT_NE(commands.find("; did you mean \"sweep\"?"), std::string::npos) << commands;
+  EXPECT_EQ(run("").err.rfind("condyle: no command, expected one of check, fit, ", 0), 0U);
+  const std::string help = " (condyle sweep --help says more)";
+  expect_bad_input(run("sweep knee.toml -o run.h5 --form 0"),
+                   "unknown option --form, did you mean --from?" + help);
+  expect_bad_input(run("sweep knee.toml --out=run.h5"),
+                   "unknown option --out, did you mean --output?" + help);
+  expect_bad_input(run("sweep knee.toml -o run.h5 --xyz"), "unknown option --xyz" + help);
+  expect_bad_input(run("sweep knee.toml -o run.h5 --step five"),
+                   "--step = five, expected a number" + help);
+  expect_bad_input(run("sweep knee.toml a.toml b.toml -o run.h5"),
+                   "too many arguments: a.toml b.toml" + help);
+  expect_bad_input(run("sweep knee.toml"), "--output is required" + help);
+  EXPECT_TRUE(results().empty());
+}
+
 TEST_F(CommandLine, SweepsASceneIntoAFileThatCanBeReadAgain) {
   const Outcome outcome = run("sweep knee.toml -o run.h5");
   EXPECT_EQ(outcome.code == 0 || outcome.code == 2, true) << outcome.err;
@@ -135,10 +153,9 @@ TEST_F(CommandLine, TakesNoEmptyTextForAValueOfAnyOption) {
     if (!std::regex_search(line, found, with_value)) continue;
     const std::string option = "--" + found[2].str();
     const Outcome outcome = run(found[1].str() + " " + option + " ''");
-    const bool number =
-        outcome.err == "condyle: " + option + ": expected a number (condyle --help says more)\n";
-    if (!number)
-      expect_bad_input(outcome, option + ": expected a value (condyle --help says more)");
+    const std::string help = " (condyle " + found[1].str() + " --help says more)";
+    const bool number = outcome.err == "condyle: " + option + ": expected a number" + help + "\n";
+    if (!number) expect_bad_input(outcome, option + ": expected a value" + help);
     EXPECT_EQ(outcome.code, 1);
     ++options;
     numbers += number;
@@ -178,11 +195,12 @@ TEST_F(CommandLine, DoesNotWaitForAReaderOfItsJournal) {
 }
 
 TEST_F(CommandLine, TakesNoEmptyTextForAValue) {
-  expect_bad_input(run("sweep '' -o run.h5"), "SCENE: expected a value (condyle --help says more)");
+  expect_bad_input(run("sweep '' -o run.h5"),
+                   "SCENE: expected a value (condyle sweep --help says more)");
   expect_bad_input(run("sweep knee.toml -o ''"),
-                   "--output: expected a value (condyle --help says more)");
+                   "--output: expected a value (condyle sweep --help says more)");
   expect_bad_input(run("export run.h5 -o run.glb --at ''"),
-                   "--at: expected a number (condyle --help says more)");
+                   "--at: expected a number (condyle export --help says more)");
 }
 
 TEST_F(CommandLine, NeedsASweep) {

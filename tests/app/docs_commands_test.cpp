@@ -27,7 +27,9 @@ class DocsCommands : public CommandLine {
     CommandLine::SetUp();
     for (const char* name : {"data", "meshes"})
       fs::create_directory_symlink(kRoot / name, folder_ / name);
-    fs::create_directory(folder_ / "out");
+    fs::create_directories(folder_ / "out/softer");
+    write("out/softer/knee.toml",
+          with(contents(kRoot / "data/phantom/knee.toml"), "stiffness = 1500", "stiffness = 1200"));
     write("knee.toml", contents(kRoot / "data/wismans-type/knee.toml"));
     write("study.toml",
           "specimens = \"knee.toml\"\ndesign = \"monte-carlo\"\nsamples = 100\n[[vary]]\nwhat = "

@@ -57,6 +57,7 @@ TEST_F(PictureCommands, ASinglePictureMayGoIntoAFile) {
 }
 
 TEST_F(PictureCommands, SayWhatIsWrong) {
+  expect_refusal(run("render run.h5 -o one.jpg --at 10 --view plateau"), "pictures are PNG");
   expect_refusal(run("render run.h5 -o out --hertz"), "holds no estimates of contact pressure");
   expect_refusal(run("render run.h5 -o out --pressure"), "holds no pressures");
   expect_refusal(run("render run.h5 -o out --pressure --proximity"), "--proximity");

@@ -38,6 +38,16 @@ TEST_F(CommandLine, NamesARunThatIsNotThereInAReport) {
   EXPECT_TRUE(results().empty());
 }
 
+TEST_F(CommandLine, WritesNoPageUnderTheNameOfAnotherFormat) {
+  ASSERT_EQ(run("sweep knee.toml -o run.h5 --quiet").code, 0);
+  expect_bad_input(
+      run("report run.h5 -o run.pdf"),
+      "run.pdf: the page is HTML, expected a name that ends in .html; browsers print it");
+  expect_bad_input(
+      run("report knee.toml -o run.html"),
+      "knee.toml: is a scene (TOML), expected a run (HDF5), as condyle sweep writes it");
+}
+
 TEST_F(CommandLine, DoesNotWriteAReportOverItsRun) {
   ASSERT_EQ(run("sweep knee.toml -o run.h5 --quiet").code, 0);
   expect_bad_input(run("report run.h5 -o run.h5"),

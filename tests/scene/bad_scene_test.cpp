@@ -193,7 +193,7 @@ TEST(BadSceneFile, NamingAMeshThatDoesNotExistSaysWhereItLooked) {
             file.string() +
                 ":10: [[body]] \"femur\": mesh = \"no.stl\", expected a mesh file "
                 "(there is no file " +
-                mesh + ")");
+                mesh + "; paths start at the scene's folder)");
   std::filesystem::remove(file);
 }
 

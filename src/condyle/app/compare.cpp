@@ -82,7 +82,9 @@ void setup_compare(CLI::App& program, int& status) {
   const auto options = std::make_shared<CompareCommand>();
   CLI::App* command = program.add_subcommand(
       "compare", "Set Wismans' model of the same specimen beside ours, over the scene's sweep");
-  command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
+  command
+      ->add_option("SCENE", options->scene, "scene file (TOML); condyle report compares two runs")
+      ->required();
   command->add_option("-o,--output", options->output, "result file to write (HDF5)")->required();
   add_range_options(*command, options->range);
   add_reference_options(*command, options->options);

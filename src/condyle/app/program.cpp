@@ -1,27 +1,77 @@
 #include "condyle/app/program.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+#include <vector>
 
 #include "condyle/app/command_tree.h"
 #include "condyle/app/standard_streams.h"
 #include "condyle/build_info.h"
 #include "condyle/input_error.h"
+#include "condyle/scene_file/section.h"
 #include "condyle/version.h"
 
 namespace condyle {
 namespace {
 
-/// CLI11 would only say that a command is missing.
-void check_command(const CLI::App& program, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  std::string names;
+/// CLI11 would only say that a subcommand is missing. None before options of the program.
+const CLI::App* find_command(const CLI::App& program, int argc, char** argv) {
+  if (argc >= 2 && argv[1][0] == '-') return nullptr;
+  std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands(nullptr)) {
-    if (command->check_name(argv[1])) return;
-    names += (names.empty() ? "" : ", ") + command->get_name();
+    if (argc >= 2 && command->check_name(argv[1])) return command;
+    names.push_back(command->get_name());
   }
-  throw InputError(fmt::format("unknown command \"{}\", expected one of {}", argv[1], names));
+  const std::string expected = fmt::format("expected one of {}", fmt::join(names, ", "));
+  if (argc < 2)
+    throw InputError(
+        fmt::format("no command, {} ({} --help says more)", expected, program.get_name()));
+  const std::string meant = nearest(argv[1], names);
+  throw InputError(
+      fmt::format("unknown command \"{}\", {}", argv[1],
+                  meant.empty() ? expected : expected + "; did you mean \"" + meant + "\"?"));
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+/// An option that is cut short, as --out, or mistyped; empty where none is like it.
+std::string meant_option(const std::string& word, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    if (word.size() > 3 && name.rfind(word, 0) == 0) return name;
+  return nearest(word, names);
+}
+
+/// CLI11 would first ask for options that are missing, also for the one that was mistyped.
+void check_options(const CLI::App& command, int argc, char** argv, const std::string& help) {
+  const std::vector<std::string> names = option_names(command);
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = argv[i], name = word.substr(0, word.find('='));
+    if (name == "--") return;
+    if (name.rfind("--", 0) != 0 || std::find(names.begin(), names.end(), name) != names.end())
+      continue;
+    const std::string meant = meant_option(name, names);
+    throw InputError(fmt::format("unknown option {}{}{}", name,
+                                 meant.empty() ? "" : ", did you mean " + meant + "?", help));
+  }
+}
+
+/// What CLI11 says, in our words where its own say less than it knows.
+std::string words_of(const CLI::ParseError& error, const CLI::App& program) {
+  const std::string words = error.what(), unconverted = "Could not convert: ";
+  if (words.rfind(unconverted, 0) == 0)
+    return words.substr(unconverted.size()) + ", expected a number";
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
+    return fmt::format("too many arguments: {}", fmt::join(program.remaining(true), " "));
+  return words;
 }
 
 }  // namespace
@@ -39,13 +89,16 @@ int run_program(const std::string& name,
   program.require_subcommand(1);
   for (const SetupCommand& setup : commands) setup(program, status);
   refuse_empty_values(program);
-  check_command(program, argc, argv);
+  const CLI::App* command = find_command(program, argc, argv);
+  const std::string help = fmt::format(" ({}{} --help says more)", name,
+                                       command == nullptr ? "" : " " + command->get_name());
+  if (command != nullptr) check_options(*command, argc, argv, help);
   try {
     program.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    return program.exit(help);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return program.exit(asked);
   } catch (const CLI::ParseError& error) {
-    throw InputError(fmt::format("{} ({} --help says more)", error.what(), name));
+    throw InputError(words_of(error, program) + help);
   }
   finish_standard_output();
   return status;

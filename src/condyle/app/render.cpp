@@ -136,6 +136,10 @@ class Output {
     const std::string ending = path.extension().string();
     if (ending == ".mp4" && !command.movie)
       throw InputError(command.output + ": an MP4 is a movie: add --movie");
+    for (const char* other : {".jpg", ".jpeg", ".svg", ".pdf", ".tif", ".tiff"})
+      if (ending == other)
+        throw InputError(command.output +
+                         ": pictures are PNG, expected a name that ends in .png, or a folder");
     if (ending != ".png" && ending != ".mp4") {
       folder_ = make_picture_folder(command.output);
       return;

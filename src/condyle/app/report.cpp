@@ -32,6 +32,11 @@ struct ReportCommand {
 };
 
 void check_output(const ReportCommand& command) {
+  const std::filesystem::path ending = std::filesystem::path(command.output).extension();
+  for (const char* other : {".pdf", ".png", ".svg"})
+    if (ending == other)
+      throw InputError(command.output +
+                       ": the page is HTML, expected a name that ends in .html; browsers print it");
   check_output_file(command.output);
   for (const std::string& run : command.runs) {
     std::error_code unknown;

@@ -474,6 +474,9 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : name_(file.string())
     throw InputError(name_ + ": is a folder, expected a run (HDF5)");
   if (!std::filesystem::is_regular_file(file, error))
     throw InputError(name_ + ": no such file, expected a run (HDF5)");
+  if (file.extension() == ".toml")
+    throw InputError(name_ +
+                     ": is a scene (TOML), expected a run (HDF5), as condyle sweep writes it");
   file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (file_.id() < 0 && lacked_memory()) throw std::bad_alloc();
   if (file_.id() < 0)

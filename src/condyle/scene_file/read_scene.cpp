@@ -113,7 +113,9 @@ std::optional<MeshFile> read_mesh_file(const Section& section, const Scene& scen
       section.source().folder / section.text("mesh", "the path of a mesh");
   std::error_code error;
   if (section.source().meshes_must_exist && !std::filesystem::is_regular_file(path, error)) {
-    section.fail("mesh", fmt::format("a mesh file (there is no file {})", path.string()));
+    section.fail("mesh",
+                 fmt::format("a mesh file (there is no file {}; paths start at the scene's folder)",
+                             path.string()));
   }
   return MeshFile{path, to_mm};
 }
