@@ -247,5 +247,33 @@ TEST(Implants, EndsOfACondyleAreNamedAlongItsSurface) {
       }
 }
 
+// The notch's edge in front leads more backwards than sidewards; all of the condyle's back lies
+// behind it.
+TEST(Implants, AnEdgeInFrontThatLeadsBackwardsIsASideAndNoEnd) {
+  const std::shared_ptr<const Surface> ball = make_sphere({0, 0, 0}, kCondyle, true);
+  for (const double side : {1.0, -1.0}) {
+    const double a = 40 * kDegree;
+    const Vector3d at = kCondyle * Vector3d(0, std::sin(a), -std::cos(a));
+    const Vector3d backwards(0, -std::cos(a), -std::sin(a));
+    const Vector3d out = (0.4 * side * Vector3d::UnitX() + backwards).normalized();
+    const auto known = [at, out, side](const Vector3d& c) {
+      return std::max(-out.dot(c - at), -side * c.x() - 3);
+    };
+    Model model;
+    model.length = 30;
+    model.joint = JointFrames{{}, {}, true, side};
+    ContactPair pair;
+    pair.name = "medial";
+    pair.on_B = std::make_shared<test::KnownPart>(ball, known);
+    pair.on_A = make_plane({0, 0, 0}, {0, 0, 1});
+    model.pairs = {pair};
+    const ClosedContact rim{0, {pair.on_B->seed(at), pair.on_A->seed({0, 0, 0})}, 0};
+    const std::string words = rim_in_words(model, rim, 0.5);
+    EXPECT_NE(words.find(" ends 0.5 mm deep in the other surface at its lateral side, "),
+              std::string::npos)
+        << words;
+  }
+}
+
 }  // namespace
 }  // namespace condyle

@@ -93,6 +93,7 @@ TEST(ReportPage, BeginsWithStatusAndWarnings) {
   EXPECT_NE(first.find("nothing carries &quot;weight&quot;"), std::string::npos);
   EXPECT_NE(first.find("<li>LCL: 20 % strain</li>"), std::string::npos);
   EXPECT_EQ(first.find("all else is well"), std::string::npos);
+  EXPECT_NE(first.find("docs/questions.md, Why did this pose fail?"), std::string::npos);
 }
 
 TEST(ReportPage, HoldsTheNumbersOfTheRun) {

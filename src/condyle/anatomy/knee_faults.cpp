@@ -156,10 +156,10 @@ double tell_unit(const KneeEnds& ends, const std::optional<double>& given) {
     if (!given && is_a_knee(to_mm)) return to_mm;
   throw InputError(fmt::format(
       "the ends of femur and tibia that face each other are {:.3g} and {:.3g} wide, in the unit of "
-      "the files: in {} is that a knee, which is {:.0f} to {:.0f} mm wide; {}",
-      ends.femur_width, ends.tibia_width,
-      given ? "another unit than the one of --units" : "none of mm, cm, inch and m", kNarrowest,
-      kWidest, given ? "without --units it is told from the width" : "say the unit by --units"));
+      "the files: in {} that is no knee, which is {:.0f} to {:.0f} mm wide; {}",
+      ends.femur_width, ends.tibia_width, given ? "the unit of --units" : "mm, cm, inch and m",
+      kNarrowest, kWidest,
+      given ? "without --units it is told from the width" : "say the unit by --units"));
 }
 
 Condyles find_condyles_or_say_why(CleanMesh& femur, const CleanMesh& tibia, const KneeEnds& ends) {

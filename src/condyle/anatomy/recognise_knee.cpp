@@ -83,8 +83,10 @@ void tell_side(RecognisedKnee& knee,
                     "say it by --side left or --side right",
                     name_of(seen), knee.side_confidence));
   if (knee.side_confidence < 0.2)
-    knee.doubts.push_back(fmt::format("by its shape a {} knee, with a probability of {:.2f}",
-                                      name_of(seen), 1 - knee.side_confidence));
+    knee.doubts.push_back(
+        fmt::format("by its shape a {} knee, with a probability of {:.2f}: if --side {} is wrong, "
+                    "medial and lateral are interchanged in all that follows",
+                    name_of(seen), 1 - knee.side_confidence, name_of(knee.side)));
   else if (knee.side_confidence < 0.95)
     knee.doubts.push_back(fmt::format("{} knee with a probability of {:.2f} only",
                                       name_of(knee.side), knee.side_confidence));

@@ -136,6 +136,7 @@ void ContactRules::find_overlaps(const Linearization& at) {
   changes_.rims = inner.contacts.empty() && !rims.contacts.empty();
   if (changes_.rims) inner.contacts.assign(rims.contacts.begin(), rims.contacts.end());
   changes_.deepest = changes_.rims ? rims.deepest : inner.deepest;
+  changes_.depth = -(changes_.rims ? rims.lowest : inner.lowest);
   // Several minima of one rough overlap cannot all be contacts: the deepest is the one to begin with.
   const std::size_t others = state.contacts.size() + state.sigma.size();
   if (others + changes_.closes.size() > kMaxConstraints && changes_.closes.size() > 1) {

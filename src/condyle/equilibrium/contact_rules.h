@@ -18,6 +18,7 @@ struct ContactChanges {
   int opens = -1;                     ///< the contact of the state that pulls most
   std::vector<ClosedContact> closes;  ///< overlaps that are no contacts yet, without force
   std::size_t deepest = 0;            ///< of those
+  double depth = 0;                   ///< of the deepest, along the normal of what it lies in [mm]
   bool rims = false;      ///< those are at the edge of a known part, and there are no others
   bool too_many = false;  ///< more overlaps than there may be constraints
   /// A contact lies where the solids interpenetrate beside it: no minimum of the gap.

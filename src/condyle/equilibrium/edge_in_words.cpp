@@ -80,17 +80,18 @@ std::string side_in_words(const Model& model, const Seen& seen, bool on_A, const
              : Eigen::Vector3d::Zero();
   if (way.isZero()) return "edge";
   constexpr double kOblique = 0.5;
-  if (std::abs(way.x()) < kOblique * way.norm()) {
-    const Eigen::Vector3d n = seen.direction(seen.surface.evaluate_frame(place).n);
-    return forwards(seen, n, way) > 0 ? "anterior end" : "posterior end";
-  }
+  const SurfacePoint at = seen.surface.evaluate_frame(place);
+  const Eigen::Vector3d center = middle(seen, model.length);
+  const bool ahead = forwards(seen, seen.direction(at.n), way) > 0;
+  // A side that bends backwards in front of the middle, as that of the notch does, is no end.
+  if (std::abs(way.x()) < kOblique * way.norm() && ahead == seen.point(at.c).y() > center.y())
+    return ahead ? "anterior end" : "posterior end";
   if (model.pairs.size() < 2) return way.x() > 0 ? "lateral side" : "medial side";
   double midline = 0;
   for (const ContactPair& pair : model.pairs)
     midline +=
         middle(see(model, pair, on_A), model.length).x() / static_cast<double>(model.pairs.size());
-  const double own = middle(seen, model.length).x();
-  return way.x() * (own - midline) > 0 ? "rim side" : "notch side";
+  return way.x() * (center.x() - midline) > 0 ? "rim side" : "notch side";
 }
 
 std::string place_in_words(const Seen& seen, const Place& place) {

@@ -168,11 +168,9 @@ void EquilibriumSolver::note_rim(const EquilibriumState& state,
                                  Attempt& attempt) const {
   if (rims.off_minimum || farthest_beyond(state).first >= 0) return;
   const ClosedContact& rim = rims.closes[rims.deepest];
-  const ContactPair& pair = model_->pairs[static_cast<std::size_t>(rim.pair)];
-  const double depth = -linearize_contact(pair, rim.places, state.X).gap();
   OffSurfaces off;
   off.state = state;
-  off.beyond = depth;
+  off.beyond = rims.depth;
   off.rim = rim;
   keep_off_surfaces(off, attempt);
 }

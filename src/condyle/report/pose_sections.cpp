@@ -38,7 +38,10 @@ std::string failed_poses(const Run& run, const SweptQuantity& swept) {
     if (!pose.converged())
       table.rows.push_back({at_value(swept, pose.value), name(pose.status), pose.reason});
   }
-  return table.rows.empty() ? "" : html(table);
+  if (table.rows.empty()) return "";
+  return html(table) +
+         "<p class=\"note\">What each status means and what to do: docs/questions.md, "
+         "Why did this pose fail?</p>\n";
 }
 
 /// By the code of the room `verify`, at the moment the page is written.

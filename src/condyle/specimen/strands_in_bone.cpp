@@ -61,7 +61,8 @@ void warn_of_strands(const Scene& scene,
     if (count > 0)
       lines.push_back(fmt::format(
           "warning: straight through \"{}\" go {}; "
-          "[[wrap]] body = \"{}\", kind = \"ellipsoid\", fit = \"bone\" leads them round",
+          "[[wrap]] body = \"{}\", kind = \"ellipsoid\", fit = \"bone\" leads them round, with a "
+          "name that is in their wraps = [..]",
           scene.bodies[b].name, names, scene.bodies[b].name));
   }
 }
