@@ -247,13 +247,6 @@ TEST_F(RunFile, ThatIsSomethingElseIsNamed) {
             path_.string() + ": cannot be opened, expected a run (HDF5), whole and readable");
 }
 
-TEST_F(RunFile, ThatIsASceneSaysWhatMakesARun) {
-  path_.replace_extension(".toml");
-  std::ofstream(path_) << "title = \"knee\"\n";
-  EXPECT_EQ(message(),
-            path_.string() + ": is no run (HDF5); of a scene (TOML) condyle sweep makes one");
-}
-
 TEST_F(RunFile, ThatIsCutShortIsNamed) {
   write_run(path_, made_up_run());
   fs::resize_file(path_, fs::file_size(path_) / 2);

@@ -479,8 +479,6 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : name_(file.string())
                      ": is a scene (TOML), expected a run (HDF5), as condyle sweep writes it");
   file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (file_.id() < 0 && lacked_memory()) throw std::bad_alloc();
-  if (file_.id() < 0 && file.extension() == ".toml")
-    throw InputError(name_ + ": is no run (HDF5); of a scene (TOML) condyle sweep makes one");
   if (file_.id() < 0)
     throw InputError(name_ + ": cannot be opened, expected a run (HDF5), whole and readable");
 }
