@@ -14,7 +14,7 @@ build_packages=(
 missing_packages() {
   local package
   for package in "${build_packages[@]}"; do
-    dpkg-query --show --showformat='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed ||
+    dpkg-query --show --showformat='${db:Status-Status}\n' "$package" 2>/dev/null | grep -x installed >/dev/null ||
       echo "$package"
   done
 }

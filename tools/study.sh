@@ -10,5 +10,5 @@ source tools/packages.sh
 install_packages
 install_where_possible libopenmpi-dev openmpi-bin
 TARGET=condyle build build -DCMAKE_BUILD_TYPE=Release >/dev/null
-! cmake --build build --target help | grep -q condyle-mpi || TARGET=condyle-mpi build build >/dev/null
+! cmake --build build --target help | grep condyle-mpi >/dev/null || TARGET=condyle-mpi build build >/dev/null
 CONDYLE=$PWD/build/condyle tools/figures.sh --write docs/study.md

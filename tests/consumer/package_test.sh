@@ -39,12 +39,12 @@ expect "$program" bin/condyle share/man/man1/condyle\.1\.gz share/bash-completio
   share/condyle/data/phantom/knee.toml share/condyle/matlab/condyle_read_run.m share/condyle/matlab/private/struct_of_items.m
 expect "$libraries" include/condyle/version.h include/condyle/build_info.h include/condyle/equilibrium/sweep.h \
   'lib/(.*/)?libcondyle_mechanics\.a' 'lib/(.*/)?libcondyle_io\.a' 'lib/(.*/)?cmake/condyle/condyleConfig\.cmake'
-dpkg-deb --field "$program" Depends | grep -q libhdf5 || { echo "the program depends on no HDF5"; exit 1; }
+dpkg-deb --field "$program" Depends | grep libhdf5 >/dev/null || { echo "the program depends on no HDF5"; exit 1; }
 module=$(echo "$work"/python3-condyle_*.deb)
 if [ -e "$module" ]; then
   packages+=("$module")
   expect "$module" lib/python3/dist-packages/condyle/__init__.py 'lib/python3/dist-packages/condyle/_condyle\..*\.so'
-  dpkg-deb --field "$module" Depends | grep -q 'python3 (>= 3.*python3-numpy' || { echo "the module depends on no Python"; exit 1; }
+  dpkg-deb --field "$module" Depends | grep 'python3 (>= 3.*python3-numpy' >/dev/null || { echo "the module depends on no Python"; exit 1; }
 fi
 for package in "${packages[@]}"; do
   dpkg-deb --field "$package" Package Version Architecture Section Depends
@@ -58,7 +58,7 @@ fi
 
 # used RUN...: what an installed condyle does, each command run by RUN (a chroot, or nothing).
 used() {
-  "$@" condyle --version | grep -q '^build: ' || { echo "condyle does not tell how it was built"; return 1; }
+  "$@" condyle --version | grep '^build: ' >/dev/null || { echo "condyle does not tell how it was built"; return 1; }
   "$@" condyle sweep /usr/share/condyle/data/phantom/knee.toml -o /tmp/run.h5 --quiet
   "$@" condyle verify /tmp/run.h5 | tail -n 1
   if [ -e "$module" ]; then
