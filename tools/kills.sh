@@ -62,7 +62,7 @@ look_at_remains() {
     case $file in
       *.journal) resumes "$command" || fail "SIG$signal left $file" ;;
       *.part"$process") [ "$signal" = KILL ] || fail "SIG$signal left $file" ;;
-      out/result.h5) [ -e out/result.h5.journal ] || same_result >said.log 2>&1 || fail "SIG$signal left a result that is not whole" ;;
+      out/result.h5) [ -e out/result.h5.journal ] || same_result >compared.log 2>&1 || fail "SIG$signal left a result that is not whole" ;;
     esac
   done
   [ "$signal" = KILL ] || [ -z "$listening" ] || [ "$(grep -c '^condyle: ' said.log)" -ge 1 ] || fail "SIG$signal: not a word"
