@@ -49,7 +49,7 @@ struct Ball {
     choose_lattices(state.bodies[0].X, network);
     for (;;) {
       Motion motion = integrate(network, state, options);
-      if (accept_lattices(motion, network)) return motion;
+      if (refine_lattices(motion, network).empty()) return motion;
     }
   }
 };

@@ -21,13 +21,17 @@ struct ContactPair;
 struct ContactRates;
 
 /// Of one pair and one thread: it may keep places from pose to pose. Nothing but prepare and accepts
-/// changes what is computed at a pose, and after reset no bit depends on what was asked before.
+/// changes what is computed at a pose, and after reset, and of
+/// what is held after forget_places, no bit depends on what was asked before.
 class ContactPotential {
  public:
   virtual ~ContactPotential() = default;
 
   /// As newly made. Allocates nothing.
   virtual void reset() {}
+
+  /// What prepare and accepts chose stays; of places, nothing is kept. Allocates nothing.
+  virtual void forget_places() {}
 
   /// Chooses at a pose what is held while poses near it are solved: a quadrature, say.
   virtual void prepare(const RigidTransform& /*X_BA*/) {}

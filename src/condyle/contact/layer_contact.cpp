@@ -140,6 +140,10 @@ class LayerContact final : public ContactPotential {
   void reset() override {
     level_ = 0;
     factor_ = 1;
+    forget_places();
+  }
+
+  void forget_places() override {
     for (auto& sides : sides_)
       if (sides) sides->reset();
   }

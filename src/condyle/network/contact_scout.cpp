@@ -22,6 +22,10 @@ constexpr double kBuried = 0.05 / 30;    // where there is no single lowest poin
 PairScout::PairScout(const Model& model, const ContactCovers& covers, const KneeNetwork& knee)
     : model_(model), knee_(knee), searches_(make_searches(model, covers)) {}
 
+void PairScout::forget() {
+  for (ContactSearch& search : searches_) search.reset();
+}
+
 ContactSighting PairScout::operator()(NetworkState& state) {
   ContactSighting sighting;
   for (std::size_t p = 0; p < model_.pairs.size(); ++p) {

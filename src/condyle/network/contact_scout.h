@@ -13,6 +13,8 @@ class PairScout {
   /// Keeps references.
   PairScout(const Model& model, const ContactCovers& covers, const KneeNetwork& knee);
 
+  /// As newly made.
+  void forget();
   /// As ContactScout says.
   ContactSighting operator()(NetworkState& state);
 

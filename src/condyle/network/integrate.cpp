@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -23,8 +24,10 @@ class Integration {
   Integration(const Network& network,
               NetworkState start,
               const IntegrationOptions& options,
-              ContactScout scout)
+              ContactScout scout,
+              const MotionKeeping& keeping)
       : options_(options),
+        keeping_(keeping),
         scout_(std::move(scout)),
         touch_(1e-5 / 30 * network.length),
         moving_(network, std::move(start), options) {}
@@ -38,17 +41,21 @@ class Integration {
     end_ = start + options_.end;
     moving_.restart(t);
     store(t);
-    const auto frames = static_cast<long>(std::ceil(options_.end / options_.interval - 1e-9));
+    frames_ = static_cast<long>(std::ceil(options_.end / options_.interval - 1e-9));
     motion_.completed = true;
-    for (long k = 1; k <= frames && motion_.completed; ++k) {
+    begin_stretch();
+    take_over();
+    t = moving_.state().t;
+    for (long k = frames_known() + 1; k <= frames_ && motion_.completed; ++k) {
       const double to = std::min(end_, start + static_cast<double>(k) * options_.interval);
       steps_before_ = moving_.ode().steps();
       attempts_ = 0;
       if (scout_ ? advance_scouted(t, to, 0) : advance(t, to) && land(t)) store(t);
-      if (options_.on_frame) options_.on_frame(static_cast<int>(k), static_cast<int>(frames));
+      if (motion_.completed && k < frames_ && stretch_steps() >= options_.stretch) end_stretch();
+      tell_frame(k);
     }
-    motion_.steps = moving_.ode().steps();
-    motion_.evaluations = moving_.ode().evaluations();
+    motion_.steps = steps_of_others_ + moving_.ode().steps();
+    motion_.evaluations = evaluations_of_others_ + moving_.ode().evaluations();
     return std::move(motion_);
   }
 
@@ -67,6 +74,62 @@ class Integration {
     motion_.completed = true;
     motion_.reason.clear();
     hopeless_ = false;
+  }
+
+  /// Those after the first.
+  [[nodiscard]] long frames_known() const { return static_cast<long>(motion_.frames.size()) - 1; }
+  void tell_frame(long frame) const {
+    if (options_.on_frame) options_.on_frame(static_cast<int>(frame), static_cast<int>(frames_));
+  }
+
+  [[nodiscard]] long stretch_steps() { return moving_.ode().steps() - stretch_.steps; }
+  void begin_stretch() {
+    stretch_ = {motion_.frames.size(), motion_.events.size(), moving_.ode().steps(),
+                moving_.ode().evaluations(), Clock::now()};
+  }
+  /// At a frame: from here on as if nothing were known but it.
+  void begin_anew() {
+    moving_.begin_anew(motion_.frames.back());
+    if (keeping_.forget) keeping_.forget();
+    begin_stretch();
+  }
+  void end_stretch() {
+    const auto from = [](const auto& all, std::size_t first) {
+      return std::vector(all.begin() + static_cast<std::ptrdiff_t>(first), all.end());
+    };
+    if (keeping_.on_stretch)
+      keeping_.on_stretch({from(motion_.frames, stretch_.frame),
+                           from(motion_.events, stretch_.event), stretch_steps(),
+                           moving_.ode().evaluations() - stretch_.evaluations,
+                           std::chrono::duration<double>(Clock::now() - stretch_.time).count()});
+    begin_anew();
+  }
+  /// The stretches of an earlier run.
+  void take_over() {
+    for (const MotionStretch& stretch : keeping_.earlier) {
+      for (const MotionFrame& frame : stretch.frames) {
+        if (!is_of_motion(frame, motion_.frames.front()) || frames_known() + 1 >= frames_)
+          refuse_earlier();
+        add_frame(frame, motion_);
+      }
+      for (const ContactEvent& event : stretch.events) {
+        if (event.contact < 0 ||
+            event.contact >= static_cast<int>(motion_.frames.front().state.contacts.size()))
+          refuse_earlier();
+        motion_.events.push_back(event);
+      }
+      steps_of_others_ += stretch.steps;
+      evaluations_of_others_ += stretch.evaluations;
+    }
+    if (keeping_.earlier.empty()) return;
+    begin_anew();
+    tell_frame(frames_known());
+  }
+  [[noreturn]] static void refuse_earlier() {
+    throw InputError(
+        "network: the frames to go on from are of another motion, expected those of an earlier run "
+        "of "
+        "this one");
   }
 
   /// Goes on in halves where the way led into an overlap that no contact saw, or where a contact
@@ -156,14 +219,26 @@ class Integration {
     if (!moving_.record(motion_)) give_up(t, "the constraints could not be met");
   }
 
+  using Clock = std::chrono::steady_clock;
+  /// What there was where a stretch began.
+  struct StretchBegin {
+    std::size_t frame = 0, event = 0;
+    long steps = 0, evaluations = 0;
+    Clock::time_point time = {};
+  };
+
   IntegrationOptions options_;
+  const MotionKeeping& keeping_;
   ContactScout scout_;
   double touch_;  ///< overlap of a contact that opened for nothing [mm]
   MovingNetwork moving_;
   Motion motion_;
   double end_ = 0;
-  long steps_before_ = 0;  ///< this frame
-  int attempts_ = 0;       ///< at this frame
+  long frames_ = 0;  ///< to come, after the first
+  StretchBegin stretch_;
+  long steps_of_others_ = 0, evaluations_of_others_ = 0;  ///< of an earlier run
+  long steps_before_ = 0;                                 ///< this frame
+  int attempts_ = 0;                                      ///< at this frame
   bool hopeless_ = false;
 };
 
@@ -172,8 +247,9 @@ class Integration {
 Motion integrate(const Network& network,
                  NetworkState start,
                  const IntegrationOptions& options,
-                 ContactScout scout) {
-  return Integration(network, std::move(start), options, std::move(scout)).run();
+                 ContactScout scout,
+                 const MotionKeeping& keeping) {
+  return Integration(network, std::move(start), options, std::move(scout), keeping).run();
 }
 
 }  // namespace condyle

@@ -16,7 +16,9 @@ struct IntegrationOptions {
   double least_rebound = 1;  ///< a contact that would rebound more slowly stays closed [mm/s]
   std::vector<double> breaks = {};  ///< times at which a driver jumps [s]
   long most_steps = 200000;         ///< from one frame to the next
-  OnProgress on_frame = {};         ///< told of each frame after the first
+  long stretch =
+      5000;  ///< steps, after which the integration begins anew at a frame (MotionStretch)
+  OnProgress on_frame = {};  ///< told of each frame after the first
 };
 
 }  // namespace condyle

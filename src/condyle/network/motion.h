@@ -47,4 +47,13 @@ struct Motion {
   double largest_imbalance = 0, energy_scale = 0;
 };
 
+/// A stretch of a motion from behind one frame to another, at which the integration began anew from
+/// that frame alone: whoever has all stretches up to there goes on with the same bits.
+struct MotionStretch {
+  std::vector<MotionFrame> frames;
+  std::vector<ContactEvent> events;
+  long steps = 0, evaluations = 0;
+  double seconds = 0;  ///< of computing
+};
+
 }  // namespace condyle

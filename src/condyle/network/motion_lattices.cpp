@@ -1,5 +1,7 @@
 #include "condyle/network/motion_lattices.h"
 
+#include "condyle/input_error.h"
+
 namespace condyle {
 namespace {
 
@@ -28,12 +30,28 @@ void choose_lattices(const RigidTransform& start, Network& network) {
   }
 }
 
-bool accept_lattices(const Motion& motion, Network& network) {
-  bool accepted = true;
-  for (const PotentialComponent& contact : network.potentials)
-    if (const RigidTransform* X = most_pressed(motion, contact))
-      accepted &= contact.potential->accepts(*X);
-  return accepted;
+void refine_lattice(const LatticeRefinement& refinement, Network& network) {
+  if (refinement.potential >= network.potentials.size())
+    throw InputError("network: a lattice of an earlier run is of no contact of this one");
+  ContactPotential& potential = *network.potentials[refinement.potential].potential;
+  potential.forget_places();
+  (void)potential.accepts(refinement.at);
+}
+
+std::vector<LatticeRefinement> refine_lattices(const Motion& motion, Network& network) {
+  std::vector<LatticeRefinement> refined;
+  for (std::size_t i = 0; i < network.potentials.size(); ++i) {
+    const PotentialComponent& contact = network.potentials[i];
+    const RigidTransform* X = most_pressed(motion, contact);
+    if (X == nullptr) continue;
+    contact.potential->forget_places();  // so that whoever refines to this pose comes to the same
+    if (!contact.potential->accepts(*X)) refined.push_back({i, *X});
+  }
+  return refined;
+}
+
+void forget_places(const Network& network) {
+  for (const PotentialComponent& contact : network.potentials) contact.potential->forget_places();
 }
 
 }  // namespace condyle

@@ -8,6 +8,7 @@
 
 #include "condyle/input_error.h"
 #include "condyle/network/contact_changes.h"
+#include "condyle/network/motion_lattices.h"
 #include "condyle/network/project.h"
 #include "condyle/network/record_motion.h"
 
@@ -128,6 +129,15 @@ void MovingNetwork::restart(double t) {
   numbers_.pack(state_, dissipated_, work_, ode_.y());
   evaluated_ = NAN;
   ode_.restart(t);
+}
+
+void MovingNetwork::begin_anew(const MotionFrame& frame) {
+  state_ = frame.state;
+  dissipated_ = frame.dissipated;
+  work_ = frame.driver_work;
+  equations_.begin_anew(frame.paths);
+  forget_places(network_);
+  restart(state_.t);
 }
 
 bool MovingNetwork::record(Motion& motion) {

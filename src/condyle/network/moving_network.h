@@ -45,6 +45,8 @@ class MovingNetwork {
                        std::vector<ContactEvent>& events);
   /// From the state.
   void restart(double t);
+  /// From a frame alone: what is computed from now on does not depend on anything before it.
+  void begin_anew(const MotionFrame& frame);
   /// Adds a frame of the state, which lies on the constraints.
   bool record(Motion& motion);
 

@@ -56,6 +56,12 @@ void NetworkEquations::list_feeds() {
   }
 }
 
+void NetworkEquations::begin_anew(const std::vector<double>& paths) {
+  contacts_.assign(contacts_.size(), SettledContact());
+  path_lines_.keep(paths);
+  lost_line_ = LostLine();
+}
+
 void NetworkEquations::require_mass() const {
   for (const NetworkBody& body : network_.bodies) {
     if (!body.mass || !(body.mass->mass > 0))

@@ -37,6 +37,10 @@ class NetworkEquations {
   /// is all that solve() asks for. False where a contact is lost or a line has no length.
   bool assemble(NetworkState& state, bool open_contacts_too = true);
 
+  /// Forgets the states before: contacts are settled from their places alone. `paths` is what the paths
+  /// of lines keep.
+  void begin_anew(const std::vector<double>& paths);
+
   /// One contact that is followed, at the state's pose; false where it is lost.
   bool settle(std::size_t contact, NetworkState& state);
   /// The rate of its gap at the state at which it was settled [mm/s].

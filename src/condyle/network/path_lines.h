@@ -20,6 +20,8 @@ class PathLines {
 
   /// What the paths keep, one line after the other, as KeptPaths hands it out.
   [[nodiscard]] const std::vector<double>& kept() const { return kept_; }
+  /// As many numbers as these.
+  void keep(const std::vector<double>& kept) { kept_ = kept; }
 
  private:
   const Network& network_;

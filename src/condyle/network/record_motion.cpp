@@ -18,6 +18,25 @@ void add_contacts(const NetworkEquations& equations, MotionFrame& frame) {
   }
 }
 
+bool has_sizes_of(const MotionFrame& frame, const MotionFrame& first) {
+  const std::size_t contacts = first.state.contacts.size();
+  return frame.state.bodies.size() == first.state.bodies.size() &&
+         frame.state.contacts.size() == contacts && frame.contact_force.size() == contacts &&
+         frame.contact_gap.size() == contacts && frame.contact_point.size() == contacts &&
+         frame.lines.size() == first.lines.size() && frame.paths.size() == first.paths.size() &&
+         frame.condition_multiplier.size() == first.condition_multiplier.size();
+}
+
+bool is_finite(const BodyState& body) {
+  return body.X.R.allFinite() && body.X.p.allFinite() && body.v.allFinite() &&
+         body.omega.allFinite();
+}
+
+bool has_places(const MovingContact& contact) {
+  return !(contact.followed || contact.closed) ||
+         (contact.places.on_B.numbers.allFinite() && contact.places.on_A.numbers.allFinite());
+}
+
 void audit(const MotionFrame& frame, Motion& motion) {
   const MotionFrame& first = motion.frames.empty() ? frame : motion.frames.front();
   motion.largest_imbalance =
@@ -46,8 +65,19 @@ void record_frame(const NetworkEquations& equations,
   frame.energy = equations.energies();
   frame.dissipated = dissipated;
   frame.driver_work = driver_work;
+  add_frame(std::move(frame), motion);
+}
+
+void add_frame(MotionFrame frame, Motion& motion) {
   audit(frame, motion);
   motion.frames.push_back(std::move(frame));
+}
+
+bool is_of_motion(const MotionFrame& frame, const MotionFrame& first) {
+  return has_sizes_of(frame, first) && std::isfinite(frame.dissipated) &&
+         std::isfinite(frame.driver_work) &&
+         std::all_of(frame.state.bodies.begin(), frame.state.bodies.end(), is_finite) &&
+         std::all_of(frame.state.contacts.begin(), frame.state.contacts.end(), has_places);
 }
 
 }  // namespace condyle

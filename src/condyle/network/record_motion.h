@@ -14,4 +14,10 @@ void record_frame(const NetworkEquations& equations,
                   double driver_work,
                   Motion& motion);
 
+/// Adds a frame as it was recorded.
+void add_frame(MotionFrame frame, Motion& motion);
+
+/// May a frame be of a motion that began with `first`, and go on?
+[[nodiscard]] bool is_of_motion(const MotionFrame& frame, const MotionFrame& first);
+
 }  // namespace condyle

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -150,6 +151,29 @@ void set_velocity(const Scene& scene,
   start.bodies[0].omega = twist.tail<3>();
 }
 
+/// The motion, again on finer lattices as long as one is too coarse.
+Motion integrate_on_lattices(const Model& model,
+                             const ContactCovers& covers,
+                             KneeNetwork& knee,
+                             const NetworkState& start,
+                             const IntegrationOptions& options,
+                             const SimulationKeeping& keeping) {
+  for (const LatticeRefinement& refinement : keeping.refinements)
+    refine_lattice(refinement, knee.network);
+  MotionKeeping stretches{keeping.stretches, keeping.on_stretch, {}};
+  for (;;) {
+    forget_places(knee.network);
+    PairScout scout(model, covers, knee);
+    stretches.forget = [&scout] { scout.forget(); };
+    Motion motion = integrate(knee.network, start, options, std::ref(scout), stretches);
+    const std::vector<LatticeRefinement> refined = refine_lattices(motion, knee.network);
+    if (refined.empty()) return motion;
+    for (const LatticeRefinement& refinement : refined)
+      if (keeping.on_refinement) keeping.on_refinement(refinement);
+    stretches.earlier.clear();
+  }
+}
+
 }  // namespace
 
 MassProperties moving_mass(const Scene& scene) {
@@ -166,7 +190,8 @@ MassProperties moving_mass(const Scene& scene) {
 
 Simulation simulate(const Scene& scene,
                     const std::vector<FittedSurface>& surfaces,
-                    const OnProgress& on_frame) {
+                    const OnProgress& on_frame,
+                    const SimulationKeeping& keeping) {
   Simulation result;
   result.mass = moving_mass(scene);
   const Model model = build_model(scene, surfaces);
@@ -189,9 +214,9 @@ Simulation simulate(const Scene& scene,
   options.breaks = drive_breaks(simulation.drives);
   options.on_frame = on_frame;
   const auto begin = std::chrono::steady_clock::now();
-  do result.motion = integrate(knee.network, state, options, PairScout(model, covers, knee));
-  while (!accept_lattices(result.motion, knee.network));
+  result.motion = integrate_on_lattices(model, covers, knee, state, options, keeping);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  for (const MotionStretch& stretch : keeping.stretches) result.seconds += stretch.seconds;
   result.contact_of = knee.places;
   result.poses = motion_poses(scene, model, covers, knee, result.motion);
   if (!result.motion.completed && model.joint && !result.poses.empty())
