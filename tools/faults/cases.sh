@@ -136,7 +136,7 @@ changing_files() {
   local input=knee.toml bytes moment
   case $1 in
     new | import | export | plot | render | report) input=$(input_of "$1") ;;
-    simulate) input=pendulum.toml ;;
+    simulate) input=motion.toml ;;
     laxity) input=drawer.toml ;;
     calibrate) input=laxity.csv ;;
     study | compare) input=wismans.toml ;;

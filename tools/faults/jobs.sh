@@ -12,6 +12,7 @@ make_inputs() {
     sed "s|\.\./\.\./meshes|$PWD|; s/^of = \"\*\"/of = \"aACL\"/; s|laxity.csv|$PWD/laxity.csv|" "$top/data/phantom/$scene.toml" >"$scene.toml"
   done
   grep -E "^(#|specimen|phantom,Markolf 1978)" "$top/data/phantom/laxity.csv" >laxity.csv
+  sed "s/^time = 2/time = ${MOTION_SECONDS:-2}/" pendulum.toml >motion.toml
   cp "$top/data/wismans-type/knee.toml" wismans.toml
   small_study "$PWD/wismans.toml" "${SAMPLES:-1500}" >study.toml
   sed "s|\.\./\.\./meshes|$PWD|" "$top/tests/data/phantom_jam.osim" >model.osim
@@ -24,7 +25,7 @@ job() {
   output=$out/result.h5
   case $1 in
     sweep) words=(sweep knee.toml -o "$output" --step "${STEP:-1}") ;;
-    simulate) words=(simulate pendulum.toml -o "$output") ;;
+    simulate) words=(simulate motion.toml -o "$output") ;;
     laxity) words=(laxity drawer.toml -o "$output") ;;
     compare) words=(compare wismans.toml -o "$output" --step "${COMPARED_STEP:-0.5}") ;;
     calibrate) words=(calibrate calibrate.toml -o "$output" --scene "$out/fitted.toml" --samples 20 --starts 1) ;;
@@ -59,8 +60,6 @@ job() {
 
 # listens PROCESS: it is beyond its loader, and answers a signal.
 listens() { grep -q '^SigCgt:.*[2367abef]$' "/proc/$1/status" 2>/dev/null; }
-
-resumes() { [[ " sweep calibrate study " == *" $1 "* ]]; }
 
 # files_in FOLDER: names of files and journals, without what is inside journals.
 files_in() { (cd "$1" && find . -name '*.journal' -prune -print -o -type f -print | sort); }

@@ -21,6 +21,8 @@ void open_osim(Bytes file);
 
 void open_sweep_journal(Bytes file);
 void open_calibration_journal(Bytes file);
+void open_piece_journal(Bytes file);   ///< of laxity and compare
+void open_motion_journal(Bytes file);  ///< of simulate
 void open_study_chunks(Bytes file);
 
 void open_run(Bytes file);             ///< HDF5, of any kind

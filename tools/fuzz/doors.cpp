@@ -22,6 +22,8 @@ const std::vector<Door>& doors() {
       {"osim", open_osim, kText},
       {"sweep_journal", open_sweep_journal, kText},
       {"calibration_journal", open_calibration_journal, kText},
+      {"piece_journal", open_piece_journal, kText},
+      {"motion_journal", open_motion_journal, kText},
       {"study_chunks", open_study_chunks, kText},
       {"run", open_run, kFile},
       {"altered_run", open_altered_run, 256},

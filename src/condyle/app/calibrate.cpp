@@ -12,6 +12,7 @@
 #include "condyle/app/commands.h"
 #include "condyle/app/interrupt.h"
 #include "condyle/app/progress.h"
+#include "condyle/app/resume.h"
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
 #include "condyle/app/tell.h"
@@ -208,10 +209,7 @@ int run_calibrate(const CalibrateCommand& command) {
   const int status = report_failures(command, *result);
   CommandSummary facts = clock.summary(talk, command.output, status);
   facts.files = files;
-  if (!journal.failure().empty()) {
-    tell(stderr, "condyle: {}\n", journal.failure());
-    facts.warnings.push_back(journal.failure());
-  }
+  tell_journal_failure(journal, facts);
   return finish(talk, facts, run);
 }
 

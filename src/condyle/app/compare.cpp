@@ -9,6 +9,7 @@
 
 #include "condyle/app/begin_study.h"
 #include "condyle/app/commands.h"
+#include "condyle/app/kept_pieces.h"
 #include "condyle/app/progress.h"
 #include "condyle/app/range_options.h"
 #include "condyle/app/reference_options.h"
@@ -30,6 +31,7 @@ struct CompareCommand {
   std::string scene, output;
   RangeOptions range;
   CompareOptions options;
+  bool resume = false;
 };
 
 bool has_layers(const Scene& scene) {
@@ -43,6 +45,7 @@ int run_compare(const CompareCommand& command) {
   check_output_file(command.output);
   Scene scene = read_scene(command.scene);
   refuse_to_overwrite_inputs(command.output, scene);
+  check_journal_file(command.output, scene, kCompareJournal);
   override_range(command.scene, command.range, scene);
   check_wismans_scene(scene);
   if (scene.sweep->arc_length)
@@ -53,27 +56,31 @@ int run_compare(const CompareCommand& command) {
   Run run = make_run(scene, surfaces);
   expect_same(meshes, run.inputs);
   tell_warnings(talk, run);
-  run.sweep = sweep(scene, surfaces);
+  KeptPieces kept(talk, command.output, command.resume, kCompareJournal,
+                  comparison_parts(scene, surfaces, command.options), scene);
+  run.sweep =
+      kept.keeping().get(static_cast<int>(Variant::kOurs), [&] { return sweep(scene, surfaces); });
   const SweepResult& ours = run.sweep;
   Progress progress(talk, "sweeps");
-  const auto comparison = std::make_shared<const Comparison>(
-      compare(scene, surfaces, ours, command.options,
-              [&](int done, int total) { progress.at(done, total); }));
+  const auto comparison = std::make_shared<const Comparison>(compare(
+      scene, surfaces, ours, command.options,
+      [&](int done, int total) { progress.at(done, total); }, kept.keeping()));
   run.study = comparison;
   progress.clear();
   if (has_layers(scene))
     say(talk, "the reference and the steps to it have rigid contacts, ours elastic layers\n");
   for (const std::string& line : summary_lines(scene, surfaces, ours, *comparison))
     say(talk, "{}\n", line);
-  write_run(command.output, run);
-  say(talk, "wrote {}\n", command.output);
+  kept.write_result(talk, command.output, run);
   const SweptQuantity swept = swept_quantity(run);
   for (const std::string& line : failures(swept, ours)) tell(stderr, "condyle: {}\n", line);
   for (const std::string& line : failures(swept, comparison->reference))
     tell(stderr, "condyle: reference: {}\n", line);
   const auto all = static_cast<int>(ours.poses.size());
   const bool both = ours.count_converged() == all && comparison->reference.count_converged() == all;
-  return finish(talk, clock.summary(talk, command.output, both ? 0 : kSomePoseFailed), run);
+  CommandSummary facts = clock.summary(talk, command.output, both ? 0 : kSomePoseFailed);
+  tell_journal_failure(kept.journal(), facts);
+  return finish(talk, facts, run);
 }
 
 }  // namespace
@@ -88,6 +95,7 @@ void setup_compare(CLI::App& program, int& status) {
   command->add_option("-o,--output", options->output, "result file to write (HDF5)")->required();
   add_range_options(*command, options->range);
   add_reference_options(*command, options->options);
+  add_resume_option(*command, options->resume);
   add_talk_options(*command, options->talk);
   command->footer("Example: condyle compare data/wismans-type/knee.toml -o out/compare.h5");
   command->callback([options, &status] {

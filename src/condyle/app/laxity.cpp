@@ -9,6 +9,7 @@
 
 #include "condyle/app/begin_study.h"
 #include "condyle/app/commands.h"
+#include "condyle/app/kept_pieces.h"
 #include "condyle/app/progress.h"
 #include "condyle/app/reference_options.h"
 #include "condyle/app/summary.h"
@@ -26,6 +27,7 @@ struct LaxityCommand {
   Talk talk;
   std::string scene, output;
   CompareOptions options;
+  bool resume = false;
 };
 
 int report_failures(const SweptQuantity& swept, const LaxityResult& result) {
@@ -48,21 +50,26 @@ int run_laxity(const LaxityCommand& command) {
   const Talk& talk = command.talk;
   CommandClock clock;
   auto [scene, surfaces, run] =
-      begin_study(talk, command.scene, command.output, [](const Scene& s) {
+      begin_study(talk, command.scene, command.output, [&](const Scene& s) {
         if (!s.laxity)
           throw InputError(s.file.string() +
                            ": [laxity] is missing, expected the angles of flexion of the test");
+        check_journal_file(command.output, s, kLaxityJournal);
       });
+  KeptPieces kept(talk, command.output, command.resume, kLaxityJournal,
+                  comparison_parts(scene, surfaces, command.options), scene);
   Progress progress(talk, "curves");
   const auto laxity = std::make_shared<const LaxityResult>(test_laxity(
-      scene, surfaces, command.options, [&](int done, int total) { progress.at(done, total); }));
+      scene, surfaces, command.options, [&](int done, int total) { progress.at(done, total); },
+      kept.keeping()));
   run.study = laxity;
   progress.clear();
   for (const std::string& line : laxity_lines(scene, *laxity)) say(talk, "{}\n", line);
-  write_run(command.output, run);
-  say(talk, "wrote {}\n", command.output);
+  kept.write_result(talk, command.output, run);
   const int status = report_failures(swept_quantity(run), *laxity);
-  return finish(talk, clock.summary(talk, command.output, status), run);
+  CommandSummary facts = clock.summary(talk, command.output, status);
+  tell_journal_failure(kept.journal(), facts);
+  return finish(talk, facts, run);
 }
 
 }  // namespace
@@ -74,6 +81,7 @@ void setup_laxity(CLI::App& program, int& status) {
   command->add_option("SCENE", options->scene, "scene file (TOML) with [laxity]")->required();
   command->add_option("-o,--output", options->output, "result file to write (HDF5)")->required();
   add_reference_options(*command, options->options);
+  add_resume_option(*command, options->resume);
   add_talk_options(*command, options->talk);
   command->footer("Example: condyle laxity data/wismans-type/drawer.toml -o out/laxity.h5");
   command->callback([options, &status] {

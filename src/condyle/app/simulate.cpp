@@ -7,13 +7,19 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "condyle/app/begin_study.h"
 #include "condyle/app/commands.h"
+#include "condyle/app/interrupt.h"
 #include "condyle/app/progress.h"
+#include "condyle/app/resume.h"
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
 #include "condyle/input_error.h"
+#include "condyle/results/motion_journal.h"
 #include "condyle/results/motion_view.h"
 #include "condyle/results/sweep_table.h"
 
@@ -26,6 +32,7 @@ constexpr double kJoule = 1e3;  // N mm
 struct SimulateCommand {
   Talk talk;
   std::string scene, output;
+  bool resume = false;
 };
 
 /// At most some thirty rows of the table that a sweep prints.
@@ -80,25 +87,60 @@ int report_failures(const Simulation& simulation) {
   return status;
 }
 
+/// What an earlier run left, and a word about it.
+MotionContents earlier_motion(const SimulateCommand& command, const JournalParts& parts) {
+  MotionContents journal = read_motion_journal(journal_path(command.output), parts);
+  const std::size_t frames = journal.frames();
+  say_what_is_resumed(command.talk, command.output, command.resume, journal.head, parts,
+                      frames == 0 ? "" : fmt::format("{} frames", frames));
+  return command.resume ? journal : MotionContents{};
+}
+
+std::shared_ptr<const Simulation> simulate_aloud(const SimulateCommand& command,
+                                                 const Scene& scene,
+                                                 const std::vector<FittedSurface>& surfaces,
+                                                 MotionContents earlier,
+                                                 MotionJournal& journal) {
+  Progress progress(command.talk, "frames");
+  std::optional<LastWords> words;
+  const auto hold_frames = [&] {
+    if (!words) words.emplace(last_words(command.output, "frames"));
+  };
+  if (!earlier.stretches.empty()) hold_frames();
+  SimulationKeeping keeping;
+  keeping.refinements = std::move(earlier.refinements);
+  keeping.stretches = std::move(earlier.stretches);
+  keeping.on_refinement = [&](const LatticeRefinement& refinement) { journal.append(refinement); };
+  keeping.on_stretch = [&](const MotionStretch& stretch) {
+    journal.append(stretch);
+    hold_frames();
+  };
+  return std::make_shared<const Simulation>(simulate(
+      scene, surfaces, [&](int done, int total) { progress.at(done, total); }, keeping));
+}
+
 int run_simulate(const SimulateCommand& command) {
   const Talk& talk = command.talk;
   CommandClock clock;
   auto [scene, surfaces, run] =
-      begin_study(talk, command.scene, command.output, [](const Scene& s) {
+      begin_study(talk, command.scene, command.output, [&](const Scene& s) {
         if (!s.simulation)
           throw InputError(s.file.string() +
                            ": [simulate] is missing, expected time, rate and gravity");
+        check_journal_file(command.output, s, kMotionJournal);
       });
-  Progress progress(talk, "frames");
-  const auto simulation = std::make_shared<const Simulation>(
-      simulate(scene, surfaces, [&](int done, int total) { progress.at(done, total); }));
+  LineFile journal_file(journal_path(command.output));
+  const JournalParts parts = motion_parts(scene, surfaces);
+  MotionContents earlier = earlier_motion(command, parts);
+  MotionJournal journal(journal_file, kMotionJournal, parts, earlier.whole_bytes);
+  const auto simulation = simulate_aloud(command, scene, surfaces, std::move(earlier), journal);
   run.study = simulation;
-  progress.clear();
   run.sweep.poses = simulation->poses;
   if (talk.plain()) print_motion(run);
-  write_run(command.output, run);
-  say(talk, "wrote {}\n", command.output);
-  return finish(talk, clock.summary(talk, command.output, report_failures(*simulation)), run);
+  write_and_end_journal(talk, command.output, run, journal, "frames");
+  CommandSummary facts = clock.summary(talk, command.output, report_failures(*simulation));
+  tell_journal_failure(journal, facts);
+  return finish(talk, facts, run);
 }
 
 }  // namespace
@@ -109,6 +151,7 @@ void setup_simulate(CLI::App& program, int& status) {
       "simulate", "Release, strike or drive the knee and follow its motion in time");
   command->add_option("SCENE", options->scene, "scene file (TOML) with [simulate]")->required();
   command->add_option("-o,--output", options->output, "result file to write (HDF5)")->required();
+  add_resume_option(*command, options->resume);
   add_talk_options(*command, options->talk);
   command->footer("Example: condyle simulate data/phantom/pendulum.toml -o out/pendulum.h5");
   command->callback([options, &status] {

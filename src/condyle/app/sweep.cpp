@@ -91,19 +91,6 @@ std::shared_ptr<const MeshUncertainty> uncertainty_aloud(const SweepCommand& com
   return found;
 }
 
-void write_result(const SweepCommand& command, const Run& run, Journal& journal) {
-  try {
-    write_run(command.output, run);
-  } catch (const InputError& error) {
-    if (!journal.failure().empty()) throw;
-    throw InputError(fmt::format("{} (its poses are in {}: --resume takes them over)", error.what(),
-                                 journal_path(command.output).string()));
-  }
-  journal.remove();
-  say(command.talk, "wrote {}\n", command.output);
-  std::fflush(stdout);
-}
-
 int run_sweep(const SweepCommand& command) {
   const Talk& talk = command.talk;
   CommandClock clock;
@@ -126,21 +113,19 @@ int run_sweep(const SweepCommand& command) {
   EarlierPoses earlier = earlier_poses(command.output, command.resume, scene, surfaces);
   if (!earlier.message.empty()) say(talk, "{}\n\n", earlier.message);
   Journal journal(journal_file, identity(scene, surfaces), earlier.journal_bytes);
-  const LastWords words(fmt::format("{} holds its poses, --resume goes on with them",
-                                    journal_path(command.output).string()));
+  const LastWords words(last_words(command.output, "poses"));
   run.sweep = sweep_aloud(talk, scene, surfaces, std::move(earlier.poses), journal);
   run.sensitivities = sweep_sensitivities(scene, surfaces, run.sweep.poses);
   run.uncertainty = uncertainty_aloud(command, scene, surfaces, run.sweep.poses);
   const SweepResult& result = run.sweep;
   for (const std::string& line : event_lines(scene, swept_quantity(run), result))
     say(talk, "{}\n", line);
-  write_result(command, run, journal);
-  if (!journal.failure().empty()) tell(stderr, "condyle: {}\n", journal.failure());
+  write_and_end_journal(talk, command.output, run, journal, "poses");
   for (const std::string& line : failures(swept_quantity(run), result))
     tell(stderr, "condyle: {}\n", line);
   const bool all = result.count_converged() == static_cast<int>(result.poses.size());
   CommandSummary facts = clock.summary(talk, command.output, all ? 0 : kSomePoseFailed);
-  if (!journal.failure().empty()) facts.warnings.push_back(journal.failure());
+  tell_journal_failure(journal, facts);
   return finish(talk, facts, run);
 }
 

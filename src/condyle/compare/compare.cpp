@@ -68,10 +68,12 @@ Comparison compare(const Scene& scene,
                    const std::vector<FittedSurface>& surfaces,
                    const SweepResult& ours,
                    const CompareOptions& options,
-                   const OnProgress& on_sweep) {
+                   const OnProgress& on_sweep,
+                   const SweepKeeping& keeping) {
   check_wismans_scene(scene);
   int sweeps_done = 0;
-  const auto counted = [&](SweepResult sweep) {
+  const auto counted = [&](int number, const auto& compute) {
+    SweepResult sweep = keeping.get(number, compute);
     ++sweeps_done;
     if (on_sweep)
       on_sweep(sweeps_done, kVariantCount);  // all but ours, and ours again for the time
@@ -87,21 +89,27 @@ Comparison compare(const Scene& scene,
   const WismansModel model = build_wismans_model(quadratic, result.heights);
   const std::vector<FittedSurface> polynomials = with_polynomials(surfaces, result.heights);
 
-  result.reference = counted(reference_sweep(scene, model, ours));
+  const auto of_variant = [&](Variant v, const auto& compute) {
+    return counted(static_cast<int>(v), compute);
+  };
+  result.reference =
+      of_variant(Variant::kReference, [&] { return reference_sweep(scene, model, ours); });
   const std::array<SweepResult, kVariantCount> sweeps = {
       ours,
       result.reference,
-      counted(plain_sweep(rigid, polynomials)),
-      counted(plain_sweep(quadratic, surfaces)),
-      counted(plain_sweep(with_closed_contacts(rigid), surfaces)),
-      counted(sweep_one_contact_each(quadratic, polynomials, result.reference))};
+      of_variant(Variant::kSurfaces, [&] { return plain_sweep(rigid, polynomials); }),
+      of_variant(Variant::kSprings, [&] { return plain_sweep(quadratic, surfaces); }),
+      of_variant(Variant::kClosed,
+                 [&] { return plain_sweep(with_closed_contacts(rigid), surfaces); }),
+      of_variant(Variant::kAllThree,
+                 [&] { return sweep_one_contact_each(quadratic, polynomials, result.reference); })};
   for (int v = 0; v < kVariantCount; ++v) result.converged[v] = sweeps[v].count_converged();
   for (const Quantity& quantity : compared_quantities(scene)) {
     ComparedQuantity compared{quantity.name, quantity.units, {}};
     for (int v = 0; v < kVariantCount; ++v) compared.values[v] = series(quantity, sweeps[v]);
     result.quantities.push_back(std::move(compared));
   }
-  const SweepResult again = counted(plain_sweep(scene, surfaces));
+  const SweepResult again = counted(kVariantCount, [&] { return plain_sweep(scene, surfaces); });
   result.seconds_ours = median_seconds(again);
   result.iterations_ours = mean_iterations(again);
   result.seconds_reference = median_seconds(result.reference);

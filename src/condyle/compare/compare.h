@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/compare/kept_sweeps.h"
 #include "condyle/compare/quantities.h"
 #include "condyle/equilibrium/pose_result.h"
 #include "condyle/on_progress.h"
@@ -48,12 +49,14 @@ struct Comparison {
 };
 
 /// `ours` is the engine's sweep of the scene. Throws InputError for a scene that the reference
-/// model cannot hold. `on_sweep` is told of each of the sweeps behind it.
+/// model cannot hold. `on_sweep` is told of each of the sweeps behind it, whose numbers for `keeping` are those
+/// of their variants, kVariantCount of ours again; the caller may keep `ours` as that of its own.
 [[nodiscard]] Comparison compare(const Scene& scene,
                                  const std::vector<FittedSurface>& surfaces,
                                  const SweepResult& ours,
                                  const CompareOptions& options = {},
-                                 const OnProgress& on_sweep = {});
+                                 const OnProgress& on_sweep = {},
+                                 const SweepKeeping& keeping = {});
 
 /// The reference model's sweep over the values of the scene.
 [[nodiscard]] SweepResult reference_sweep(const Scene& scene,

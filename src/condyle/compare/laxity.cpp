@@ -131,7 +131,8 @@ std::size_t loaded_coordinate(const Scene& scene) {
 LaxityResult test_laxity(const Scene& scene,
                          const std::vector<FittedSurface>& surfaces,
                          const CompareOptions& options,
-                         const OnProgress& on_curve) {
+                         const OnProgress& on_curve,
+                         const SweepKeeping& keeping) {
   const Ways ways(scene);
   const int total =
       static_cast<int>(scene.laxity->flexions.size()) * (scene.laxity->cut.empty() ? 1 : 2);
@@ -142,16 +143,25 @@ LaxityResult test_laxity(const Scene& scene,
   for (const bool cut : {false, true}) {
     if (cut && scene.laxity->cut.empty()) continue;
     const Scene knee = cut ? without(scene, scene.laxity->cut) : scene;
-    const PreparedKnee prepared(knee, surfaces);
+    std::optional<PreparedKnee> prepared;  // for the first curve that is not known
     for (const double flexion : scene.laxity->flexions) {
-      LaxityCurve curve{flexion, cut, by_engine(knee, prepared, ways, flexion), {}};
+      const int number = 2 * static_cast<int>(result.curves.size());
+      LaxityCurve curve{flexion,
+                        cut,
+                        keeping.get(number,
+                                    [&] {
+                                      if (!prepared) prepared.emplace(knee, surfaces);
+                                      return by_engine(knee, *prepared, ways, flexion);
+                                    }),
+                        {}};
       if (by_both) {
         std::vector<RigidTransform> starts;
         const PoseResult& middle = curve.ours.poses[least_load(curve.ours.poses)];
         if (middle.converged()) starts.push_back(middle.X_BA);
-        const Scene quadratic = with_quadratic_springs(knee, options.strain);
-        curve.reference =
-            by_reference(build_wismans_model(quadratic, heights), knee, ways, flexion, starts);
+        curve.reference = keeping.get(number + 1, [&] {
+          const Scene quadratic = with_quadratic_springs(knee, options.strain);
+          return by_reference(build_wismans_model(quadratic, heights), knee, ways, flexion, starts);
+        });
       }
       result.curves.push_back(std::move(curve));
       if (on_curve) on_curve(static_cast<int>(result.curves.size()), total);

@@ -23,11 +23,12 @@ struct LaxityResult {
 };
 
 /// Needs scene.laxity. The load is reached from none, the flexion from that of the scene, in steps.
-/// `on_curve` is told of each curve.
+/// `on_curve` is told of each curve. The sweeps of curve k have the numbers 2 k, ours, and 2 k + 1 for `keeping`.
 [[nodiscard]] LaxityResult test_laxity(const Scene& scene,
                                        const std::vector<FittedSurface>& surfaces,
                                        const CompareOptions& options = {},
-                                       const OnProgress& on_curve = {});
+                                       const OnProgress& on_curve = {},
+                                       const SweepKeeping& keeping = {});
 
 /// Which joint coordinate (index into kJointColumns) the load acts on most: anterior drawer for a
 /// drawer force, adduction for a varus moment, ...

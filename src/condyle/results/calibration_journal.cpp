@@ -5,17 +5,17 @@
 #include <charconv>
 #include <sstream>
 
-#include "condyle/input_error.h"
-#include "condyle/results/format_number.h"
-
 namespace condyle {
 namespace {
 
-constexpr std::string_view kWordsOfHead = "condyle calibration ";
+constexpr JournalKind kCalibrationJournal = {"condyle calibration 1", "a calibration"};
 
-std::string head_of(const CalibrationIdentity& identity) {
-  return fmt::format("{}1 scene {:016x} surfaces {:016x} table {:016x}\n", kWordsOfHead,
-                     identity.run.scene, identity.run.surfaces, identity.table);
+JournalParts parts_of(const CalibrationIdentity& identity, const Scene& scene) {
+  JournalParts parts = run_parts(identity.run, scene);
+  parts.push_back({"table", identity.table,
+                   fmt::format("another table, expected that of {}",
+                               scene.calibration ? scene.calibration->measurements.string() : "")});
+  return parts;
 }
 
 /// The hash of a line behind it.
@@ -39,26 +39,6 @@ std::optional<Eigen::VectorXd> theta_of(const std::string& line) {
   return Eigen::Map<const Eigen::VectorXd>(theta.data(), static_cast<Eigen::Index>(theta.size()));
 }
 
-void expect_same_head(const std::string& file,
-                      const std::string& line,
-                      const CalibrationIdentity& identity,
-                      const Scene& scene) {
-  const std::string later = later_format(line, "condyle calibration 1");
-  if (!later.empty()) throw InputError(fmt::format("{}: {}", file, later));
-  std::istringstream there(line), here(head_of(identity));
-  std::string a, b;
-  for (const char* what : {"", "", "format", "", "text of the scene", "", "patches", "", "table"}) {
-    there >> a;
-    here >> b;
-    if (a == b) continue;
-    const std::string expected = what == std::string("table")
-                                     ? scene.calibration->measurements.string()
-                                     : scene.file.string();
-    throw InputError(fmt::format("{}: belongs to another {}, expected that of {}", file,
-                                 *what == '\0' ? "format" : what, expected));
-  }
-}
-
 }  // namespace
 
 CalibrationIdentity calibration_identity(const Scene& scene,
@@ -69,42 +49,36 @@ CalibrationIdentity calibration_identity(const Scene& scene,
 CalibrationContents read_calibration_journal(const std::filesystem::path& path,
                                              const CalibrationIdentity& identity,
                                              const Scene& scene) {
-  expect_calibration_journal(path);
-  std::istringstream lines(bytes_of_file(path));
+  const std::string text = bytes_of_file(path);
+  const JournalParts parts = parts_of(identity, scene);
+  const std::optional<JournalHead> head =
+      read_journal_head(path.string(), text, kCalibrationJournal, parts);
   CalibrationContents journal;
-  std::string line;
-  if (!std::getline(lines, line) || (lines.eof() && head_of(identity).starts_with(line)))
-    return journal;
-  expect_same_head(path.string(), line, identity, scene);
-  journal.whole_bytes = line.size() + 1;
-  while (std::getline(lines, line) && !lines.eof()) {
-    std::optional<Eigen::VectorXd> theta = theta_of(line);
+  if (!head) return journal;
+  expect_same_parts(path.string(), *head, parts);
+  journal.whole_bytes = head->bytes;
+  while (const std::optional<std::string_view> line = line_at(text, journal.whole_bytes)) {
+    std::optional<Eigen::VectorXd> theta = theta_of(std::string(*line));
     if (!theta) break;
     journal.best = std::move(theta);
-    journal.whole_bytes += line.size() + 1;
+    journal.whole_bytes += line->size() + 1;
   }
   return journal;
 }
 
 void expect_calibration_journal(const std::filesystem::path& path) {
-  const std::string text = bytes_of_file(path).substr(0, kWordsOfHead.size());
-  if (!kWordsOfHead.starts_with(text))
-    throw InputError(path.string() +
-                     ": is no journal of a calibration, expected this name to be free for one");
+  expect_journal(path, kCalibrationJournal);
 }
 
 CalibrationJournal::CalibrationJournal(LineFile& file,
                                        const CalibrationIdentity& identity,
                                        std::size_t kept_bytes)
-    : file_(file), head_(kept_bytes == 0 ? head_of(identity) : "") {
-  file_.keep(kept_bytes);
-}
+    : JournalLines(file, kCalibrationJournal, parts_of(identity, Scene()), kept_bytes) {}
 
 void CalibrationJournal::append(const Eigen::VectorXd& theta, double cost) {
   std::string line = fmt::format("best {}", cost);
   for (const double value : theta) line += fmt::format(" {}", value);
-  file_.append(head_ + sealed(line));
-  head_.clear();
+  append_line(sealed(line));
 }
 
 }  // namespace condyle

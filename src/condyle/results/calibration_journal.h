@@ -1,13 +1,12 @@
 #pragma once
 
-/// The journal of a calibration under way: the best numbers so far, a line each time that better ones
-/// are found. A command that is killed leaves it behind, and a later one goes on from it.
+/// The journal (journal_file.h) of a calibration under way: the best numbers so far, a line each time
+/// that better ones are found.
 ///
 ///     condyle calibration 1 scene HASH surfaces HASH table HASH
 ///     best COST θ1 θ2 ... HASH
 ///
-/// θ in mm, rad and 1, with as many digits as say them exactly; the hash at the end is that of the
-/// line before it. What follows a torn line is not read.
+/// θ in mm, rad and 1, with as many digits as say them exactly; the hash at the end is hexadecimal.
 
 #include <Eigen/Core>
 
@@ -15,8 +14,7 @@
 #include <optional>
 #include <string>
 
-#include "condyle/results/line_file.h"
-#include "condyle/results/run_identity.h"
+#include "condyle/results/journal_file.h"
 
 namespace condyle {
 
@@ -42,19 +40,11 @@ struct CalibrationContents {
 /// Throws InputError where something else than a journal of a calibration stands at `path`.
 void expect_calibration_journal(const std::filesystem::path& path);
 
-class CalibrationJournal {
+class CalibrationJournal : public JournalLines {
  public:
-  /// Goes on after the first `kept_bytes` of a journal, or with 0 starts a new one. The file is taken before
-  /// it is read (line_file.h) and stays. Throws InputError where it cannot be written.
   CalibrationJournal(LineFile& file, const CalibrationIdentity& identity, std::size_t kept_bytes);
 
   void append(const Eigen::VectorXd& theta, double cost);
-  [[nodiscard]] const std::string& failure() const { return file_.failure(); }
-  void remove() { file_.remove(); }
-
- private:
-  LineFile& file_;
-  std::string head_;  ///< as long as it is not written: with the first θ
 };
 
 }  // namespace condyle

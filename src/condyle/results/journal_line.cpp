@@ -1,68 +1,28 @@
 #include "condyle/results/journal_line.h"
 
-#include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
-#include "condyle/results/run_identity.h"
+#include "condyle/results/journal_words.h"
 
 namespace condyle {
 namespace {
-
-template <typename T>
-void put(std::string& out, T number) {
-  char text[32];
-  const std::to_chars_result end = std::to_chars(text, text + sizeof text, number);
-  out += ' ';
-  out.append(text, end.ptr);
-}
-
-void put(std::string& out, const double* numbers, int count) {
-  for (int i = 0; i < count; ++i) put(out, numbers[i]);
-}
 
 void put_contacts(std::string& out, const std::vector<ContactResult>& contacts) {
   std::size_t points = 0;
   for (const ContactResult& contact : contacts)
     points += contact.closed ? contact.points.size() : 0;
-  put(out, points);
+  put_word(out, points);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     if (!contacts[i].closed) continue;
     for (const ContactPointResult& point : contacts[i].points) {
-      put(out, i);
-      put(out, point.force);
-      put(out, point.point_ground.data(), 3);
-      put(out, point.point_moving.data(), 3);
+      put_word(out, i);
+      put_word(out, point.force);
+      put_words(out, point.point_ground.data(), 3);
+      put_words(out, point.point_moving.data(), 3);
     }
   }
 }
-
-/// Takes numbers off the front of a line; `ok` tells whether each was there.
-struct Taker {
-  std::string_view rest;
-  bool ok = true;
-
-  template <typename T>
-  T number() {
-    T value{};
-    if (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
-    const std::from_chars_result end =
-        std::from_chars(rest.data(), rest.data() + rest.size(), value);
-    ok &= end.ec == std::errc();
-    rest.remove_prefix(static_cast<std::size_t>(end.ptr - rest.data()));
-    return value;
-  }
-  void numbers(double* values, int count) {
-    for (int i = 0; i < count; ++i) values[i] = number<double>();
-  }
-  /// A number below `limit`, else 0 and not ok.
-  std::size_t index(std::size_t limit) {
-    const auto value = number<std::size_t>();
-    ok &= value < limit;
-    return ok ? value : 0;
-  }
-};
 
 constexpr std::string_view kPaths = " paths";
 
@@ -70,21 +30,21 @@ constexpr std::string_view kPaths = " paths";
 void put_paths(std::string& out, const std::vector<LigamentPath>& paths) {
   if (paths.empty()) return;
   out += kPaths;
-  put(out, paths.size());
+  put_word(out, paths.size());
   for (const LigamentPath& path : paths) {
-    put(out, path.touches.size());
+    put_word(out, path.touches.size());
     for (const LineTouch& touch : path.touches) {
-      put(out, static_cast<int>(touch.touching));
-      put(out, static_cast<int>(touch.on_moving));
+      put_word(out, static_cast<int>(touch.touching));
+      put_word(out, static_cast<int>(touch.on_moving));
       for (const Eigen::Vector3d* v : {&touch.P, &touch.Q, &touch.t_P, &touch.t_Q, &touch.side})
-        put(out, v->data(), 3);
-      put(out, touch.arc);
-      put(out, touch.turn);
+        put_words(out, v->data(), 3);
+      put_word(out, touch.arc);
+      put_word(out, touch.turn);
     }
   }
 }
 
-void take_paths(Taker& take, PoseResult& pose) {
+void take_paths(WordTaker& take, PoseResult& pose) {
   constexpr std::size_t kMost = 100000;
   if (!take.rest.starts_with(kPaths)) return;
   take.rest.remove_prefix(kPaths.size());
@@ -107,16 +67,16 @@ constexpr std::string_view kTrace = " trace";
 
 void put_trace(std::string& out, const PoseTrace& trace) {
   out += kTrace;
-  put(out, static_cast<int>(trace.route));
-  put(out, static_cast<int>(trace.origin));
+  put_word(out, static_cast<int>(trace.route));
+  put_word(out, static_cast<int>(trace.origin));
   for (const int count : {trace.parts, trace.searches, trace.closings, trace.openings})
-    put(out, count);
-  put(out, trace.residuals.size());
-  put(out, trace.residuals.begin(), trace.residuals.size());
+    put_word(out, count);
+  put_word(out, trace.residuals.size());
+  put_words(out, trace.residuals.begin(), trace.residuals.size());
 }
 
 /// Lines of older runs have none.
-void take_trace(Taker& take, PoseTrace& trace) {
+void take_trace(WordTaker& take, PoseTrace& trace) {
   if (!take.rest.starts_with(kTrace)) return;
   take.rest.remove_prefix(kTrace.size());
   trace.route = static_cast<PoseRoute>(take.index(kPoseRouteCount));
@@ -127,7 +87,7 @@ void take_trace(Taker& take, PoseTrace& trace) {
   for (std::size_t k = 0; take.ok && k < residuals; ++k) trace.residuals.add(take.number<double>());
 }
 
-void take_contacts(Taker& take, std::size_t contacts, PoseResult& pose) {
+void take_contacts(WordTaker& take, std::size_t contacts, PoseResult& pose) {
   pose.contacts.assign(contacts, {});
   const auto points = take.number<std::size_t>();
   for (std::size_t k = 0; take.ok && k < points; ++k) {
@@ -148,7 +108,7 @@ bool of_ligament(EventKind kind) {
   return kind == EventKind::kTouching || kind == EventKind::kLifting;
 }
 
-void take_events(Taker& take, std::size_t contacts, KnownPose& known) {
+void take_events(WordTaker& take, std::size_t contacts, KnownPose& known) {
   const double from = take.number<double>();
   known.from = std::isnan(from) ? std::nullopt : std::optional<double>(from);
   const auto events = take.number<std::size_t>();
@@ -167,17 +127,6 @@ void take_events(Taker& take, std::size_t contacts, KnownPose& known) {
   }
 }
 
-/// Cuts the last number off a line.
-template <typename Number>
-bool take_last(std::string_view& line, Number& number) {
-  const std::size_t at = line.rfind(' ');
-  if (at == std::string_view::npos) return false;
-  Taker take{line.substr(at)};
-  number = take.number<Number>();
-  line = line.substr(0, at);
-  return take.ok && take.rest.empty();
-}
-
 /// ' "REASON" "REMARK" LENGTH ELSEWHERE'; words may hold quotes, so the remark tells its length. A
 /// line of an older run ends with the reason.
 bool take_words(std::string_view line, KnownPose& known) {
@@ -185,7 +134,7 @@ bool take_words(std::string_view line, KnownPose& known) {
   if (!line.ends_with('"')) {
     int elsewhere = 0;
     std::size_t length = 0;
-    if (!take_last(line, elsewhere) || !take_last(line, length) ||
+    if (!take_last_word(line, elsewhere) || !take_last_word(line, length) ||
         line.size() < length + 2 * kQuotes)
       return false;
     known.from_elsewhere = elsewhere != 0;
@@ -197,47 +146,39 @@ bool take_words(std::string_view line, KnownPose& known) {
   return true;
 }
 
-/// Cuts the hash off the end of a line; false where it does not fit what stands before it.
-bool check_hash(std::string_view& line) {
-  std::uint64_t hash = 0;
-  return take_last(line, hash) && hash == hash_bytes(line);
-}
-
 }  // namespace
 
 void write_journal_line(const KnownPose& known, std::string& out) {
   const std::size_t begin = out.size();
   const PoseResult& pose = known.pose;
   out += "pose";
-  put(out, pose.value);
-  put(out, known.visit);
-  put(out, static_cast<int>(pose.status));
-  put(out, pose.iterations);
-  put(out, pose.residual);
-  put(out, pose.seconds);
-  put(out, pose.X_BA.R.data(), 9);
-  put(out, pose.X_BA.p.data(), 3);
-  put(out, pose.conditions.size());
-  for (const ConditionResult& condition : pose.conditions) put(out, condition.multiplier);
+  put_word(out, pose.value);
+  put_word(out, known.visit);
+  put_word(out, static_cast<int>(pose.status));
+  put_word(out, pose.iterations);
+  put_word(out, pose.residual);
+  put_word(out, pose.seconds);
+  put_words(out, pose.X_BA.R.data(), 9);
+  put_words(out, pose.X_BA.p.data(), 3);
+  put_word(out, pose.conditions.size());
+  for (const ConditionResult& condition : pose.conditions) put_word(out, condition.multiplier);
   put_contacts(out, pose.contacts);
-  put(out, known.from.value_or(std::numeric_limits<double>::quiet_NaN()));
-  put(out, known.events.size());
+  put_word(out, known.from.value_or(std::numeric_limits<double>::quiet_NaN()));
+  put_word(out, known.events.size());
   for (const Event& event : known.events) {
-    put(out, event.value);
-    put(out, static_cast<int>(event.kind));
-    put(out, event.contact);
+    put_word(out, event.value);
+    put_word(out, static_cast<int>(event.kind));
+    put_word(out, event.contact);
     if (!of_ligament(event.kind)) continue;
-    put(out, event.ligament);
-    put(out, event.wrap);
+    put_word(out, event.ligament);
+    put_word(out, event.wrap);
   }
   put_trace(out, pose.trace);
   put_paths(out, pose.paths);
   out += " \"" + pose.reason + "\" \"" + pose.remark + "\"";
-  put(out, pose.remark.size());
-  put(out, static_cast<int>(known.from_elsewhere));
-  std::replace(out.begin() + static_cast<std::ptrdiff_t>(begin), out.end(), '\n', ' ');
-  put(out, hash_bytes(std::string_view(out).substr(begin)));
-  out += '\n';
+  put_word(out, pose.remark.size());
+  put_word(out, static_cast<int>(known.from_elsewhere));
+  seal_line(begin, out);
 }
 
 bool read_journal_line(std::string_view line,
@@ -247,8 +188,8 @@ bool read_journal_line(std::string_view line,
   known = KnownPose();
   PoseResult& pose = known.pose;
   constexpr std::string_view kWord = "pose";
-  if (!check_hash(line) || !line.starts_with(kWord)) return false;
-  Taker take{line.substr(kWord.size())};
+  if (!take_seal(line) || !line.starts_with(kWord)) return false;
+  WordTaker take{line.substr(kWord.size())};
   pose.value = take.number<double>();
   known.visit = take.number<int>();
   pose.status = static_cast<PoseStatus>(take.index(kPoseStatusCount));
