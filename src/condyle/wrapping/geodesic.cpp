@@ -60,11 +60,11 @@ inline __attribute__((always_inline)) Four inverse_root(const Four& x) {
 /// Fields tell s of f_i = factor_i s_i y_i (nystrom.h), the first three y being scale_i x_i.
 /// x'' = -J D x/q², q = |Dx|²: J = q tᵀDt stays along a geodesic [Joachimsthal]. G = det D/q².
 struct EllipsoidField {
-  Vector3d scale;
+  Vector3d per_scale, scale;
   double factor[5];
 
   EllipsoidField(const WrapEllipsoid& ellipsoid, const SurfaceFrame& from)
-      : scale(ellipsoid.semi_axes.cwiseAbs2().cwiseInverse()) {
+      : per_scale(ellipsoid.semi_axes.cwiseAbs2()), scale(per_scale.cwiseInverse()) {
     const double J = scale.cwiseProduct(from.x).squaredNorm() * from.t.cwiseAbs2().dot(scale);
     for (int i = 0; i < 3; ++i) factor[i] = -J * scale[i];
     factor[3] = factor[4] = -scale.prod();
@@ -83,7 +83,7 @@ struct EllipsoidField {
 /// κ = -((1 - h²/ρ²)/r + h² cos φ/ρ³), ρ the distance from the axis, h = ρ (t . round), which stays along
 /// a geodesic [Clairaut], cos φ = (ρ - R)/r; G = cos φ/(r ρ).
 struct TorusField {
-  Vector3d scale = Vector3d::Ones();
+  Vector3d per_scale = Vector3d::Ones(), scale = Vector3d::Ones();
   double factor[5] = {1, 1, 1, 1, 1}, R, per_r, hh;
 
   TorusField(const WrapTorus& torus, const SurfaceFrame& from)
@@ -180,8 +180,9 @@ class Walk {
     double left = arc;
     for (int steps = 0; std::abs(left) > 0; ++steps) {
       if (steps == kMostSteps) return false;
-      const double pieces = std::ceil(std::abs(left) * rate_ / kReach8 - 1e-6);
-      const double h = pieces > 1 ? left / pieces : left;
+      const double reach = std::abs(left) * rate_;
+      const bool last = reach <= kReach8;
+      const double h = last ? left : left / std::ceil(reach / kReach8);
       if (!has_f_) tell_f();
       GeodesicState next = at_;
       step(field_, h, std::abs(h) * rate_, next);
@@ -193,7 +194,7 @@ class Walk {
       }
       at_ = next;
       off_ = off;
-      left = pieces > 1 ? left - h : 0;
+      left = last ? 0 : left - h;
       has_f_ = false;
       passed();
     }
@@ -211,7 +212,7 @@ class Walk {
     has_f_ = true;
   }
   [[nodiscard]] Vector3d place_of(const double* y) const {
-    return Vector3d(y[0], y[1], y[2]).cwiseQuotient(field_.scale);
+    return Vector3d(y[0], y[1], y[2]).cwiseProduct(field_.per_scale);
   }
   [[nodiscard]] static double wronskian_of(const GeodesicState& s) {
     return s.y[3] * s.v[4] - s.v[3] * s.y[4];
@@ -244,7 +245,7 @@ Geodesic integrate(const Solid& solid,
     if constexpr (std::is_same_v<Solid, WrapTorus>)
       g.presses = g.presses && frame_at(shape, walk.x(), walk.t()).kappa < 0;
   });
-  g.to = frame_at(shape, walk.x(), walk.t());
+  g.to = frame_along(shape, walk.x(), walk.t());
   g.a = at.y[3];
   g.r = at.y[4];
   g.da = at.v[3];

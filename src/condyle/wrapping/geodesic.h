@@ -23,7 +23,7 @@ struct Geodesic {
 };
 
 /// From a frame on the surface along its t. Sphere and cylinder in closed form, ellipsoid and torus
-/// by steps of order 12, each of which keeps surface and Wronskian to 5e-13.
+/// by steps of order 8 to 16, each of which keeps surface and Wronskian to 5e-13.
 [[nodiscard]] Geodesic shoot(const WrapShape& shape, const SurfaceFrame& from, double arc);
 
 /// Appends where equal pieces of the arc end, in order, moved by X: for drawing. In

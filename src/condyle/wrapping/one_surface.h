@@ -32,12 +32,20 @@ struct OneSurfacePath {
   bool found = false;
   bool shortest = false;  ///< B > 0, no conjugate point of X before Y
 
-  /// ∂²L/∂X² and ∂²L/∂Y² [1/mm].
-  [[nodiscard]] Eigen::Matrix3d H_XX() const {
-    return n * (n / l1).transpose() + b * (A / B * b).transpose();
+  /// ∂²L/∂X² and ∂²L/∂Y² [1/mm] in the frame to which R turns that of the surface.
+  [[nodiscard]] Eigen::Matrix3d H_XX(const Eigen::Matrix3d& R) const {
+    return H(R * n, 1 / l1, R * b, A / B);
   }
-  [[nodiscard]] Eigen::Matrix3d H_YY() const {
-    return n_Q * (n_Q / l2).transpose() + b_Q * (D / B * b_Q).transpose();
+  [[nodiscard]] Eigen::Matrix3d H_YY(const Eigen::Matrix3d& R) const {
+    return H(R * n_Q, 1 / l2, R * b_Q, D / B);
+  }
+
+ private:
+  static Eigen::Matrix3d H(const Eigen::Vector3d& in,
+                           double by_turn,
+                           const Eigen::Vector3d& aside,
+                           double by_shift) {
+    return in * (by_turn * in).transpose() + aside * (by_shift * aside).transpose();
   }
 };
 

@@ -86,7 +86,7 @@ double pull_from_anchor(
             path.length - path.l2};
   if (unit == nullptr) return path.length;
   const Eigen::Matrix3d R = X_BA.R * surface.X_WS.R;
-  *unit = pull_at_fixed_end(R * -path.e_Y, R * path.H_YY() * R.transpose(), C - X_BA.p);
+  *unit = pull_at_fixed_end(R * -path.e_Y, path.H_YY(R), C - X_BA.p);
   return path.length;
 }
 
@@ -118,10 +118,10 @@ double pull_over_one(
   if (unit == nullptr) return path.length;
   if (surface.on_A) {
     const Eigen::Matrix3d R = X_BA.R * surface.X_WS.R;
-    *unit = pull_at_fixed_end(R * path.e_X, R * path.H_XX() * R.transpose(), C - X_BA.p);
+    *unit = pull_at_fixed_end(R * path.e_X, path.H_XX(R), C - X_BA.p);
   } else {
     const Eigen::Matrix3d& R = surface.X_WS.R;
-    *unit = pull_at_moving_end(R * path.e_Y, R * path.H_YY() * R.transpose(), q);
+    *unit = pull_at_moving_end(R * path.e_Y, path.H_YY(R), q);
   }
   return path.length;
 }

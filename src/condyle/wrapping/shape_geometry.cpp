@@ -62,17 +62,22 @@ Curvature curvature_at(const WrapTorus& torus, const Vector3d& x) {
 }
 
 template <class CurvatureOf>
-SurfaceFrame frame_of(const CurvatureOf& c, const Vector3d& x, const Vector3d& along) {
+SurfaceFrame frame_with(const CurvatureOf& c, const Vector3d& x, const Vector3d& t) {
   SurfaceFrame frame;
   frame.x = x;
   frame.n = c.n;
-  frame.t = (along - c.n.dot(along) * c.n).normalized();
+  frame.t = t;
   frame.b = frame.t.cross(frame.n);
   const Vector3d Kt = c.of(frame.t);
   frame.kappa = -frame.t.dot(Kt);
   frame.tau = -frame.b.dot(Kt);
   frame.kappa_b = -frame.b.dot(c.of(frame.b));
   return frame;
+}
+
+template <class CurvatureOf>
+SurfaceFrame frame_of(const CurvatureOf& c, const Vector3d& x, const Vector3d& along) {
+  return frame_with(c, x, (along - c.n.dot(along) * c.n).normalized());
 }
 
 /// t with Σ (a x/(t + a²))² = 1: the closest point is a² x/(t + a²) [Eberly 2013]. Newton from the left on
@@ -138,6 +143,10 @@ SurfaceFrame frame_at(const WrapShape& shape, const Vector3d& x, const Vector3d&
   return std::visit([&](const auto& s) { return frame_of(curvature_at(s, x), x, along); }, shape);
 }
 
+SurfaceFrame frame_along(const WrapShape& shape, const Vector3d& x, const Vector3d& t) {
+  return std::visit([&](const auto& s) { return frame_with(curvature_at(s, x), x, t); }, shape);
+}
+
 Vector3d normal_at(const WrapShape& shape, const Vector3d& x) {
   return std::visit([&](const auto& s) { return curvature_at(s, x).n; }, shape);
 }
@@ -145,7 +154,8 @@ Vector3d normal_at(const WrapShape& shape, const Vector3d& x) {
 Vector3d onto_surface(const WrapShape& shape, const Vector3d& x) {
   if (const auto* ellipsoid = std::get_if<WrapEllipsoid>(&shape)) {
     const Vector3d D = ellipsoid->semi_axes.cwiseAbs2().cwiseInverse();
-    Vector3d on = x / std::max(1.0, std::sqrt(D.dot(x.cwiseAbs2()) / 2));
+    Vector3d on = x;
+    if (const double level = D.dot(x.cwiseAbs2()) / 2; level > 1) on /= std::sqrt(level);
     for (int k = 0; k < 20; ++k) {
       const Vector3d g = D.cwiseProduct(on);
       const double excess = on.dot(g) - 1;

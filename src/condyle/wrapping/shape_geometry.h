@@ -24,6 +24,11 @@ struct SurfaceFrame {
                                     const Eigen::Vector3d& on_surface,
                                     const Eigen::Vector3d& along);
 
+/// The same of a t that is tangent and unit to round-off.
+[[nodiscard]] SurfaceFrame frame_along(const WrapShape& shape,
+                                       const Eigen::Vector3d& on_surface,
+                                       const Eigen::Vector3d& t);
+
 [[nodiscard]] Eigen::Vector3d normal_at(const WrapShape& shape, const Eigen::Vector3d& point);
 
 /// A point near the surface moved onto it to round-off, along the normal to first order.

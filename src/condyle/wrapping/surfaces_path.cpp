@@ -316,7 +316,9 @@ void SurfacesPath::add_points(const LineEnds& ends,
     const PathDirections to = directions_at_end(shape, place, state.end(static_cast<int>(i)));
     const int chords = static_cast<int>(std::ceil(angle_between(from.t, to.t) / kChord));
     points.push_back(X * from.x);
-    add_points_along(shape, from, place.arc, chords, X, points);
+    if (chords > 1)
+      add_points_along(shape, from, place.arc * (chords - 1) / chords, chords - 1, X, points);
+    if (chords > 0) points.push_back(X * to.x);
   }
   if (anchored(1)) points.push_back(X_BA * found.end[1].at);
 }
