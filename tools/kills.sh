@@ -59,7 +59,7 @@ look_at_remains() {
   shopt -s nullglob
   for file in out/*; do
     case $file in
-      *.journal) ;;
+      *.journal) [ -s "$file" ] || [ "$signal" = KILL ] || fail "SIG$signal left $file, which holds nothing" ;;
       *.part"$process") [ "$signal" = KILL ] || fail "SIG$signal left $file" ;;
       out/result.h5) [ -e out/result.h5.journal ] || same_result >compared.log 2>&1 || fail "SIG$signal left a result that is not whole" ;;
     esac

@@ -193,6 +193,22 @@ TEST_F(JournalFile, OfNoPoseIsNotLeft) {
   EXPECT_FALSE(fs::exists(path_));
 }
 
+// What a signal does before the program ends by it.
+TEST_F(JournalFile, IsRemovedByASignalAsLongAsItHoldsNothing) {
+  fs::remove(path_);
+  {
+    LineFile file(path_);
+    Journal journal(file, kIdentity, 0);
+    remove_unkept_files();
+    EXPECT_FALSE(fs::exists(path_));
+  }
+  LineFile file(path_);
+  Journal journal(file, kIdentity, 0);
+  journal.append(made_up_known(0));
+  remove_unkept_files();
+  EXPECT_EQ(read().poses.size(), 1U);
+}
+
 TEST_F(JournalFile, BelongsToOneRunAtATime) {
   const LineFile file(path_);
   EXPECT_THROW(LineFile{path_}, InputError);
