@@ -12,7 +12,7 @@ top=$PWD
 source tools/figures/program.sh
 source tools/faults/jobs.sh
 CONDYLE=$(realpath "$CONDYLE")
-STEP=0.5 COMPARED_STEP=0.02 MOTION_SECONDS=60
+STEP=0.5 COMPARED_STEP=0.02 MOTION_SECONDS=20
 wanted=${1:-100}
 [ $# -eq 0 ] || shift
 commands=(sweep simulate laxity compare calibrate study)

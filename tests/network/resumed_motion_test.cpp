@@ -76,13 +76,13 @@ void expect_same_bits(const Motion& a, const Motion& b) {
   }
 }
 
-/// From each of its stretches on.
+/// After its first stretch, half of them and all.
 void expect_goes_on(const Move& move) {
   std::vector<MotionStretch> stretches;
   const Motion whole =
       move({{}, [&](const MotionStretch& stretch) { stretches.push_back(stretch); }, {}});
   ASSERT_GE(stretches.size(), 3U);
-  for (std::size_t known = 1; known <= stretches.size(); ++known) {
+  for (const std::size_t known : {std::size_t{1}, stretches.size() / 2, stretches.size()}) {
     SCOPED_TRACE(known);
     std::size_t computed = 0;
     const Motion resumed =
