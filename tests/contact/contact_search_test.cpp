@@ -7,7 +7,6 @@
 
 #include "condyle/contact/bending.h"
 #include "condyle/contact/contact.h"
-#include "condyle/contact/refine_minimum.h"
 #include "condyle/math/rotation.h"
 #include "condyle/surface/exact_surfaces.h"
 
@@ -173,7 +172,7 @@ TEST(ContactSearch, AKnownContactHidesNoOverlapElsewhere) {
 
   ContactSearch search(pair);
   std::vector<GapMinimum> minima;
-  search.find(X, 0, minima, 0.3, {{at.B.c, at.A.c, at.B.K, at.A.K, at.relative_curvature[0]}});
+  search.find(X, 0, minima, 0.3, {known_contact(at)});
   ASSERT_FALSE(minima.empty());
   EXPECT_NEAR(minima[0].gap, lowest, 1e-6);
 }
@@ -199,25 +198,6 @@ TEST(ContactSearch, FindsBothHillsOfAShallowRidgeWhereverTheSamplesFall) {
       EXPECT_NEAR(minimum.gap, -5e-4, 1e-12) << k;
       EXPECT_NEAR(std::abs(axes.col(0).dot(minimum.point_B - origin)), d, 1e-6) << k;
     }
-  }
-}
-
-// From the saddle between those hills, and from a little beside it.
-TEST(RefineMinimum, IsNotHeldByASaddle) {
-  const double d = 1.2, a = 0.002 / std::pow(d, 4);
-  const auto hills = make_polynomial(
-      {0, 0, 0}, Eigen::Matrix3d::Identity(),
-      {{0, 0, -a * std::pow(d, 4)}, {2, 0, 2 * a * d * d}, {4, 0, -a}, {0, 2, -0.02}}, true, 8);
-  const auto plane = make_plane({0, 0, 0}, {0, 0, -1});
-  const RigidTransform X{Eigen::Matrix3d::Identity(), {0, 0, 0.1}};
-  for (const double x : {1e-3, -0.1, 0.3}) {
-    const Eigen::Vector3d start(x, 0.2, 0);
-    ContactPlaces places{hills->closest(start, hills->seed(start)),
-                         plane->closest(start, plane->seed(start))};
-    ASSERT_TRUE(refine_minimum({*hills, *plane}, places, X, 5)) << x;
-    const Eigen::Vector3d found = hills->evaluate(places.on_B).c;
-    EXPECT_NEAR(found.x(), std::copysign(d, x), 1e-9);
-    EXPECT_NEAR(found.y(), 0, 1e-9);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "condyle/contact/settle_places.h"
 #include "condyle/math/rotation.h"
 #include "condyle/surface/exact_surfaces.h"
 #include "support/numerical_jacobian.h"
@@ -68,6 +69,37 @@ TEST(Contact, SlidesAsDifferencesSay) {
   const Eigen::Vector3d rolled =
       (point_after(h * a, h * turn) - point_after(-h * a, -h * turn)) / (2 * h);
   EXPECT_LT((rolled - (contact.D1() * a + contact.D2() * turn)).norm(), 1e-5);
+}
+
+/// The same pair, 7 mm apart.
+struct ApartPair : Pair {
+  ContactLinearization settle_at(const RigidTransform& X) {
+    ContactLinearization at;
+    EXPECT_EQ(settle_places({*on_B, *on_A}, X, {20}, places, at), Settled::kThere);
+    return at;
+  }
+};
+
+// In all six directions; plain linearisation is wrong by a part of γ κ, a quarter here.
+TEST(Contact, SlidesAcrossAGapAsDifferencesSay) {
+  ApartPair pair;
+  RigidTransform X = touching(pair);
+  X.p += 7 * pair.settle(X).B.n;
+  const ContactLinearization at = pair.settle_at(X);
+  EXPECT_NEAR(at.gap(), 7, 1e-9);
+  EXPECT_EQ(at.across, at.gap());
+  const double h = 1e-4;
+  for (int k = 0; k < 6; ++k) {
+    const Eigen::Matrix<double, 6, 1> motion = Eigen::Matrix<double, 6, 1>::Unit(k);
+    const Eigen::Vector3d da = motion.head<3>(), dpi = motion.tail<3>();
+    const auto point_at = [&](double t) -> Eigen::Vector3d {
+      return pair.settle_at(test::displaced(X, t * da, t * dpi)).B.c;
+    };
+    const Eigen::Vector3d slid = (point_at(h) - point_at(-h)) / (2 * h);
+    const Eigen::Vector2d slide = at.S1 * da + at.S2 * dpi;
+    const Eigen::Vector3d dc = at.T * slide + at.across * (at.K_T * slide);
+    EXPECT_LT((slid - dc).norm(), 1e-7 * (1 + slid.norm())) << k;
+  }
 }
 
 // A ball of radius r on a plane: K + Kr = -1/r twice.

@@ -131,7 +131,7 @@ TEST(KneeMotion, TooManyStepsEndItAtOnce) {
   options.end = 0.1;
   options.interval = 0.01;
   options.tolerance = 1e-12;
-  options.most_steps = 120;
+  options.most_steps = 60;
   long scouted = 0;
   const Motion motion =
       integrate(knee.network, state_at_rest(model, cover_pairs(model), knee, equilibrium(1)),
@@ -144,7 +144,7 @@ TEST(KneeMotion, TooManyStepsEndItAtOnce) {
   EXPECT_EQ(motion.reason.find("at 0"), 0U) << motion.reason;
   EXPECT_GE(motion.frames.size(), 1U);
   EXPECT_EQ(static_cast<std::size_t>(scouted), motion.frames.size());  // no frame twice
-  EXPECT_LT(motion.steps, 130 * static_cast<long>(motion.frames.size() + 1));
+  EXPECT_LT(motion.steps, 70 * static_cast<long>(motion.frames.size() + 1));
 }
 
 // Frames that are always overlapped are tried in halves, but not without end.

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "condyle/contact/contact_search.h"
-#include "condyle/contact/refine_minimum.h"
+#include "condyle/contact/settle_places.h"
 #include "condyle/surface/bspline_basis.h"
 #include "condyle/surface/patch.h"
 #include "support/random.h"
@@ -163,14 +163,9 @@ class BruteForce {
            double cutoff,
            double margin,
            std::vector<GapMinimum>& minima) const {
-    if (!refine_minimum(pair_, places, X, 2)) return;
-    GapMinimum minimum;
-    const SurfacePoint at = pair_.on_B->evaluate_frame(places.on_B);
-    minimum.places = places;
-    minimum.point_B = at.c;
-    minimum.n = at.n;
-    minimum.gap = at.n.dot(X * pair_.on_A->evaluate_frame(places.on_A).c - at.c);
-    minimum.edge = edge_distance(pair_, places);
+    ContactLinearization at;
+    if (settle_places(pair_, X, {2, true}, places, at) != Settled::kThere) return;
+    const GapMinimum minimum = minimum_at(pair_, places, at);
     const bool same = std::any_of(minima.begin(), minima.end(), [&](const GapMinimum& known) {
       return (known.point_B - minimum.point_B).norm() < 1e-5;
     });

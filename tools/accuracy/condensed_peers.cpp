@@ -7,7 +7,7 @@
 #include "accuracy/knee_equations.h"
 #include "accuracy/peer_libraries.h"
 #include "condyle/contact/contact_search.h"
-#include "condyle/contact/refine_minimum.h"
+#include "condyle/contact/settle_places.h"
 
 namespace condyle::accuracy {
 namespace {
@@ -46,8 +46,9 @@ class CondensedKnee {
     for (int k = 0; k < 2; ++k) {
       ClosedContact& contact = state_.contacts[k];
       contact.p = x[6 + k];
-      good_ = good_ &&
-              refine_minimum(model_.pairs[contact.pair], contact.places, state_.X, model_.length);
+      ContactLinearization at;
+      good_ = good_ && settle_places(model_.pairs[contact.pair], state_.X, {model_.length, true},
+                                     contact.places, at) == Settled::kThere;
     }
     good_ = good_ && system_.assemble(state_, drive_);
     if (!good_) {

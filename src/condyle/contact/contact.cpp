@@ -64,12 +64,32 @@ double inverse_unless_flat(double curvature, double flat) {
   return std::abs(curvature) < flat ? 0 : 1 / curvature;
 }
 
-}  // namespace
+#define CONDYLE_INLINE inline __attribute__((always_inline))
 
-CONDYLE_FMA_CLONE
-ContactLinearization linearize_contact(const SurfacePair& surfaces,
-                                       const ContactPlaces& places,
-                                       const RigidTransform& X_BA) {
+/// γ for a gap: at most so much of the way to a centre of curvature, where 1 - γ κ vanishes.
+CONDYLE_INLINE double reachable(double gap, const Eigen::Matrix2d& C) {
+  constexpr double kNearest = 0.9;
+  if (gap * gap * C.squaredNorm() < kNearest * kNearest) return gap;
+  const PlaneTensor tensor = plane_tensor(C(0, 0), C(0, 1), C(1, 1));
+  const double part = std::max(gap * tensor.low, gap * tensor.high);
+  return part > kNearest ? gap * kNearest / part : gap;
+}
+
+/// K' T of the parallel surface for K T: Tᵀ K' T = C (I - γ C)^-1 with C = Tᵀ K T.
+CONDYLE_INLINE void set_across(ContactLinearization& contact) {
+  const Eigen::Matrix2d C = contact.T.transpose() * contact.K_T;
+  contact.across = reachable(contact.gap(), C);
+  const double a = 1 - contact.across * C(0, 0), b = -contact.across * C(0, 1),
+               c = -contact.across * C(1, 0), d = 1 - contact.across * C(1, 1);
+  Eigen::Matrix2d inverse;
+  inverse << d, -b, -c, a;
+  contact.K_T = (contact.K_T * (inverse / (a * d - b * c))).eval();
+}
+
+template <bool kAcrossGap>
+CONDYLE_INLINE ContactLinearization linearize(const SurfacePair& surfaces,
+                                              const ContactPlaces& places,
+                                              const RigidTransform& X_BA) {
   ContactLinearization contact;
   contact.B = surfaces.on_B.evaluate(places.on_B);
   contact.A = surfaces.on_A.evaluate(places.on_A);
@@ -89,6 +109,7 @@ ContactLinearization linearize_contact(const SurfacePair& surfaces,
   const Eigen::Matrix<double, 3, 2> K_RT = contact.A.K * RT;
   const Eigen::Matrix<double, 3, 2> Kr_T = R * K_RT;
   contact.K_T.noalias() = contact.B.K * T;
+  if constexpr (kAcrossGap) set_across(contact);
   const Eigen::Matrix<double, 3, 2>& K_T = contact.K_T;
   const double q00 = T.col(0).dot(K_T.col(0)) + RT.col(0).dot(K_RT.col(0));
   const double q01 = T.col(0).dot(K_T.col(1)) + RT.col(0).dot(K_RT.col(1));
@@ -128,7 +149,8 @@ ContactLinearization linearize_contact(const SurfacePair& surfaces,
   Eigen::Matrix<double, 2, 3> to_dpi;
   for (int k = 0; k < 2; ++k)
     to_dpi.row(k) = (m.cross(T.col(k)) + s.cross(Kr_T.col(k))).transpose();
-  const Eigen::Vector2d to_0 = T.transpose() * contact.h + Kr_T.transpose() * contact.g;
+  Eigen::Vector2d to_0 = T.transpose() * contact.h + Kr_T.transpose() * contact.g;
+  if constexpr (kAcrossGap) to_0 -= contact.across * (Kr_T.transpose() * n);
   contact.S1.noalias() = Q_inverse * to_da;
   contact.S2.noalias() = Q_inverse * to_dpi;
   contact.S0.noalias() = Q_inverse * to_0;
@@ -143,6 +165,22 @@ ContactLinearization linearize_contact(const SurfacePair& surfaces,
   contact.S1 += along * fixed.transpose();
   contact.S2 += along * s.cross(fixed).transpose();
   return contact;
+}
+
+}  // namespace
+
+CONDYLE_FMA_CLONE
+ContactLinearization linearize_contact(const SurfacePair& surfaces,
+                                       const ContactPlaces& places,
+                                       const RigidTransform& X_BA) {
+  return linearize<false>(surfaces, places, X_BA);
+}
+
+CONDYLE_FMA_CLONE
+ContactLinearization linearize_across_gap(const SurfacePair& surfaces,
+                                          const ContactPlaces& places,
+                                          const RigidTransform& X_BA) {
+  return linearize<true>(surfaces, places, X_BA);
 }
 
 Eigen::Vector3d direction_of_least_curvature(const ContactLinearization& contact,
@@ -180,6 +218,10 @@ void slide_contact(const SurfacePair& surfaces,
   const Eigen::Vector2d slide = contact.S0 + contact.S1 * da + contact.S2 * dpi;
   Eigen::Vector3d dc = contact.T * slide;
   Eigen::Vector3d dc_A = dc - contact.g - da - dpi.cross(contact.s);
+  if (contact.across != 0) {
+    dc_A += contact.gap() * contact.B.n;
+    dc += contact.across * (contact.K_T * slide);
+  }
   const double longest = std::sqrt(std::max(dc.squaredNorm(), dc_A.squaredNorm()));
   if (longest > longest_slide) {
     dc *= longest_slide / longest;

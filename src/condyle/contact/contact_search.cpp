@@ -14,8 +14,8 @@
 #include "condyle/contact/contact_scales.h"
 #include "condyle/contact/gap_paraboloid.h"
 #include "condyle/contact/line_contact.h"
-#include "condyle/contact/refine_minimum.h"
 #include "condyle/contact/rim_minimum.h"
+#include "condyle/contact/settle_places.h"
 #include "condyle/surface/has_edge.h"
 
 namespace condyle {
@@ -28,6 +28,7 @@ constexpr double kRimReach = 1.5;       // from a sample to an edge that it stan
 constexpr double kDeepest = 12;     // overlap of a surface with an edge that is still taken for one
 constexpr double kNeighbour = 1.6;  // a sample nearer than this may be the lower one
 constexpr double kSame = 0.3;       // a minimum predicted nearer to one that is known is that one
+constexpr double kRefineReach = 4;  // from a sample to the minimum that it leads to
 constexpr double kModel = 0.01;     // what the paraboloid of the gap may be wrong by in its reach
 
 /// The spacing that is wanted, or a wider one where that would take too many samples: a small model
@@ -184,34 +185,29 @@ bool ContactSearch::is_lowest(int sample, const RigidTransform& X_from_to) {
 std::optional<GapMinimum> ContactSearch::refine(int sample,
                                                 const RigidTransform& X_BA,
                                                 double cutoff) const {
-  GapMinimum minimum;
-  ContactPlaces& places = minimum.places;
   const SurfacePair surfaces = this->surfaces();
-  const Place& own = sampled().place(sample);
-  places.on_A = sampled_on_A_ ? own : closest(sample).place;
-  places.on_B = sampled_on_A_ ? closest(sample).place : own;
-  ContactPlaces refined = places;
-  const Refinement outcome = refine_minimum_below(cutoff, surfaces, refined, X_BA, 4 * spacing_);
-  if (outcome == Refinement::kAbove) return std::nullopt;
-  minimum.refined =
-      outcome == Refinement::kSettled && edge_distance(surfaces, refined) > -kBeyondEdge * spacing_;
-  if (minimum.refined) {
-    places = refined;
-  } else if (sampled_on_A_) {
-    places.on_B = surfaces.on_B.closest(X_BA * sampled().sample(sample).c, places.on_B);
-  } else {
-    places.on_A = surfaces.on_A.closest(X_BA.inverse() * sampled().sample(sample).c, places.on_A);
+  const Place &own = sampled().place(sample), &there = closest(sample).place;
+  const ContactPlaces start = sampled_on_A_ ? ContactPlaces{there, own} : ContactPlaces{own, there};
+  ContactPlaces places = start;
+  ContactLinearization at;
+  const Settled outcome =
+      settle_places(surfaces, X_BA, {kRefineReach * spacing_, true, cutoff}, places, at);
+  if (outcome == Settled::kAbove) return std::nullopt;
+  if (outcome == Settled::kThere) {
+    GapMinimum minimum = minimum_at(surfaces, places, at);
+    minimum.refined = true;
+    if (minimum.edge > -kBeyondEdge * spacing_) return minimum;
   }
-  const SurfacePoint B = surfaces.on_B.evaluate(places.on_B);
-  const SurfacePoint A = surfaces.on_A.evaluate(places.on_A);
-  minimum.point_B = B.c;
-  minimum.n = B.n;
-  minimum.gap = B.n.dot(X_BA * A.c - B.c);
+  places = start;
+  const Eigen::Vector3d& c = sampled().sample(sample).c;
+  if (sampled_on_A_)
+    places.on_B = surfaces.on_B.closest(X_BA * c, places.on_B);
+  else
+    places.on_A = surfaces.on_A.closest(X_BA.inverse() * c, places.on_A);
+  GapMinimum lowest = minimum_at(surfaces, places, linearize_contact(surfaces, places, X_BA));
   // A point within a closed solid is an overlap whichever way its own surface faces there.
-  if (!minimum.refined && deepest_ == kInfinity && minimum.gap > 0 && seen(sample).gap < 0)
-    minimum.gap = -minimum.gap;
-  minimum.edge = edge_distance(surfaces, places);
-  return minimum;
+  if (deepest_ == kInfinity && lowest.gap > 0 && seen(sample).gap < 0) lowest.gap = -lowest.gap;
+  return lowest;
 }
 
 void ContactSearch::add_minimum(int sample,

@@ -31,6 +31,10 @@ struct KnownContact {
   double least_curvature = 0;  ///< smaller principal relative curvature [1/mm]
 };
 
+[[nodiscard]] inline KnownContact known_contact(const ContactLinearization& at) {
+  return {at.B.c, at.A.c, at.B.K, at.A.K, at.relative_curvature[0]};
+}
+
 /// What does not change of the searches of one pair, shared by all of them.
 struct ContactCover {
   /// `wanted`: spacing of the samples [mm].

@@ -2,7 +2,7 @@
 
 /// A place where the gap between two surfaces is smallest at a pose.
 
-#include "condyle/contact/contact_places.h"
+#include "condyle/contact/contact.h"
 
 namespace condyle {
 
@@ -14,5 +14,12 @@ struct GapMinimum {
   bool refined = false;  ///< normals parallel, an isolated minimum (relative curvature positive)
   double edge = 0;       ///< smaller of the two edge distances [mm]
 };
+
+/// What is told of two places linearised at a pose; nothing is said of whether they are a minimum.
+[[nodiscard]] inline GapMinimum minimum_at(const SurfacePair& surfaces,
+                                           const ContactPlaces& places,
+                                           const ContactLinearization& at) {
+  return {places, at.gap(), at.B.c, at.B.n, false, edge_distance(surfaces, places)};
+}
 
 }  // namespace condyle

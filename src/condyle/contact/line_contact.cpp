@@ -7,10 +7,13 @@
 #include <cmath>
 #include <utility>
 
+#include "condyle/contact/settle_places.h"
+
 namespace condyle {
 namespace {
 
 constexpr double kLongest = 1e4;    // of a line, in sample spacings
+constexpr double kReach = 4;        // across a line, in sample spacings
 constexpr double kAligned = 0.05;   // sine between normals below which curvatures mean something
 constexpr double kFound = 1e-10;    // how exactly an end is found [mm]
 constexpr double kStraight = 1e-6;  // curvature of a straight line, in units of 1/spacing
@@ -112,29 +115,6 @@ bool find_end(const Line& line, double start, double sign, double spacing, doubl
 
 }  // namespace
 
-GapMinimum settle_across(const SurfacePair& surfaces,
-                         ContactPlaces places,
-                         const RigidTransform& X_BA) {
-  GapMinimum end;
-  for (int k = 0;; ++k) {
-    const ContactLinearization at = linearize_contact(surfaces, places, X_BA);
-    const Eigen::Vector3d beside = at.g - at.gap() * at.B.n;
-    const Eigen::Vector3d dc = at.D0(), dc_A = dc - beside;
-    const double slide = std::max(dc.norm(), dc_A.norm());
-    end.point_B = at.B.c;
-    end.n = at.B.n;
-    end.gap = at.gap();
-    end.refined = at.h.norm() < kAligned;
-    if (k == 12 || slide < 1e-13 * (1 + at.B.c.norm())) break;
-    const double shorter = std::min(1.0, 0.5 / (slide * at.relative_curvature[1]));
-    places.on_B = surfaces.on_B.moved(places.on_B, at.B, shorter * dc);
-    places.on_A = surfaces.on_A.moved(places.on_A, at.A, X_BA.R.transpose() * (shorter * dc_A));
-  }
-  end.places = places;
-  end.edge = edge_distance(surfaces, places);
-  return end;
-}
-
 bool have_straight_lines(const SurfacePair& surfaces, double spacing) {
   return is_ruled(surfaces.on_B, spacing) && is_ruled(surfaces.on_A, spacing);
 }
@@ -150,17 +130,30 @@ bool is_line(const ContactLinearization& contact, const Eigen::Matrix3d& R_BA) {
 
 namespace {
 
+/// Two places settled across a line; wherever they lead within reach.
+GapMinimum settled_across(const SurfacePair& surfaces,
+                          ContactPlaces places,
+                          const RigidTransform& X_BA,
+                          double reach) {
+  ContactLinearization at;
+  settle_places(surfaces, X_BA, {reach}, places, at);
+  GapMinimum end = minimum_at(surfaces, places, at);
+  end.refined = at.h.norm() < kAligned;
+  return end;
+}
+
 /// The end of a line near two places, settled across the line and back at the edge.
 GapMinimum settled_end(const SurfacePair& surfaces,
                        const Line& line,
                        double t,
                        double outwards,
-                       const RigidTransform& X_BA) {
-  GapMinimum end = settle_across(surfaces, line.at(t), X_BA);
+                       const RigidTransform& X_BA,
+                       double reach) {
+  GapMinimum end = settled_across(surfaces, line.at(t), X_BA, reach);
   for (int k = 0; k < 8; ++k) {
     const double beside = end.edge - kWithinEdge;
     if (std::abs(beside) < kFound) break;
-    end = settle_across(surfaces, line.from(end.places).at(outwards * beside), X_BA);
+    end = settled_across(surfaces, line.from(end.places).at(outwards * beside), X_BA, reach);
   }
   return end;
 }
@@ -181,7 +174,8 @@ bool find_line_ends(const SurfacePair& surfaces,
     double t = 0;
     const double outwards = k == 0 ? -1 : 1;
     if (!find_end(line, start, outwards, spacing, t)) return false;
-    ends[static_cast<std::size_t>(k)] = settled_end(surfaces, line, t, outwards, X_BA);
+    ends[static_cast<std::size_t>(k)] =
+        settled_end(surfaces, line, t, outwards, X_BA, kReach * spacing);
   }
   if (ends[1].gap < ends[0].gap) std::swap(ends[0], ends[1]);
   return true;

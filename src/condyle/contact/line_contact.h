@@ -25,11 +25,6 @@ inline constexpr double kWithinEdge = 5e-10;
 /// The relative curvature nearly vanishes in one direction, in which neither surface bends.
 [[nodiscard]] bool is_line(const ContactLinearization& contact, const Eigen::Matrix3d& R_BA);
 
-/// Slides two places across a line until the normals are opposite but for the tilt along it.
-[[nodiscard]] GapMinimum settle_across(const SurfacePair& surfaces,
-                                       ContactPlaces places,
-                                       const RigidTransform& X_BA);
-
 /// The ends of the line through a place, lowest first; false where there is no line or where it has
 /// no ends. `spacing` of the samples of the search [mm].
 bool find_line_ends(const SurfacePair& surfaces,

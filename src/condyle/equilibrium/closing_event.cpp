@@ -4,10 +4,12 @@
 #include <cmath>
 
 #include "condyle/contact/contact_scales.h"
-#include "condyle/contact/refine_minimum.h"
+#include "condyle/contact/settle_places.h"
 
 namespace condyle {
 namespace {
+
+constexpr double kNearby = 0.1;  // of L, that a point of contact moves between two poses
 
 /// Does the state carry at that place of that pair?
 bool carries_at(const Model& model, const EquilibriumState& state, const ClosedContact& contact) {
@@ -25,9 +27,10 @@ std::optional<double> gap_near(const Model& model,
                                const RigidTransform& X_BA) {
   const ContactPair& pair = model.pairs[static_cast<std::size_t>(contact.pair)];
   ContactPlaces places = contact.places;
-  if (!refine_minimum(pair, places, X_BA, 0.1 * model.length)) return std::nullopt;
-  const SurfacePoint B = pair.on_B->evaluate(places.on_B);
-  return B.n.dot(X_BA * pair.on_A->evaluate(places.on_A).c - B.c);
+  ContactLinearization at;
+  if (settle_places(pair, X_BA, {kNearby * model.length, true}, places, at) != Settled::kThere)
+    return std::nullopt;
+  return at.gap();
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "condyle/contact/contact_scales.h"
+#include "condyle/contact/settle_places.h"
 #include "condyle/equilibrium/motion_name.h"
 
 namespace condyle {
@@ -23,10 +24,11 @@ bool touch_beside(const ContactPair& pair,
                   const RigidTransform& X_BA,
                   const Eigen::Vector3d& t,
                   double no_gap) {
-  const ContactPlaces beside{pair.on_B->moved(places.on_B, contact.B, t),
-                             pair.on_A->moved(places.on_A, contact.A, X_BA.R.transpose() * t)};
-  const GapMinimum at = settle_across(pair, beside, X_BA);
-  return std::abs(at.gap) < no_gap && (at.point_B - contact.B.c).norm() > 0.5 * t.norm();
+  ContactPlaces beside{pair.on_B->moved(places.on_B, contact.B, t),
+                       pair.on_A->moved(places.on_A, contact.A, X_BA.R.transpose() * t)};
+  ContactLinearization at;
+  return settle_places(pair, X_BA, {t.norm()}, beside, at) == Settled::kThere &&
+         std::abs(at.gap()) < no_gap && (at.B.c - contact.B.c).norm() > 0.5 * t.norm();
 }
 
 std::string named(const std::string& contact) { return "contact " + quoted(contact); }

@@ -7,6 +7,7 @@
 
 #include "condyle/contact/contact_scales.h"
 #include "condyle/contact/contact_search.h"
+#include "condyle/contact/settle_places.h"
 #include "condyle/equilibrium/contact_shape.h"
 #include "condyle/equilibrium/dependence.h"
 #include "condyle/equilibrium/edge_in_words.h"
@@ -31,12 +32,11 @@ EquilibriumState with_all_contacts(const Model& model,
     const double L = model.length;
     searches[p].find(state.X, held ? kAnywhere * L : kTouching * L, minima, kMerge * L);
     for (const GapMinimum& minimum : minima) {
-      ClosedContact contact{static_cast<int>(p), minimum.places, 0};
       // Deep inside a body the search keeps to its samples.
-      for (int k = 0; k < 20; ++k)  // each step leaves less than half
-        slide_contact(pair, contact.places, linearize_contact(pair, contact.places, state.X),
-                      state.X, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), L);
-      all.contacts.push_back(contact);
+      ContactPlaces places = minimum.places;
+      ContactLinearization at;
+      const bool settled = settle_places(pair, state.X, {L}, places, at) == Settled::kThere;
+      all.contacts.push_back({static_cast<int>(p), settled ? places : minimum.places, 0});
       if (held) break;
     }
   }

@@ -84,7 +84,7 @@ std::string side_in_words(const Model& model, const Seen& seen, bool on_A, const
   const Eigen::Vector3d center = middle(seen, model.length);
   const bool ahead = forwards(seen, seen.direction(at.n), way) > 0;
   // A side that bends backwards in front of the middle, as that of the notch does, is no end.
-  if (std::abs(way.x()) < kOblique * way.norm() && ahead == seen.point(at.c).y() > center.y())
+  if (std::abs(way.x()) < kOblique * way.norm() && ahead == (seen.point(at.c).y() > center.y()))
     return ahead ? "anterior end" : "posterior end";
   if (model.pairs.size() < 2) return way.x() > 0 ? "lateral side" : "medial side";
   double midline = 0;
