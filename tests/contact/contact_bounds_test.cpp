@@ -21,8 +21,7 @@ void bring_together(BruteForce& brute, RigidTransform& X) {
 KnownContact contact_at(const ContactPair& pair,
                         const GapMinimum& minimum,
                         const RigidTransform& X) {
-  const ContactLinearization at = linearize_contact(pair, minimum.places, X);
-  return {at.B.c, at.A.c, at.B.K, at.A.K, at.relative_curvature[0]};
+  return known_contact(linearize_contact(pair, minimum.places, X));
 }
 
 struct Count {

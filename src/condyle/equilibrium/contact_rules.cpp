@@ -10,6 +10,8 @@ namespace {
 constexpr double kPull = 1e-12;              // round-off, of all forces
 constexpr double kFlat = 1e-7;               // relative curvature [1/mm] that counts as none
 constexpr double kRim = 2 * kSampleSpacing;  // of L, from an edge
+constexpr double kUnseen = 0.5 / 30;         // of L: a law that sums over points sees nothing of
+                                             // what touches between them, so deep at most
 constexpr double kLeftByNewton = 1e-3;       // of the distance at which places count as one
 
 const ContactPair& pair_of(const Model& model, const ClosedContact& contact) {
@@ -68,6 +70,17 @@ struct Overlaps {
 
 }  // namespace
 
+OpenPair look_at_open_pair(const ContactPair& pair,
+                           ContactSearch& search,
+                           const RigidTransform& X_BA,
+                           double L,
+                           std::vector<GapMinimum>& nearest) {
+  search.find_nearest(X_BA, kAnywhere * L, nearest, kMerge * L);
+  if (nearest.empty()) return OpenPair::kApart;
+  const double overlap = pair.law ? kUnseen : kAllowedOverlap;
+  return nearest.front().gap < -overlap * L ? OpenPair::kBuried : OpenPair::kClear;
+}
+
 void ContactChanges::apply(EquilibriumState& state) const {
   const int leaves = opens >= 0 ? opens : gives_way;
   if (leaves >= 0) state.contacts.erase(state.contacts.begin() + leaves);
@@ -110,9 +123,7 @@ void ContactRules::set_known(int pair, const Linearization& at) {
   known_.clear();
   for (std::size_t k = 0; k < at.state.contacts.size(); ++k) {
     if (at.state.contacts[k].pair != pair) continue;
-    const ContactLinearization& contact = at.contacts()[k];
-    known_.push_back(
-        {contact.B.c, contact.A.c, contact.B.K, contact.A.K, contact.relative_curvature[0]});
+    known_.push_back(known_contact(at.contacts()[k]));
   }
 }
 

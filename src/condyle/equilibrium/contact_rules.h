@@ -1,8 +1,8 @@
 #pragma once
 
-/// Which contacts of a solved state open and which close, by unilateral contact: none pulls, nothing
-/// overlaps. The one rule of all who ask: Newton between its solutions, the descent about what Newton
-/// found from it, the path of equilibria at each of its points.
+/// Which contacts of a solved state open and which close, by unilateral contact: none pulls,
+/// nothing overlaps. The one rule of all who ask: Newton between its solutions, the descent about
+/// what Newton found from it, the path of equilibria at each of its points.
 
 #include <vector>
 
@@ -31,6 +31,20 @@ struct ContactChanges {
   [[nodiscard]] bool none_needed() const { return !any() && !too_many && !off_minimum; }
   void apply(EquilibriumState& state) const;
 };
+
+/// How the two surfaces of a pair that carries nothing by rigid points lie at a pose.
+enum class OpenPair {
+  kClear,
+  kBuried,  ///< one overlaps the other by more than a converged pose may
+  kApart    ///< no known parts of them face each other
+};
+
+/// `nearest`: afterwards the nearest place, unless they are apart.
+[[nodiscard]] OpenPair look_at_open_pair(const ContactPair& pair,
+                                         ContactSearch& search,
+                                         const RigidTransform& X_BA,
+                                         double L,
+                                         std::vector<GapMinimum>& nearest);
 
 class ContactRules {
  public:

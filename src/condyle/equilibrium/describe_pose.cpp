@@ -7,6 +7,7 @@
 
 #include "condyle/contact/contact_scales.h"
 #include "condyle/contact/hertz.h"
+#include "condyle/equilibrium/contact_rules.h"
 #include "condyle/equilibrium/contact_shape.h"
 #include "condyle/equilibrium/edge_in_words.h"
 #include "condyle/equilibrium/joint_stiffness.h"
@@ -116,9 +117,6 @@ std::string nearly_conforming(const ContactPair& pair,
       quoted(pair.name), least, kDeviation, std::sqrt(2 * kDeviation / least));
 }
 
-/// A law that sums over points sees nothing of what touches between them: so deep at most [L].
-constexpr double kUnseen = 0.5 / 30;
-
 /// The nearest place of an open contact; one that is nowhere, or buried, lowers the status. One with
 /// a law of its own that touches there is closed, and carries nothing yet.
 void describe_open(const ContactPair& pair,
@@ -129,17 +127,16 @@ void describe_open(const ContactPair& pair,
                    std::vector<GapMinimum>& minima,
                    ContactResult& contact,
                    PoseResult& result) {
-  search.find_nearest(state.X, kAnywhere * L, minima, kMerge * L);
+  const OpenPair lies = look_at_open_pair(pair, search, state.X, L, minima);
   const bool watched = pair.mode == ContactMode::kAuto || pair.law;
-  const double overlap = pair.law ? kUnseen : kAllowedOverlap;
-  if (minima.empty()) {
+  if (lies == OpenPair::kApart) {
     if (!watched || !search.has_samples()) return;
     result.status = PoseStatus::kLeftPatch;
     result.reason = "contact \"" + pair.name + "\": no known parts of its surfaces face each other";
     return;
   }
   const GapMinimum& lowest = minima.front();
-  if (watched && lowest.gap < -overlap * L) {
+  if (watched && lies == OpenPair::kBuried) {
     result.status = PoseStatus::kOverlap;
     result.reason = "contact \"" + pair.name + "\": one body is buried in the other";
   }

@@ -177,7 +177,6 @@ void EquilibriumSolver::note_rim(const EquilibriumState& state,
 
 /// Are the surfaces of open pairs on their right sides?
 bool EquilibriumSolver::faces(const EquilibriumState& state, Attempt& attempt) {
-  const double L = model_->length;
   for (std::size_t p = 0; p < searches_.size(); ++p) {
     if (model_->pairs[p].mode != ContactMode::kAuto || !searches_[p].has_samples()) continue;
     const bool closed =
@@ -192,9 +191,10 @@ bool EquilibriumSolver::faces(const EquilibriumState& state, Attempt& attempt) {
       attempt.depth = *depth;
       return false;
     }
-    searches_[p].find_nearest(state.X, kAnywhere * L, minima_, kMerge * L);
     ++attempt.trace.searches;
-    if (minima_.empty() || minima_.front().gap < -kAllowedOverlap * L) return false;
+    if (look_at_open_pair(model_->pairs[p], searches_[p], state.X, model_->length, minima_) !=
+        OpenPair::kClear)
+      return false;
   }
   return true;
 }

@@ -91,9 +91,8 @@ void PairScout::set_known(int pair, const NetworkState& state) {
   for (std::size_t i = 0; i < knee_.places.size(); ++i) {
     const MovingContact& contact = state.contacts[i];
     if (knee_.places[i] != pair || !contact.closed) continue;
-    const ContactLinearization at =
-        linearize_contact(model_.pairs[pair], contact.places, state.bodies[0].X);
-    known_.push_back({at.B.c, at.A.c, at.B.K, at.A.K, at.relative_curvature[0]});
+    known_.push_back(
+        known_contact(linearize_contact(model_.pairs[pair], contact.places, state.bodies[0].X)));
   }
 }
 
