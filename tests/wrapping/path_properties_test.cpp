@@ -153,6 +153,34 @@ TEST(WrappedPath, AnEndInItsOwnBonesSurfaceIsAnchoredOrPassedOver) {
   EXPECT_EQ(ends[1].wrap, -1);
 }
 
+/// Largest difference of the wrenches of two pulls: forces [-], moments and blocks for arms of 100 mm.
+double difference(const Wrench& a, const Wrench& b) {
+  constexpr double kArm = 100;
+  return std::max({(a.f - b.f).norm(), (a.m - b.m).norm() / kArm, kArm * (a.F1 - b.F1).norm(),
+                   (a.F2 - b.F2).norm(), (a.M1 - b.M1).norm(), (a.M2 - b.M2).norm() / kArm});
+}
+
+// Newton's last step on the path is taken to first order, whatever its size.
+TEST(WrappedPath, APullDoesNotShowWhereThePathCameFrom) {
+  for (const bool on_A : {false, true}) {
+    const std::vector<PathWrap> wraps = {{"e", kEllipsoid, {}, on_A, {}}};
+    const auto path = make_wrapped_path(wraps, kX, kY);
+    auto fresh = unknown_path();
+    Wrench expected, unit;
+    const double L = path->pull({kX, kY, kY}, {}, fresh.data(), expected);
+    Random random(7);
+    for (int k = 0; k < 300; ++k) {
+      const double way = std::pow(10, random.between(-5, 0.5));  // [mm]
+      const Vector3d from = kY + way * random.direction();
+      auto kept = unknown_path();
+      ASSERT_GT(path->pull({kX, from, kY}, {Matrix3d::Identity(), from - kY}, kept.data(), unit),
+                0);
+      EXPECT_NEAR(path->pull({kX, kY, kY}, {}, kept.data(), unit), L, 1e-12 * L) << way;
+      EXPECT_LT(difference(unit, expected), 2e-9) << way;
+    }
+  }
+}
+
 TEST(WrappedPath, PullLengthAndReviseAllocateNothing) {
   const RigidTransform there{exp_rotation(Vector3d(-M_PI / 2, 0, 0)), {40, 0, 8}};
   const auto path = make_wrapped_path(

@@ -108,32 +108,31 @@ struct TorusField {
 
 /// What a step may lose of surface and Wronskian, and the longest steps [1/rate] that lose no more, by
 /// columns: measured on random ellipsoids and tori.
-constexpr double kOffSurface = 5e-13, kReach4 = 0.1, kReach6 = 0.3, kReach8 = 0.55;
+constexpr double kOffSurface = 5e-13, kReach4 = 0.1, kReach6 = 0.3, kReach7 = 0.4, kReach8 = 0.55;
 
 template <class Field>
-inline __attribute__((always_inline)) void step_with(const Field& field,
-                                                     double h,
-                                                     double reach,
-                                                     GeodesicState& at) {
+inline __attribute__((always_inline)) void step_with(
+    const Field& field, double h, double reach, const GeodesicState& from, GeodesicState& to) {
   if (reach <= kReach4)
-    nystrom::step<4>(field, h, at);
+    nystrom::step<4>(field, h, from, to);
   else if (reach <= kReach6)
-    nystrom::step<6>(field, h, at);
+    nystrom::step<6>(field, h, from, to);
+  else if (reach <= kReach7)
+    nystrom::step<7>(field, h, from, to);
   else
-    nystrom::step<8>(field, h, at);
+    nystrom::step<8>(field, h, from, to);
 }
 // What has a second body is no template.
 CONDYLE_FMA_CLONE __attribute__((noinline)) void step(const EllipsoidField& field,
                                                       double h,
                                                       double reach,
-                                                      GeodesicState& at) {
-  step_with(field, h, reach, at);
+                                                      const GeodesicState& from,
+                                                      GeodesicState& to) {
+  step_with(field, h, reach, from, to);
 }
-CONDYLE_FMA_CLONE __attribute__((noinline)) void step(const TorusField& field,
-                                                      double h,
-                                                      double reach,
-                                                      GeodesicState& at) {
-  step_with(field, h, reach, at);
+CONDYLE_FMA_CLONE __attribute__((noinline)) void step(
+    const TorusField& field, double h, double reach, const GeodesicState& from, GeodesicState& to) {
+  step_with(field, h, reach, from, to);
 }
 
 /// Squared [1/mm²], of how fast the solution changes: how near along the arc, as a complex number, the
@@ -184,8 +183,8 @@ class Walk {
       const bool last = reach <= kReach8;
       const double h = last ? left : left / std::ceil(reach / kReach8);
       if (!has_f_) tell_f();
-      GeodesicState next = at_;
-      step(field_, h, std::abs(h) * rate_, next);
+      GeodesicState next;
+      step(field_, h, std::abs(h) * rate_, at_, next);
       const double off = off_surface(solid_, place_of(next.y)), wronskian = wronskian_of(next);
       if (!(std::abs(off - off_) < kOffSurface) ||
           !(std::abs(wronskian - wronskian_of(at_)) < kOffSurface)) {

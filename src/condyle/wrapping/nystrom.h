@@ -75,15 +75,18 @@ inline __attribute__((always_inline)) double sum(const Four& v) {
   return (v[0] + v[1]) + (v[2] + v[3]);
 }
 
-/// Of order 2 columns, 4 to 8 of them. f is left as it was.
+/// Of order 2 columns, 4 to 8 of them. f is not told of the new state.
 template <int columns, class Field>
-inline __attribute__((always_inline)) void step(const Field& field, double h, GeodesicState& at) {
+inline __attribute__((always_inline)) void step(const Field& field,
+                                                double h,
+                                                const GeodesicState& from,
+                                                GeodesicState& to) {
   Sums sums;
-  add_lanes<columns, columns>(field, h, at, sums);
-  if constexpr (columns > 4) add_lanes<columns, columns - 4>(field, h, at, sums);
+  add_lanes<columns, columns>(field, h, from, sums);
+  if constexpr (columns > 4) add_lanes<columns, columns - 4>(field, h, from, sums);
   for (int i = 0; i < kSize; ++i) {
-    at.y[i] += sum(sums.u[i]);
-    at.v[i] = sum(sums.v[i]);
+    to.y[i] = from.y[i] + sum(sums.u[i]);
+    to.v[i] = sum(sums.v[i]);
   }
 }
 

@@ -107,6 +107,32 @@ Geodesic geodesic_between(const WrapShape& shape, const SurfaceFrame& start, con
   return g;
 }
 
+/// To first order a frame whose point moves on the surface by `ahead` along t and `aside` along b, while t
+/// turns towards b.
+SurfaceFrame moved(const SurfaceFrame& f, double ahead, double aside, double turn) {
+  const double nod = f.kappa * ahead + f.tau * aside, roll = f.tau * ahead + f.kappa_b * aside;
+  SurfaceFrame m = f;
+  m.x += ahead * f.t + aside * f.b;
+  m.t += turn * f.b + nod * f.n;
+  m.n -= nod * f.t + roll * f.b;
+  m.b += roll * f.n - turn * f.t;
+  return m;
+}
+
+double gauss_curvature(const SurfaceFrame& f) { return f.kappa * f.kappa_b - f.tau * f.tau; }
+
+/// Where a geodesic ends at `at` that begins `ahead` of g and ends `slide` farther; of the fields, what a
+/// small step aside changes is left out.
+ArcEnd end_of(const Geodesic& g, const SurfaceFrame& at, double ahead, double slide) {
+  const double G = gauss_curvature(g.from) * ahead, G_Q = gauss_curvature(g.to) * slide;
+  return {at.x,
+          at.t,
+          g.a + g.da * slide + G * g.r,
+          g.da - G_Q * g.a + G * g.dr,
+          g.r + g.dr * slide - ahead * g.a,
+          g.dr - G_Q * g.r - ahead * g.da};
+}
+
 /// Step (δθ, δb, δt, δℓ) from the path errors; singular only where the path does not press or B = 0.
 template <class Solid>
 OneSurfacePath over(const Solid&,
@@ -116,7 +142,7 @@ OneSurfacePath over(const Solid&,
                     bool anchored,
                     ArcPlace& place,
                     std::optional<ArcEnd>& end) {
-  constexpr double kLongest = 0.3, kSmall = 1e-9, kSame = 1e-11;
+  constexpr double kLongest = 0.3, kSmall = 1e-8, kSame = 1e-11;
   constexpr int kMostSteps = 60;
   OneSurfacePath path;
   for (int iteration = 0; iteration < kMostSteps; ++iteration) {
@@ -130,10 +156,8 @@ OneSurfacePath over(const Solid&,
     const double l1 = anchored ? 0 : d1.norm(), l2 = d2.norm();
     const double rho1 = anchored ? 0 : d1.dot(f.n) / l1, rho2 = anchored ? 0 : d1.dot(f.b);
     const double rho3 = d2.dot(f_Q.n) / l2, rho4 = d2.dot(f_Q.b);
-    path.A = g.a + l2 * g.da;
-    path.B = path.A * l1 + g.r + l2 * g.dr;
-    path.D = g.da * l1 + g.dr;
-    double turn = (rho4 + path.A * rho2) / path.B;
+    const double A = g.a + l2 * g.da;
+    double turn = (rho4 + A * rho2) / (A * l1 + g.r + l2 * g.dr);
     double aside = l1 * turn - rho2;
     double ahead = (rho1 - f.tau * aside) / f.kappa;
     double slide = (rho3 - f_Q.tau * (g.a * aside + g.r * turn)) / f_Q.kappa;  // δt + δℓ
@@ -148,22 +172,25 @@ OneSurfacePath over(const Solid&,
       ahead *= part;
       slide *= part;
     }
-    if (!anchored) place.P = onto_surface(shape, f.x + ahead * f.t + aside * f.b);
-    place.t = f.t + turn * f.b + (f.kappa * ahead + f.tau * aside) * f.n;
+    const SurfaceFrame at_P = moved(f, ahead, aside, turn);
+    if (!anchored) place.P = onto_surface(shape, at_P.x);
+    place.t = at_P.t;
     place.arc += slide - ahead;
     if (size > (known ? kSame : kSmall)) continue;
-    // What is left of the step is too small to show in frames and Jacobi fields.
-    const double y = g.a * aside + g.r * turn, dy = g.da * aside + g.dr * turn;
-    const Vector3d Q = f_Q.x + slide * f_Q.t + y * f_Q.b;
-    end = {Q, f_Q.t + dy * f_Q.b + (f_Q.kappa * slide + f_Q.tau * y) * f_Q.n, g.a, g.da, g.r, g.dr};
+    const SurfaceFrame at_Q =
+        moved(f_Q, slide, g.a * aside + g.r * turn, g.da * aside + g.dr * turn);
+    end = end_of(g, at_Q, ahead, slide);
     path.l1 = anchored ? 0 : (place.P - X).norm();
-    path.l2 = (Y - Q).norm();
+    path.l2 = (Y - at_Q.x).norm();
+    path.A = end->a + path.l2 * end->da;
+    path.B = path.A * path.l1 + end->r + path.l2 * end->dr;
+    path.D = end->da * path.l1 + end->dr;
     path.e_X = anchored ? place.t : Vector3d((place.P - X) / path.l1);
-    path.e_Y = (Y - Q) / path.l2;
-    path.n = f.n;
-    path.b = f.b;
-    path.n_Q = f_Q.n;
-    path.b_Q = f_Q.b;
+    path.e_Y = (Y - at_Q.x) / path.l2;
+    path.n = at_P.n;
+    path.b = at_P.b;
+    path.n_Q = at_Q.n;
+    path.b_Q = at_Q.b;
     path.length = path.l1 + place.arc + path.l2;
     path.found = path.e_X.dot(f.t) > 0 && path.e_Y.dot(f_Q.t) > 0;
     path.shortest =
