@@ -129,8 +129,9 @@ Pushed push(const LayerLattice& points,
             const LayerLaw& law,
             double share) {
   Pushed out;
-  LayerSide side(points, of_A, into);
-  side.add_to(X, law, share, out.wrench);
+  const LayerClosestPoints closest(into);
+  LayerSide side(points, of_A, closest);
+  side.add_to(X, law, share, LayerCare::kExact, out.wrench);
   side.add_to(X, law, share, out.sums);
   LayerSums again;
   side.add_to(X, law, share, again);

@@ -133,7 +133,7 @@ TEST(Sensitivity, DoesNotDependOnTheOriginsOfTheFrames) {
     MatrixXd J, J_there;
     here.sensitivity.derivatives(outputs, parameters, J);
     there.sensitivity.derivatives(outputs, parameters, J_there);
-    // Curvatures where a layer is pressed are those of a place up to 1e-5 mm beside (layer_side.cpp).
+    // Curvatures where a layer is pressed are those of a place up to 1e-5 mm beside (layer_packets.cpp).
     expect_same(J_there, J, knee, outputs, parameters, here.pose, 10, on_layers ? 1e-5 : 1e-7);
   }
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "condyle/surface/bspline_basis.h"
+#include "condyle/surface/patch_cells.h"
 #include "support/numerical_jacobian.h"
 
 namespace condyle {
@@ -51,6 +52,27 @@ TEST_P(PatchOfDegree, DerivativesMatchDifferences) {
     EXPECT_LT((first.col(0) - d.c_u).norm() + (first.col(1) - d.c_v).norm(), 1e-9);
     EXPECT_LT((of_u.col(0) - d.c_uu).norm() + (of_u.col(1) - d.c_uv).norm(), 1e-9);
     EXPECT_LT((of_v.col(0) - d.c_uv).norm() + (of_v.col(1) - d.c_vv).norm(), 1e-9);
+  }
+}
+
+// By knot cells as by basis functions: within a cell, on a knot, at the ends, beyond the box; knots
+// evenly spaced or not.
+TEST_P(PatchOfDegree, IsTheSameByItsCells) {
+  PatchData uneven = wavy_sheet(GetParam()[0], GetParam()[1]);
+  for (double& t : uneven.knots_u) t += t > 0 && t < 30 ? 0.4 * std::sin(t) : 0;
+  for (const PatchData& data : {wavy_sheet(GetParam()[0], GetParam()[1]), uneven}) {
+    const Patch patch(data);
+    const PatchCells cells(patch);
+    const double u[] = {7.3, 0, 30, 31}, v[] = {2.1, 15, -5, 3};
+    FourDerivatives found;
+    cells.derivatives(u, v, found);
+    for (int k = 0; k < 4; ++k) {
+      const PatchDerivatives d = patch.derivatives(u[k], v[k]);
+      const Eigen::Vector3d* all[] = {&d.c, &d.c_u, &d.c_v, &d.c_uu, &d.c_uv, &d.c_vv};
+      for (int i = 0; i < 6; ++i)
+        for (int x = 0; x < 3; ++x)  // of some 40 mm to round-off
+          EXPECT_NEAR(found.d[i][x][k], (*all[i])[x], 2e-13) << i << x << k;
+    }
   }
 }
 

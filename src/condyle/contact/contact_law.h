@@ -55,6 +55,11 @@ class ContactPotential {
   /// magnitudes [N]. Finite at every pose. Allocates nothing once it was asked.
   virtual double add_to(const RigidTransform& X_BA, Wrench& wrench) = 0;
 
+  /// The same as well as a step of Newton's method asks for, where that costs less.
+  virtual double add_roughly_to(const RigidTransform& X_BA, Wrench& wrench) {
+    return add_to(X_BA, wrench);
+  }
+
   /// U [N mm], 0 where nothing touches.
   virtual double energy(const RigidTransform& X_BA) = 0;
 

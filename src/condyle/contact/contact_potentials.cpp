@@ -52,6 +52,12 @@ double ContactPotentials::add_to(const RigidTransform& X_BA, Wrench& wrench) {
   return magnitudes;
 }
 
+double ContactPotentials::add_roughly_to(const RigidTransform& X_BA, Wrench& wrench) {
+  double magnitudes = 0;
+  for (const Entry& entry : entries_) magnitudes += entry.potential->add_roughly_to(X_BA, wrench);
+  return magnitudes;
+}
+
 double ContactPotentials::energy(const RigidTransform& X_BA) {
   double energy = 0;
   for (const Entry& entry : entries_) energy += entry.potential->energy(X_BA);

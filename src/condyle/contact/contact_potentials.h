@@ -26,6 +26,7 @@ class ContactPotentials {
   [[nodiscard]] double softest(double force, double L) const;
   [[nodiscard]] bool accept(const RigidTransform& X_BA);
   double add_to(const RigidTransform& X_BA, Wrench& wrench);
+  double add_roughly_to(const RigidTransform& X_BA, Wrench& wrench);
   [[nodiscard]] double energy(const RigidTransform& X_BA);
 
  private:

@@ -1,73 +1,81 @@
 #pragma once
 
-/// The closest point of a surface to a point that moves little from one question to the next. That
-/// of a point displaced by v moves by du = (h⁻¹)ᵃᵇ c_b·v, h = a - φ b with the metric a and the
-/// second form b, so Newton begins where the closest point should be and mostly ends there: one
+/// The closest points of a surface to four points that move little from one question to the next.
+/// That of a point displaced by v moves by du = (h⁻¹)ᵃᵇ c_b·v, h = a - φ b with the metric a and
+/// the second form b, so Newton begins where the closest point should be and mostly ends there: one
 /// evaluation of the surface. φ and n there are taken to second and first order from the place where
 /// the last step began, which is exact to round-off for the steps that end the iteration.
+///
+/// Four at once since all but the choice of the knot cell is the same arithmetic for each.
 
 #include <Eigen/Core>
 
-#include <cmath>
+#include <optional>
 
 #include "condyle/surface/patch.h"
+#include "condyle/surface/patch_cells.h"
 
 namespace condyle {
 
+/// Coordinates of four points.
+using FourPoints = double[3][4];
+
 /// In the frame of the body that carries the surface.
-struct LayerClosestPoint {
-  Place place = {Eigen::Vector3d::Zero()};
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< the point whose closest point it is [mm]
-  double phi = 0;                                ///< its signed distance [mm]
-  Eigen::Vector3d n = Eigen::Vector3d::UnitZ();  ///< ∂φ, out of the solid
-  Eigen::Matrix3d H = Eigen::Matrix3d::Zero();   ///< ∂²φ = -K (I - φ K)⁻¹ [1/mm]
-  Eigen::Matrix<double, 3, 2> turn =
-      Eigen::Matrix<double, 3, 2>::Zero();  ///< of u and v with the point; patches only
-  bool known = false;
+struct alignas(32) FourClosestPoints {
+  FourPoints at = {};         ///< the points whose closest points they are [mm]
+  double phi[4] = {};         ///< their signed distances [mm]
+  FourPoints n = {};          ///< ∂φ, out of the solid
+  double H[6][4] = {};        ///< ∂²φ = -K (I - φ K)⁻¹ [1/mm]: xx, xy, xz, yy, yz, zz
+  FourPoints place = {};      ///< numbers of their places
+  double turn[2][3][4] = {};  ///< of u and v with the points; patches only
+  double step[4] = {-1, -1, -1, -1};  ///< the last to each [mm]; below 0 nothing is known
+
+  [[nodiscard]] bool known() const { return step[0] >= 0; }
+  [[nodiscard]] Place place_of(int k) const { return {{place[0][k], place[1][k], place[2][k]}}; }
+  /// Four times the k-th.
+  [[nodiscard]] FourClosestPoints repeated(int k) const;
 };
 
-/// Where φ of a point may be known from an earlier one: nowhere does it change by more than the way
-/// that the point went.
-struct PhiBound {
-  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< [mm]
-  double phi = -1;                                 ///< [mm], unknown below 0
-
-  PhiBound() = default;
-  explicit PhiBound(const LayerClosestPoint& closest) : from(closest.at), phi(closest.phi) {}
-
-  /// Is φ > `radius` at p?
-  [[nodiscard]] bool is_clear(const Eigen::Vector3d& p, double radius) const {
-    const double rest = phi - radius;
-    return rest > 0 && (p - from).squaredNorm() < rest * rest;
-  }
-};
-
+/// Constant: shared between threads.
 class LayerClosestPoints {
  public:
+  /// The surface is referred to.
   explicit LayerClosestPoints(const Surface& surface);
 
-  /// The closest point of p, searched from that of a point near it, `from`, which may be `closest`
-  /// itself. `step`: of the last iteration at most [mm]; φ is then good to its cube, n to its square. Of
-  /// a point outside that is known to be, φ may be told too small by a step of 0.2 mm at most.
-  void find(const Eigen::Vector3d& p,
-            const LayerClosestPoint& from,
+  [[nodiscard]] const Surface& surface() const { return surface_; }
+
+  /// Does finding one cost as much as finding four? On a patch it does.
+  [[nodiscard]] bool finds_in_fours() const { return patch_ != nullptr; }
+
+  /// The closest points of p, searched from those of points near them, `from`, which may be
+  /// `closest` itself. `step`: of the last iteration at most [mm]; φ is then good to its cube, n to
+  /// its square. Of a point outside that is known to be, φ may be told too small by a step of 0.2 mm
+  /// at most. Of points whose bits are not in `asked` `closest` stays as it is,
+  /// unless they are found in fours.
+  void find(const FourPoints& p,
+            const FourClosestPoints& from,
             double step,
-            LayerClosestPoint& closest) const;
+            FourClosestPoints& closest,
+            unsigned asked = 15) const;
 
   /// From anywhere.
-  void find_anew(const Eigen::Vector3d& p, LayerClosestPoint& closest) const;
+  void find_anew(const FourPoints& p, FourClosestPoints& closest) const;
 
  private:
-  bool follow(const Eigen::Vector3d& p,
-              Eigen::Vector2d x,
-              double step,
-              LayerClosestPoint& closest) const;
-  void find_by_surface(const Eigen::Vector3d& p,
+  /// Bits of those that were not found.
+  unsigned follow(const FourPoints& p,
+                  const FourClosestPoints& from,
+                  double step,
+                  FourClosestPoints& closest) const;
+  void find_by_surface(const FourPoints& p,
+                       int k,
                        const Place& start,
-                       LayerClosestPoint& closest) const;
+                       FourClosestPoints& closest) const;
 
   const Surface& surface_;
   const Patch* patch_;  ///< null where it is none
+  std::optional<PatchCells> cells_;
+  double u_[2] = {}, v_[2] = {};  ///< how far places are followed
 };
 
 }  // namespace condyle

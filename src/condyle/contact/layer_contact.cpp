@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -24,7 +26,8 @@ constexpr std::size_t kLevels = kCells.size();
 /// The lattices of a pair's surfaces, made when they are first asked for.
 class Lattices {
  public:
-  explicit Lattices(const ContactPair& pair) : on_B(pair.on_B), on_A(pair.on_A) {
+  explicit Lattices(const ContactPair& pair)
+      : on_B(pair.on_B), on_A(pair.on_A), into_B(*on_B), into_A(*on_A) {
     if (of_A(0) == nullptr && of_B(0) == nullptr)
       throw std::invalid_argument("contact \"" + pair.name +
                                   "\": a layer needs bounds of one of its surfaces at least");
@@ -47,6 +50,7 @@ class Lattices {
   }
 
   const std::shared_ptr<const Surface> on_B, on_A;
+  const LayerClosestPoints into_B, into_A;
 
  private:
   struct Entry {
@@ -66,20 +70,25 @@ class Lattices {
 class BothSides {
  public:
   BothSides(const Lattices& lattices, std::size_t level) : lattices_(lattices), level_(level) {
-    if (const LayerLattice* points = lattices.of_A(level)) add(*points, true, *lattices.on_B);
-    if (const LayerLattice* points = lattices.of_B(level)) add(*points, false, *lattices.on_A);
+    if (const LayerLattice* points = lattices.of_A(level)) add(*points, true, lattices.into_B);
+    if (const LayerLattice* points = lattices.of_B(level)) add(*points, false, lattices.into_A);
   }
 
   void reset() {
     for (LayerSide& side : sides_) side.reset();
+    has_sums_ = false;
   }
   /// Of the sides that have points.
   [[nodiscard]] double count() const { return static_cast<double>(sides_.size()); }
   /// At a pose, of layers `factor` times as stiff.
-  LayerSums sums(const RigidTransform& X, const LayerLaw& law, double factor = 1) {
-    LayerSums all;
-    for (LayerSide& side : sides_) side.add_to(X, law, factor * share(), all);
-    return all;
+  const LayerSums& sums(const RigidTransform& X, const LayerLaw& law, double factor = 1) {
+    if (has_sums_ && X_.R == X.R && X_.p == X.p && factor_ == factor) return sums_;
+    sums_ = {};
+    for (LayerSide& side : sides_) side.add_to(X, law, factor * share(), sums_);
+    X_ = X;
+    factor_ = factor;
+    has_sums_ = true;
+    return sums_;
   }
   LayerRateSums rate_sums(const RigidTransform& X, const LayerLaw& law) {
     LayerRateSums all;
@@ -87,9 +96,10 @@ class BothSides {
     return all;
   }
   /// Their wrench on A, added; the sum of the forces' magnitudes [N].
-  double add_to(const RigidTransform& X, const LayerLaw& law, double factor, Wrench& wrench) {
+  double add_to(
+      const RigidTransform& X, const LayerLaw& law, double factor, LayerCare care, Wrench& wrench) {
     double force = 0;
-    for (LayerSide& side : sides_) force += side.add_to(X, law, factor * share(), wrench);
+    for (LayerSide& side : sides_) force += side.add_to(X, law, factor * share(), care, wrench);
     return force;
   }
   /// What the corners of the lattices' cells would carry.
@@ -114,7 +124,7 @@ class BothSides {
 
  private:
   [[nodiscard]] double share() const { return 1 / count(); }
-  void add(const LayerLattice& points, bool of_A, const Surface& into) {
+  void add(const LayerLattice& points, bool of_A, const LayerClosestPoints& into) {
     sides_.emplace_back(points, of_A, into);
     of_A_.push_back(of_A);
   }
@@ -123,6 +133,10 @@ class BothSides {
   std::size_t level_;
   std::vector<LayerSide> sides_;
   std::vector<bool> of_A_;
+  LayerSums sums_;  ///< at X_, of layers factor_ times as stiff
+  RigidTransform X_;
+  double factor_ = 1;
+  bool has_sums_ = false;
 };
 
 class LayerContact final : public ContactPotential {
@@ -180,7 +194,11 @@ class LayerContact final : public ContactPotential {
   }
 
   double add_to(const RigidTransform& X_BA, Wrench& wrench) override {
-    return sides().add_to(X_BA, law_, factor_, wrench);
+    return sides().add_to(X_BA, law_, factor_, LayerCare::kExact, wrench);
+  }
+
+  double add_roughly_to(const RigidTransform& X_BA, Wrench& wrench) override {
+    return sides().add_to(X_BA, law_, factor_, LayerCare::kRough, wrench);
   }
 
   double energy(const RigidTransform& X_BA) override {
@@ -204,7 +222,7 @@ class LayerContact final : public ContactPotential {
   /// 0.15 N^(-5/4), 0.38 of all.
   [[nodiscard]] double lattice_error(const RigidTransform& X_BA) {
     constexpr double kUnseen = 0.15;
-    const LayerSums here = sides().sums(X_BA, law_);
+    const LayerSums& here = sides().sums(X_BA, law_);
     const CornerForce shifted = sides().at_corners(X_BA, law_);
     const double force = std::max(here.force, shifted.force);
     if (!(force > 0)) return 0;
@@ -246,7 +264,7 @@ class LayerContact final : public ContactPotential {
 };
 
 std::optional<Objection> LayerContact::describe(const RigidTransform& X_BA, ContactResult& result) {
-  const LayerSums sums = sides().sums(X_BA, law_);
+  const LayerSums& sums = sides().sums(X_BA, law_);
   result.closed = sums.force > 0;
   if (!result.closed) return std::nullopt;
   ContactPointResult point;
@@ -277,7 +295,7 @@ std::optional<Objection> LayerContact::describe(const RigidTransform& X_BA, Cont
 
 // The resultant Σ w p x / Σ w p.
 bool LayerContact::rates(const RigidTransform& X_BA, ContactRates& rates) {
-  const LayerSums sums = sides().sums(X_BA, law_);
+  const LayerSums& sums = sides().sums(X_BA, law_);
   if (!(sums.force > 0)) return false;
   const LayerRateSums change = sides().rate_sums(X_BA, law_);
   const Vector3d center = sums.center_of_pressure();

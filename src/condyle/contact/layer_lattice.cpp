@@ -88,24 +88,21 @@ void close_block(std::size_t first, LayerLattice& lattice) {
   lattice.blocks.push_back(block);
 }
 
-/// Cells of a rectangle in blocks of neighbours; `add` is told u, v and the size of each.
+/// Cells of a rectangle in blocks of neighbours, in each of which four by four go together; `add` is
+/// told u, v and the size of each.
 template <typename Add>
-void add_blocks(const Midpoints& u,
-                const Midpoints& v,
-                int chart,
-                int per_span,
-                LayerLattice& lattice,
-                const Add& add) {
-  constexpr int kSpans = 1;  // of a block, in either direction
-  const auto side = static_cast<std::size_t>(kSpans * per_span);
-  for (std::size_t i0 = 0; i0 < u.t.size(); i0 += side)
-    for (std::size_t j0 = 0; j0 < v.t.size(); j0 += side) {
+void add_blocks(
+    const Midpoints& u, const Midpoints& v, int chart, LayerLattice& lattice, const Add& add) {
+  constexpr std::size_t kSide = 4;  // of a block, in cells
+  for (std::size_t i0 = 0; i0 < u.t.size(); i0 += kSide)
+    for (std::size_t j0 = 0; j0 < v.t.size(); j0 += kSide) {
       const std::size_t first = lattice.x.size();
-      for (std::size_t i = i0; i < std::min(i0 + side, u.t.size()); ++i)
-        for (std::size_t j = j0; j < std::min(j0 + side, v.t.size()); ++j) {
-          add(Eigen::Vector2d(u.t[i], v.t[j]), u.width[i] * v.width[j]);
-          lattice.cell.resize(lattice.x.size(), {chart, static_cast<int>(i), static_cast<int>(j)});
-        }
+      for (std::size_t k = 0; k < kSide * kSide; ++k) {
+        const std::size_t i = i0 + k / 8 * 2 + k % 4 / 2, j = j0 + k % 8 / 4 * 2 + k % 2;
+        if (i >= u.t.size() || j >= v.t.size()) continue;
+        add(Eigen::Vector2d(u.t[i], v.t[j]), u.width[i] * v.width[j]);
+        lattice.cell.resize(lattice.x.size(), {chart, static_cast<int>(i), static_cast<int>(j)});
+      }
       close_block(first, lattice);
     }
 }
@@ -127,7 +124,7 @@ LayerLattice layer_lattice(const Patch& patch, int per_span, bool shifted, doubl
   const Midpoints u(breaks(data.knots_u, patch.u_min(), patch.u_max()), per_span, shifted),
       v(breaks(data.knots_v, patch.v_min(), patch.v_max()), per_span, shifted);
   LayerLattice lattice;
-  add_blocks(u, v, 0, per_span, lattice, [&](const Eigen::Vector2d& place, double cell) {
+  add_blocks(u, v, 0, lattice, [&](const Eigen::Vector2d& place, double cell) {
     add_point(patch, place, cell, fade, lattice);
   });
   return lattice;
@@ -143,7 +140,7 @@ LayerLattice layer_lattice(const Surface& surface, int per_span, bool shifted) {
   for (const SurfaceChart& chart : exact->charts()) {
     const Midpoints u(even_breaks(chart.u_min, chart.u_max), per_span, shifted),
         v(even_breaks(chart.v_min, chart.v_max), per_span, shifted);
-    add_blocks(u, v, index++, per_span, lattice, [&](const Eigen::Vector2d& place, double cell) {
+    add_blocks(u, v, index++, lattice, [&](const Eigen::Vector2d& place, double cell) {
       add_point(*exact, chart.at(place.x(), place.y()), cell, lattice);
     });
   }

@@ -52,9 +52,7 @@ double LayerLaw::lateral_length() const {
   return longest;
 }
 
-LayerLaw::Answer LayerLaw::at(double d) const {
-  if (!(d > 0)) return {};
-  if (law_ == PressureLaw::kLinear) return {k_ * d, 0.5 * k_ * d * d, k_};
+LayerLaw::Answer LayerLaw::logarithmic_at(double d) const {
   const double beyond = d - deepest();
   if (!(beyond > 0)) return logarithmic(d);
   const Answer edge = logarithmic(deepest());

@@ -34,7 +34,11 @@ class LayerLaw {
   };
   /// To a depth d [mm]: zeros for d <= 0; beyond deepest() with the stiffness that it has there, so
   /// that it is finite at every pose.
-  [[nodiscard]] Answer at(double d) const;
+  [[nodiscard]] Answer at(double d) const {
+    if (!(d > 0)) return {};
+    if (law_ == PressureLaw::kLinear) return {k_ * d, 0.5 * k_ * d * d, k_};
+    return logarithmic_at(d);
+  }
 
   /// ∂p/∂ln E of the layers on B and on A at a depth d, 0 < d <= deepest() [N/mm²]: together p.
   [[nodiscard]] std::array<double, 2> pressure_by_moduli(double d) const;
@@ -53,6 +57,7 @@ class LayerLaw {
   struct Side {
     double K = 1, h = 0, mu = 1;  ///< [N/mm²], [mm], shear modulus [N/mm²]; h = 0: rigid
   };
+  [[nodiscard]] Answer logarithmic_at(double d) const;
   [[nodiscard]] Answer logarithmic(double d) const;
 
   std::array<Side, 2> sides_;

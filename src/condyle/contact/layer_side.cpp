@@ -3,109 +3,59 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cmath>
 
+#include "condyle/contact/layer_moments.h"
 #include "condyle/math/rotation.h"
-#include "condyle/math/simd.h"
 
 namespace condyle {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Cosine between the normals of two places that face each other, at most: others have passed
-/// behind the other body.
-constexpr double kOpposed = -0.3;
+Vector3d one_of(const FourPoints& x, int k) { return {x[0][k], x[1][k], x[2][k]}; }
 
-/// Points that have moved by less than this since their closest points were found are told from
-/// there: φ and n by their derivatives, with errors of this cubed and squared, over radii of
-/// curvature [mm].
-constexpr double kStill = 1e-5;
+/// What closest points say of a point near one of theirs.
+struct ToldNear {
+  double phi;
+  Vector3d n, turn;  ///< there, and how it turns on the way
+};
 
-/// Longest last step to a closest point that is known from before: its curvatures are wrong by this
-/// over radii of curvature [mm].
-constexpr double kFollowed = 3e-6;
-
-/// Longest last step to any [mm].
-constexpr double kFound = 1e-7;
+ToldNear told_near(const FourClosestPoints& closest, int k, const Vector3d& p) {
+  const Vector3d v = p - one_of(closest.at, k), n = one_of(closest.n, k);
+  const auto H = [&](int i) { return closest.H[i][k]; };
+  const Vector3d Hv(H(0) * v[0] + H(1) * v[1] + H(2) * v[2],
+                    H(1) * v[0] + H(3) * v[1] + H(4) * v[2],
+                    H(2) * v[0] + H(4) * v[1] + H(5) * v[2]);
+  return {closest.phi[k] + v.dot(n + 0.5 * Hv), n, Hv};
+}
 
 }  // namespace
 
-LayerSide::LayerSide(const LayerLattice& points, bool of_A, const Surface& into)
+LayerSide::LayerSide(const LayerLattice& points, bool of_A, const LayerClosestPoints& into)
     : points_(points),
       of_A_(of_A),
-      into_(into),
-      find_(into),
-      blocks_(points.blocks.size()),
-      closest_(points.x.size()),
-      block_bounds_(points.blocks.size()),
-      bounds_(points.x.size()),
-      is_pressed_(points.x.size(), 0) {
-  pressed_.reserve(points.x.size());
-}
+      into_(into.surface()),
+      packets_(points, into),
+      is_pressed_(points.x.size(), 0) {}
 
-void LayerSide::reset() {
-  std::fill(blocks_.begin(), blocks_.end(), LayerClosestPoint());
-  std::fill(closest_.begin(), closest_.end(), LayerClosestPoint());
-  std::fill(block_bounds_.begin(), block_bounds_.end(), PhiBound());
-  std::fill(bounds_.begin(), bounds_.end(), PhiBound());
-  is_at_ = false;
-}
+void LayerSide::reset() { packets_.reset(); }
 
-/// May a block hold points that are pressed? It is told from where its closest point was found if
-/// that is enough to say.
-bool LayerSide::is_near(std::size_t block, const RigidTransform& X) {
-  constexpr double kSurely = 0.75;
-  LayerClosestPoint& closest = blocks_[block];
-  const Vector3d center = X * points_.blocks[block].center;
-  const double radius = points_.blocks[block].radius;
-  if (block_bounds_[block].is_clear(center, radius)) return false;
-  const Vector3d v = center - closest.at;
-  if (closest.known &&
-      (closest.phi + v.norm() <= radius || closest.phi + closest.n.dot(v) < kSurely * radius))
-    return true;
-  if (closest.known)
-    find_.find(center, closest, kFound, closest);
-  else
-    find_.find_anew(center, closest);
-  block_bounds_[block] = PhiBound(closest);
-  return !(closest.phi > radius);
-}
-
-void LayerSide::press(std::size_t point, const LayerClosestPoint& block, const RigidTransform& X) {
-  const Vector3d p = X * points_.x[point];
-  if (bounds_[point].is_clear(p, 0)) return;
-  LayerClosestPoint& closest = closest_[point];
-  if (!closest.known)
-    find_.find(p, block, kFound, closest);
-  else if (!((p - closest.at).squaredNorm() < kStill * kStill))
-    find_.find(p, closest, kFollowed, closest);
-  bounds_[point] = PhiBound(closest);
-  const Vector3d v = p - closest.at, Hv = closest.H * v;
-  const double phi = closest.phi + closest.n.dot(v) + 0.5 * v.dot(Hv);
-  if (!(phi < 0)) return;
-  const Vector3d n = closest.n + Hv;
-  if (n.dot(X.R * points_.n[point]) < kOpposed) pressed_.push_back({point, phi, p, n});
-}
-
-/// Finds the points that are pressed, if it does not know them.
-void LayerSide::press_at(const RigidTransform& X_BA) {
-  if (is_at_ && X_.R == X_BA.R && X_.p == X_BA.p) return;
-  const RigidTransform X = of_A_ ? X_BA : X_BA.inverse();
-  pressed_.clear();
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    if (!is_near(b, X)) continue;
-    const LayerBlock& block = points_.blocks[b];
-    for (std::size_t i = block.first; i < block.first + block.count; ++i) press(i, blocks_[b], X);
-  }
-  X_ = X_BA;
-  is_at_ = true;
+const LayerPackets& LayerSide::press_at(const RigidTransform& X_BA, LayerCare care) {
+  packets_.press_at(of_A_ ? X_BA : X_BA.inverse(), care);
+  return packets_;
 }
 
 std::size_t LayerSide::pressed(const RigidTransform& X_BA) {
-  press_at(X_BA);
-  return pressed_.size();
+  return press_at(X_BA, LayerCare::kExact).points();
+}
+
+/// Of each pressed point.
+template <typename Each>
+void LayerSide::for_pressed(const RigidTransform& X_BA, const Each& each) {
+  const LayerPackets& packets = press_at(X_BA, LayerCare::kExact);
+  for (std::size_t i = 0; i < packets.size(); ++i)
+    for (int k = 0; k < 4; ++k)
+      if (packets[i].pressed[k] > 0) each(packets[i], k, packets[i].point[k]);
 }
 
 namespace {
@@ -139,86 +89,12 @@ void add_to_sums(const Push& push, LayerSums& sums) {
   sums.normal = push.n;
 }
 
-/// Sums over points in the frame of the other body, s being the arms of forces f = ±p n.
-struct Moments {
-  double force = 0;                   ///< Σ w p [N]
-  Vector3d f = Vector3d::Zero();      ///< Σ w f [N]
-  Matrix3d s_f = Matrix3d::Zero();    ///< Σ w s fᵀ [N mm]
-  Matrix3d G = Matrix3d::Zero();      ///< Σ w G [N/mm]
-  Matrix3d S_G = Matrix3d::Zero();    ///< Σ w [s]x G [N]
-  Matrix3d S_G_S = Matrix3d::Zero();  ///< Σ w [s]x G [s]x [N mm]
-};
-
-CONDYLE_FMA_CLONE
-void add_point(
-    const Vector3d& s, const Vector3d& n, const Matrix3d& H, double wp, double wk, Moments& sums) {
-  double G[3][3], SG[3][3];
-  for (int j = 0; j < 3; ++j)
-    for (int i = 0; i < 3; ++i) G[j][i] = wp * H(i, j) - wk * n[i] * n[j];
-  for (int j = 0; j < 3; ++j) {
-    SG[j][0] = s[1] * G[j][2] - s[2] * G[j][1];
-    SG[j][1] = s[2] * G[j][0] - s[0] * G[j][2];
-    SG[j][2] = s[0] * G[j][1] - s[1] * G[j][0];
-  }
-  sums.force += wp;
-  for (int j = 0; j < 3; ++j) {
-    sums.f[j] += wp * n[j];
-    for (int i = 0; i < 3; ++i) {
-      sums.s_f(i, j) += s[i] * (wp * n[j]);
-      sums.G(i, j) += G[j][i];
-      sums.S_G(i, j) += SG[j][i];
-    }
-  }
-  for (int i = 0; i < 3; ++i) {  // the rows of [s]x G times [s]x
-    sums.S_G_S(i, 0) += SG[1][i] * s[2] - SG[2][i] * s[1];
-    sums.S_G_S(i, 1) += SG[2][i] * s[0] - SG[0][i] * s[2];
-    sums.S_G_S(i, 2) += SG[0][i] * s[1] - SG[1][i] * s[0];
-  }
-}
-
-Vector3d axis_of(const Matrix3d& s_f) {
-  return {s_f(1, 2) - s_f(2, 1), s_f(2, 0) - s_f(0, 2), s_f(0, 1) - s_f(1, 0)};
-}
-
-/// Points fixed on A, all in the frame of B.
-void add_to_wrench_of_A(const Moments& sums, Wrench& wrench) {
-  wrench.f += sums.f;
-  wrench.m += axis_of(sums.s_f);
-  wrench.F1 += sums.G;
-  wrench.F2 += sums.S_G.transpose();  // -G S, G being symmetric
-  wrench.M1 += sums.S_G;
-  wrench.M2 += sums.s_f - sums.s_f.trace() * Matrix3d::Identity() - sums.S_G_S;
-}
-
-/// Points fixed on B, all in the frame of A, n out of A: f = -p n.
-void add_to_wrench_of_B(const Moments& sums, const Matrix3d& R, Wrench& wrench) {
-  const Vector3d f = -(R * sums.f);
-  const Matrix3d s_f = -(R * sums.s_f * R.transpose()), G = R * sums.G * R.transpose(),
-                 S_G = R * sums.S_G * R.transpose(), S_G_S = R * sums.S_G_S * R.transpose(),
-                 f_x = skew(f);
-  wrench.f += f;
-  wrench.m += axis_of(s_f);
-  wrench.F1 += G;
-  wrench.F2 += S_G.transpose() - f_x;
-  wrench.M1 += S_G + f_x;
-  wrench.M2 -= S_G_S + s_f.transpose() - s_f.trace() * Matrix3d::Identity();
-}
-
 }  // namespace
 
-double LayerSide::add_to(const RigidTransform& X_BA,
-                         const LayerLaw& law,
-                         double share,
-                         Wrench& wrench) {
-  press_at(X_BA);
-  Moments sums;
-  for (const Pressed& pressed : pressed_) {
-    const LayerLaw::Answer answer = law.at(-pressed.phi);
-    const double w = share * points_.area[pressed.point];
-    const Vector3d s = of_A_ ? Vector3d(pressed.p - X_BA.p) : pressed.p;
-    add_point(s, pressed.n, closest_[pressed.point].H, w * answer.pressure, w * answer.stiffness,
-              sums);
-  }
+double LayerSide::add_to(
+    const RigidTransform& X_BA, const LayerLaw& law, double share, LayerCare care, Wrench& wrench) {
+  const Vector3d origin = of_A_ ? X_BA.p : Vector3d(Vector3d::Zero());
+  const LayerMoments sums = layer_moments(press_at(X_BA, care), law, share, origin);
   if (of_A_)
     add_to_wrench_of_A(sums, wrench);
   else
@@ -230,16 +106,15 @@ void LayerSide::add_to(const RigidTransform& X_BA,
                        const LayerLaw& law,
                        double share,
                        LayerSums& sums) {
-  press_at(X_BA);
-  for (const Pressed& pressed : pressed_) {
-    const Vector3d& own = points_.x[pressed.point];
-    const Vector3d out_of_B = of_A_ ? pressed.n : Vector3d(-(X_BA.R * pressed.n));
-    const double w = share * points_.area[pressed.point];
-    const double faded = points_.faded.empty() ? 0 : share * points_.faded[pressed.point];
-    add_to_sums({law.at(-pressed.phi), w, faded, -pressed.phi, of_A_ ? pressed.p : own, out_of_B,
-                 into_.edge_distance(closest_[pressed.point].place) < 0},
+  for_pressed(X_BA, [&](const LayerPacket& packet, int k, std::size_t i) {
+    const Vector3d n = one_of(packet.n, k);
+    const double depth = -packet.phi[k];
+    add_to_sums({law.at(depth), share * points_.area[i],
+                 points_.faded.empty() ? 0 : share * points_.faded[i], depth,
+                 of_A_ ? one_of(packet.p, k) : points_.x[i], of_A_ ? n : Vector3d(-(X_BA.R * n)),
+                 into_.edge_distance(packet.closest.place_of(k)) < 0},
                 sums);
-  }
+  });
 }
 
 // With the arm s of the point and n out of B: dp = -W'' n.(da + dπ x s), whichever body carries the
@@ -248,12 +123,11 @@ void LayerSide::add_to(const RigidTransform& X_BA,
                        const LayerLaw& law,
                        double share,
                        LayerRateSums& sums) {
-  press_at(X_BA);
-  for (const Pressed& pressed : pressed_) {
-    const double depth = -pressed.phi, w = share * points_.area[pressed.point];
+  for_pressed(X_BA, [&](const LayerPacket& packet, int k, std::size_t i) {
+    const double depth = -packet.phi[k], w = share * points_.area[i];
     const LayerLaw::Answer answer = law.at(depth);
-    const Vector3d n = of_A_ ? pressed.n : Vector3d(-(X_BA.R * pressed.n));
-    const Vector3d x = of_A_ ? pressed.p : points_.x[pressed.point], s = x - X_BA.p;
+    const Vector3d n = of_A_ ? one_of(packet.n, k) : Vector3d(-(X_BA.R * one_of(packet.n, k)));
+    const Vector3d x = of_A_ ? one_of(packet.p, k) : points_.x[i], s = x - X_BA.p;
     Eigen::Matrix<double, 1, 6> rate;
     rate << n.transpose(), s.cross(n).transpose();
     rate *= -w * answer.stiffness;
@@ -272,18 +146,17 @@ void LayerSide::add_to(const RigidTransform& X_BA,
       sums.stiffer[side].f += stiffer * n;
       sums.stiffer[side].m += stiffer * s.cross(n);
     }
-  }
+  });
 }
 
 void LayerSide::add_pressures(const RigidTransform& X_BA,
                               const LayerLaw& law,
                               std::vector<PressurePoint>& points) {
-  press_at(X_BA);
-  for (const Pressed& pressed : pressed_) {
-    const std::size_t i = pressed.point;
-    points.push_back({of_A_, points_.place[i], points_.x[i], law.at(-pressed.phi).pressure,
-                      -pressed.phi, points_.area[i]});
-  }
+  for_pressed(X_BA, [&](const LayerPacket& packet, int k, std::size_t i) {
+    const double depth = -packet.phi[k];
+    points.push_back(
+        {of_A_, points_.place[i], points_.x[i], law.at(depth).pressure, depth, points_.area[i]});
+  });
 }
 
 void LayerSide::add_corner(std::size_t corner,
@@ -297,11 +170,11 @@ void LayerSide::add_corner(std::size_t corner,
   Vector3d n = Vector3d::Zero(), turn = Vector3d::Zero();
   for (const int k : corners.around[corner]) {
     if (k < 0 || is_pressed_[static_cast<std::size_t>(k)] == 0) continue;
-    const LayerClosestPoint& closest = closest_[static_cast<std::size_t>(k)];
-    const Vector3d v = p - closest.at, Hv = closest.H * v;
-    phi += closest.phi + closest.n.dot(v) + 0.5 * v.dot(Hv);
-    n += closest.n;
-    turn += Hv;
+    const LayerPackets::Slot slot = packets_.slot_of(static_cast<std::size_t>(k));
+    const ToldNear told = told_near(slot.packet.closest, slot.k, p);
+    phi += told.phi;
+    n += told.n;
+    turn += told.turn;
     ++count;
   }
   if (!(phi < 0)) return;
@@ -318,22 +191,22 @@ void LayerSide::add_to(const RigidTransform& X_BA,
                        double share,
                        const LayerCorners& corners,
                        CornerForce& sums) {
-  press_at(X_BA);
   is_done_.resize(corners.lattice.x.size(), 0);
   const RigidTransform X = of_A_ ? X_BA : X_BA.inverse();
   CornerForce own;
-  for (const Pressed& pressed : pressed_) is_pressed_[pressed.point] = 1;
-  for (const Pressed& pressed : pressed_)
-    for (const int corner : corners.of_cell[pressed.point]) {
+  for_pressed(X_BA, [&](const LayerPacket&, int, std::size_t i) { is_pressed_[i] = 1; });
+  for_pressed(X_BA, [&](const LayerPacket&, int, std::size_t i) {
+    for (const int corner : corners.of_cell[i]) {
       if (corner < 0 || is_done_[static_cast<std::size_t>(corner)] != 0) continue;
       is_done_[static_cast<std::size_t>(corner)] = 1;
       add_corner(static_cast<std::size_t>(corner), X, law, share, corners, own);
     }
-  for (const Pressed& pressed : pressed_) {
-    is_pressed_[pressed.point] = 0;
-    for (const int corner : corners.of_cell[pressed.point])
+  });
+  for_pressed(X_BA, [&](const LayerPacket&, int, std::size_t i) {
+    is_pressed_[i] = 0;
+    for (const int corner : corners.of_cell[i])
       if (corner >= 0) is_done_[static_cast<std::size_t>(corner)] = 0;
-  }
+  });
   sums.force += own.force;
   sums.on_A += of_A_ ? own.on_A : Vector3d(-(X_BA.R * own.on_A));
 }

@@ -16,13 +16,12 @@
 #include <Eigen/Core>
 
 #include <array>
-#include <limits>
 #include <vector>
 
 #include "condyle/contact/contact_result.h"
-#include "condyle/contact/layer_closest.h"
 #include "condyle/contact/layer_lattice.h"
 #include "condyle/contact/layer_law.h"
+#include "condyle/contact/layer_packets.h"
 #include "condyle/elements/wrench.h"
 #include "condyle/math/rigid_transform.h"
 
@@ -73,7 +72,7 @@ struct CornerForce {
 class LayerSide {
  public:
   /// Points of A pressed into B's surface, or the other way round. All is referred to.
-  LayerSide(const LayerLattice& points, bool of_A, const Surface& into);
+  LayerSide(const LayerLattice& points, bool of_A, const LayerClosestPoints& into);
 
   /// As newly made. Allocates nothing.
   void reset();
@@ -83,7 +82,11 @@ class LayerSide {
 
   /// Adds `share` of the wrench on A; returns the sum of the forces' magnitudes [N]. Allocates
   /// nothing.
-  double add_to(const RigidTransform& X_BA, const LayerLaw& law, double share, Wrench& wrench);
+  double add_to(const RigidTransform& X_BA,
+                const LayerLaw& law,
+                double share,
+                LayerCare care,
+                Wrench& wrench);
 
   /// Adds `share` of what the corners of the points' cells would carry. Their closest points are
   /// told from those of the pressed points around them by φ, n and H: between four of these the
@@ -106,16 +109,9 @@ class LayerSide {
                      std::vector<PressurePoint>& points);
 
  private:
-  /// A point that is pressed, in the frame of the body that carries the other surface.
-  struct Pressed {
-    std::size_t point = 0;
-    double phi = 0;     ///< signed distance [mm], < 0
-    Eigen::Vector3d p;  ///< where it is [mm]
-    Eigen::Vector3d n;  ///< out of the other solid
-  };
-  [[nodiscard]] bool is_near(std::size_t block, const RigidTransform& X);
-  void press(std::size_t point, const LayerClosestPoint& block, const RigidTransform& X);
-  void press_at(const RigidTransform& X_BA);
+  const LayerPackets& press_at(const RigidTransform& X_BA, LayerCare care);
+  template <typename Each>
+  void for_pressed(const RigidTransform& X_BA, const Each& each);
   void add_corner(std::size_t corner,
                   const RigidTransform& X,
                   const LayerLaw& law,
@@ -126,13 +122,8 @@ class LayerSide {
   const LayerLattice& points_;
   bool of_A_;
   const Surface& into_;
-  LayerClosestPoints find_;
-  std::vector<LayerClosestPoint> blocks_, closest_;  ///< of the blocks' centres, and of the points
-  std::vector<PhiBound> block_bounds_, bounds_;
-  std::vector<Pressed> pressed_;            ///< at X_, with room for all
+  LayerPackets packets_;
   std::vector<char> is_pressed_, is_done_;  ///< points and corners; all 0 between questions
-  RigidTransform X_;
-  bool is_at_ = false;  ///< X_
 };
 
 }  // namespace condyle

@@ -15,6 +15,7 @@
 namespace condyle {
 namespace {
 
+constexpr double kRoughly = 1e-5;  // steps longer than this ask for no more of contact laws, of L
 constexpr double kFreeStep =
     1e-3;  // longest step along a motion that nothing resists, in units of L
 
@@ -55,7 +56,7 @@ void NewtonSystem::set_parameters(const Parameters& parameters) {
   elements_.set(parameters_.elements);
 }
 
-bool NewtonSystem::assemble(const EquilibriumState& state, const Drive& drive) {
+bool NewtonSystem::assemble(const EquilibriumState& state, const Drive& drive, bool roughly) {
   check_state(state, model_);
   check_drive(drive, model_);
   X_ = state.X;
@@ -68,7 +69,9 @@ bool NewtonSystem::assemble(const EquilibriumState& state, const Drive& drive) {
     add_load(parameters_.loads[i], drive.scales[i], state.X, wrench_);
   force_scale_ += (wrench_.f - f_elements).norm() + (wrench_.m - m_elements).norm() / model_.length;
   pull_ = force_scale_;
-  if (!potentials_.empty()) force_scale_ += potentials_.add_to(state.X, wrench_);
+  if (!potentials_.empty())
+    force_scale_ += roughly ? potentials_.add_roughly_to(state.X, wrench_)
+                            : potentials_.add_to(state.X, wrench_);
 
   contacts_.clear();
   for (const ClosedContact& contact : state.contacts) {
@@ -205,8 +208,10 @@ NewtonReport Newton::iterate(EquilibriumState& state, const Drive& drive) {
     report.outcome = NewtonOutcome::kSingular;
     return report;
   }
+  bool roughly = !system_.potentials().empty();
   for (;; ++report.iterations) {
-    const bool has_directions = system_.assemble(state, drive);
+    roughly &= last_step > kRoughly * L;
+    const bool has_directions = system_.assemble(state, drive, roughly);
     report.residual = system_.out_of_balance();
     report.gap = system_.largest_gap();
     report.force_scale = system_.force_scale();
@@ -226,6 +231,11 @@ NewtonReport Newton::iterate(EquilibriumState& state, const Drive& drive) {
     const double slack = last_step < 1e-12 * L ? 1e3 : 1;
     if (report.residual <= slack * options_.tolerance * report.force_scale &&
         distance <= slack * options_.tolerance * L) {
+      if (roughly) {  // looked at more closely
+        roughly = false;
+        --report.iterations;
+        continue;
+      }
       if (!system_.revise(state)) {
         report.outcome = NewtonOutcome::kConverged;
         return report;

@@ -82,7 +82,11 @@ class NewtonSystem {
 
   /// False where an element has no length (zero_element()). Throws std::invalid_argument for a
   /// state or a drive that is not one of the model.
-  bool assemble(const EquilibriumState& state, const Drive& drive);
+  bool assemble(const EquilibriumState& state, const Drive& drive) {
+    return assemble(state, drive, false);
+  }
+  /// The same; `roughly`: contact laws are told well enough for a step, where that costs less.
+  bool assemble(const EquilibriumState& state, const Drive& drive, bool roughly);
   [[nodiscard]] bool is_assembled_at(const EquilibriumState& state) const;
 
   /// What contact laws hold while poses near X_BA are solved is chosen there.

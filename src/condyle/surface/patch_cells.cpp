@@ -1,0 +1,142 @@
+#include "condyle/surface/patch_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/math/simd.h"
+#include "condyle/surface/bspline_basis.h"
+
+namespace condyle {
+namespace {
+
+/// Basis functions on a span as polynomials from its lower end: [power][function].
+struct SpanBasis {
+  int first = 0;
+  double c[4][4];
+
+  SpanBasis(const std::vector<double>& knots, double from) {
+    const BasisValues values = basis(knots, 3, from, 3);
+    first = values.first;
+    constexpr double kFactorial[] = {1, 1, 2, 6};
+    for (int k = 0; k < 4; ++k)
+      for (int j = 0; j < 4; ++j) c[k][j] = values.d[k][j] / kFactorial[k];
+  }
+};
+
+/// Of one place: c, c_u, c_v, c_uu, c_uv, c_vv, by Horner's scheme with its derivatives.
+inline __attribute__((always_inline)) void horner(const double* a, double x, double y, Four* out) {
+  Four f[4], g[4], h[4];  // of each power of u: value, first and half the second derivative by v
+  for (int k = 0; k < 4; ++k, a += 16) {
+    const Four a3 = load_four(a + 12);
+    f[k] = a3 * y + load_four(a + 8);
+    g[k] = a3 * y + f[k];
+    h[k] = a3 * y + g[k];
+    f[k] = f[k] * y + load_four(a + 4);
+    g[k] = g[k] * y + f[k];
+    f[k] = f[k] * y + load_four(a);
+  }
+  Four c = f[3] * x + f[2], c_u = f[3] * x + c, c_uu = f[3] * x + c_u;
+  c = c * x + f[1];
+  c_u = c_u * x + c;
+  Four c_v = g[3] * x + g[2], c_uv = g[3] * x + c_v;
+  c_v = c_v * x + g[1];
+  out[0] = c * x + f[0];
+  out[1] = c_u;
+  out[2] = c_v * x + g[0];
+  out[3] = 2 * c_uu;
+  out[4] = c_uv * x + c_v;
+  out[5] = 2 * (((h[3] * x + h[2]) * x + h[1]) * x + h[0]);
+}
+
+/// Four places, each in a cell of its own.
+CONDYLE_FMA_CLONE
+void evaluate(const double* const* cells, const double* x, const double* y, double (*out)[3][4]) {
+  using Places = long __attribute__((vector_size(32)));
+  Four at[4][6];
+  for (int k = 0; k < 4; ++k) horner(cells[k], x[k], y[k], at[k]);
+  for (int i = 0; i < 6; ++i) {
+    const Four x_z = __builtin_shuffle(at[0][i], at[1][i], Places{0, 4, 2, 6}),
+               y_0 = __builtin_shuffle(at[0][i], at[1][i], Places{1, 5, 3, 7}),
+               X_Z = __builtin_shuffle(at[2][i], at[3][i], Places{0, 4, 2, 6}),
+               Y_0 = __builtin_shuffle(at[2][i], at[3][i], Places{1, 5, 3, 7});
+    store_four(out[i][0], __builtin_shuffle(x_z, X_Z, Places{0, 1, 4, 5}));
+    store_four(out[i][1], __builtin_shuffle(y_0, Y_0, Places{0, 1, 4, 5}));
+    store_four(out[i][2], __builtin_shuffle(x_z, X_Z, Places{2, 3, 6, 7}));
+  }
+}
+
+}  // namespace
+
+PatchCells::PatchCells(const Patch& patch) : patch_(patch) {
+  const PatchData& data = patch.data();
+  if (data.degree != std::array<int, 2>{3, 3}) return;
+  const auto direction = [](const std::vector<double>& knots, double min, double max) {
+    Direction all;
+    all.min = min;
+    all.max = max;
+    for (const double t : knots)
+      if (t >= min && t <= max && (all.breaks.empty() || t > all.breaks.back()))
+        all.breaks.push_back(t);
+    const auto spans = static_cast<double>(all.breaks.size() - 1);
+    const double step = (max - min) / spans;
+    bool uniform = true;
+    for (std::size_t s = 0; s < all.breaks.size(); ++s)
+      uniform &= std::abs(all.breaks[s] - min - static_cast<double>(s) * step) < 1e-12 * step;
+    all.inverse_step = uniform ? 1 / step : 0;
+    return all;
+  };
+  u_ = direction(data.knots_u, patch.u_min(), patch.u_max());
+  v_ = direction(data.knots_v, patch.v_min(), patch.v_max());
+  for (std::size_t i = 0; i + 1 < u_.breaks.size(); ++i)
+    for (std::size_t j = 0; j + 1 < v_.breaks.size(); ++j) {
+      const SpanBasis of_u(data.knots_u, u_.breaks[i]), of_v(data.knots_v, v_.breaks[j]);
+      Cell cell{};
+      for (int k = 0; k < 4; ++k)
+        for (int l = 0; l < 4; ++l)
+          for (int m = 0; m < 16; ++m) {
+            const Eigen::Vector3d& p =
+                data.control_points[static_cast<std::size_t>(of_u.first + m / 4) * data.nv +
+                                    of_v.first + m % 4];
+            for (int x = 0; x < 3; ++x)
+              cell.a[k][l][x] += of_u.c[k][m / 4] * of_v.c[l][m % 4] * p[x];
+          }
+      cells_.push_back(cell);
+    }
+}
+
+inline int PatchCells::span(const Direction& direction, double t) {
+  const int spans = static_cast<int>(direction.breaks.size()) - 1;
+  if (direction.inverse_step > 0) [[likely]]
+    return std::min(static_cast<int>((t - direction.min) * direction.inverse_step), spans - 1);
+  const auto above = std::upper_bound(direction.breaks.begin() + 1, direction.breaks.end() - 1, t);
+  return static_cast<int>(above - direction.breaks.begin()) - 1;
+}
+
+void PatchCells::derivatives_of_patch(double u, double v, int place, FourDerivatives& out) const {
+  const PatchDerivatives d = patch_.derivatives(u, v);
+  const Eigen::Vector3d* all[] = {&d.c, &d.c_u, &d.c_v, &d.c_uu, &d.c_uv, &d.c_vv};
+  for (int i = 0; i < 6; ++i)
+    for (int x = 0; x < 3; ++x) out.d[i][x][place] = (*all[i])[x];
+}
+
+void PatchCells::derivatives(const double* u, const double* v, FourDerivatives& out) const {
+  const auto is_inside = [&](int k) {
+    return u[k] >= u_.min && u[k] <= u_.max && v[k] >= v_.min && v[k] <= v_.max;
+  };
+  const double* cells[4];
+  double x[4], y[4];
+  bool inside[4];
+  for (int k = 0; k < 4; ++k) {
+    inside[k] = !cells_.empty() && is_inside(k);
+    if (cells_.empty()) continue;
+    const int i = inside[k] ? span(u_, u[k]) : 0, j = inside[k] ? span(v_, v[k]) : 0;
+    cells[k] = cells_[static_cast<std::size_t>(i) * (v_.breaks.size() - 1) + j].a[0][0];
+    x[k] = inside[k] ? u[k] - u_.breaks[i] : 0;
+    y[k] = inside[k] ? v[k] - v_.breaks[j] : 0;
+  }
+  if (!cells_.empty()) evaluate(cells, x, y, out.d);
+  for (int k = 0; k < 4; ++k)
+    if (!inside[k]) derivatives_of_patch(u[k], v[k], k, out);
+}
+
+}  // namespace condyle

@@ -1,0 +1,106 @@
+/// Which points of a rough patch are pressed into another: what is left out and what is told from
+/// closest points of poses before changes nothing.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+#include "condyle/contact/layer_side.h"
+#include "condyle/math/rotation.h"
+#include "support/bumpy_patches.h"
+
+namespace condyle {
+namespace {
+
+constexpr ElasticSurface kCartilage{10, 0.45, 3};
+
+/// A pair that is pressed by some tenths of a millimetre, and poses about it: of each three the first
+/// is half a millimetre on, as in a sweep, the others nearer and nearer, as Newton's are.
+struct Pressed {
+  ContactPair pair;
+  std::vector<RigidTransform> poses;
+
+  explicit Pressed(unsigned seed) {
+    test::Random random(seed);
+    pair = test::bumpy_pair(random, 0.2);
+    RigidTransform X;
+    X.p.z() = 0.6;
+    const auto move = [&](double length) {
+      const auto some = [&] { return length * random.between(-1, 1); };
+      X.p += Eigen::Vector3d(some(), some(), 0.3 * some());
+      X.R = exp_rotation(0.03 * Eigen::Vector3d(some(), some(), some())) * X.R;
+      poses.push_back(X);
+    };
+    for (int k = 0; k < 8; ++k)
+      for (const double length : {0.5, 4e-3, 1e-6}) move(length);
+  }
+};
+
+/// W of one point of A at depth -φ, its closest point searched from where it is seeded.
+double energy_of(const Pressed& of, const LayerLattice& points, const RigidTransform& X) {
+  const LayerLaw law(kCartilage, kCartilage, PressureLaw::kLinear);
+  const Surface& into = *of.pair.on_B;
+  double energy = 0;
+  for (std::size_t i = 0; i < points.x.size(); ++i) {
+    const Eigen::Vector3d p = X * points.x[i];
+    const SurfacePoint at = into.evaluate(into.closest(p, into.seed(p)));
+    if (at.n.dot(X.R * points.n[i]) < kOpposed)
+      energy += points.area[i] * law.at(-at.n.dot(p - at.c)).energy;
+  }
+  return energy;
+}
+
+double distance(const Wrench& a, const Wrench& b) {
+  return (a.f - b.f).norm() / b.f.norm() + (a.m - b.m).norm() / b.m.norm() +
+         (a.F1 - b.F1).norm() / b.F1.norm() + (a.M2 - b.M2).norm() / b.M2.norm();
+}
+
+TEST(LayerPackets, NothingDependsOnThePosesBefore) {
+  const LayerLaw law(kCartilage, kCartilage, PressureLaw::kLinear);
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const Pressed pressed(seed);
+    const LayerLattice lattice = layer_lattice(*pressed.pair.on_A, 3);
+    const LayerClosestPoints into(*pressed.pair.on_B);
+    LayerSide side(lattice, true, into);
+    for (const RigidTransform& X : pressed.poses) {
+      Wrench rough, exact, anew;
+      side.add_to(X, law, 1, LayerCare::kRough, rough);
+      side.add_to(X, law, 1, LayerCare::kExact, exact);
+      LayerSide fresh(lattice, true, into);
+      fresh.add_to(X, law, 1, LayerCare::kExact, anew);
+      LayerSums sums;
+      side.add_to(X, law, 1, sums);
+      ASSERT_GT(sums.points, 20);
+      EXPECT_EQ(side.pressed(X), fresh.pressed(X));
+      EXPECT_NEAR(sums.energy, energy_of(pressed, lattice, X), 1e-11 * sums.energy);
+      // Curvatures are those of places up to 1e-5 mm beside; over radii of millimetres.
+      EXPECT_LT((exact.f - anew.f).norm(), 1e-11 * anew.f.norm());
+      EXPECT_LT(distance(exact, anew), 1e-4);
+      // Third derivatives of φ times (0.02 mm)², of the depth.
+      EXPECT_LT((rough.f - anew.f).norm(), 1e-4 * anew.f.norm());
+    }
+  }
+}
+
+TEST(LayerPackets, AfterAResetNoBitDoes) {
+  const LayerLaw law(kCartilage, kCartilage, PressureLaw::kLinear);
+  const Pressed pressed(3);
+  const LayerLattice lattice = layer_lattice(*pressed.pair.on_A, 2);
+  const LayerClosestPoints into(*pressed.pair.on_B);
+  LayerSide side(lattice, true, into);
+  Wrench first, again;
+  side.add_to(pressed.poses[0], law, 1, LayerCare::kRough, first);
+  for (const RigidTransform& X : pressed.poses) {
+    Wrench wrench;
+    side.add_to(X, law, 1, LayerCare::kExact, wrench);
+  }
+  side.reset();
+  side.add_to(pressed.poses[0], law, 1, LayerCare::kRough, again);
+  EXPECT_EQ(first.f, again.f);
+  EXPECT_EQ(first.M2, again.M2);
+}
+
+}  // namespace
+}  // namespace condyle
