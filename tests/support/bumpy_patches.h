@@ -13,8 +13,7 @@
 
 #include "condyle/contact/contact_search.h"
 #include "condyle/contact/settle_places.h"
-#include "condyle/surface/bspline_basis.h"
-#include "condyle/surface/patch.h"
+#include "support/height_patch.h"
 #include "support/random.h"
 
 namespace condyle::test {
@@ -44,22 +43,10 @@ class Roughness {
 /// with knots `knot` mm apart; the solid lies below, or above where `upside_down`.
 inline std::shared_ptr<const Patch> bumpy_patch(
     double a, double b, const Roughness& roughness, double knot, bool upside_down) {
-  const double U = 12, V = 10;
-  PatchData data;
-  data.nu = static_cast<int>(2 * U / knot) + 3;
-  data.nv = static_cast<int>(2 * V / knot) + 3;
-  data.knots_u = uniform_knots(data.nu, 3, -U, U);
-  data.knots_v = uniform_knots(data.nv, 3, -V, V);
-  const auto greville = [](const std::vector<double>& knots, int i) {
-    const auto k = static_cast<std::size_t>(i);
-    return (knots[k + 1] + knots[k + 2] + knots[k + 3]) / 3;
-  };
-  for (int i = 0; i < data.nu; ++i)
-    for (int j = 0; j < data.nv; ++j) {
-      const double u = greville(data.knots_u, i), v = greville(data.knots_v, j);
-      const double z = -a * u * u / 2 - b * v * v / 2 + roughness.at(u, v);
-      data.control_points.emplace_back(u, v, upside_down ? -z : z);
-    }
+  PatchData data = height_patch(12, 10, knot, [&](double u, double v) {
+    const double z = -a * u * u / 2 - b * v * v / 2 + roughness.at(u, v);
+    return upside_down ? -z : z;
+  });
   data.orientation = upside_down ? -1 : 1;
   return std::make_shared<Patch>(data);
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "condyle/math/rotation.h"
-#include "condyle/surface/bspline_basis.h"
 #include "random/random_knee.h"
+#include "support/height_patch.h"
 
 namespace condyle::random_knees {
 namespace {
@@ -121,22 +121,11 @@ PatchData sheet(Draws& draws, double kappa1, double kappa2, bool faces_down, dou
     w = {k * std::cos(angle), k * std::sin(angle), draws.between(0, 2 * M_PI),
          amplitude / 2.5 * draws.between(0.5, 1)};
   }
-  PatchData data;
-  data.nu = static_cast<int>(2 * U / knot) + 3;
-  data.nv = static_cast<int>(2 * V / knot) + 3;
-  data.knots_u = uniform_knots(data.nu, 3, -U, U);
-  data.knots_v = uniform_knots(data.nv, 3, -V, V);
-  const auto greville = [](const std::vector<double>& knots, int i) {
-    const auto k = static_cast<std::size_t>(i);
-    return (knots[k + 1] + knots[k + 2] + knots[k + 3]) / 3;
-  };
-  for (int i = 0; i < data.nu; ++i)
-    for (int j = 0; j < data.nv; ++j) {
-      const double u = greville(data.knots_u, i), v = greville(data.knots_v, j);
-      double z = kappa1 * u * u / 2 + kappa2 * v * v / 2;
-      for (const Eigen::Vector4d& w : waves) z += w[3] * std::sin(w[0] * u + w[1] * v + w[2]);
-      data.control_points.emplace_back(u, v, z);
-    }
+  PatchData data = height_patch(U, V, knot, [&](double u, double v) {
+    double z = kappa1 * u * u / 2 + kappa2 * v * v / 2;
+    for (const Eigen::Vector4d& w : waves) z += w[3] * std::sin(w[0] * u + w[1] * v + w[2]);
+    return z;
+  });
   data.orientation = faces_down ? -1 : 1;
   // Known is what lies 2 mm within the edge of the sheet, as fits have it.
   data.mask_nu = data.mask_nv = 8;

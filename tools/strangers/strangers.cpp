@@ -15,9 +15,9 @@
 #include <exception>
 #include <fstream>
 #include <iterator>
-#include <thread>
 
 #include "condyle/math/rotation.h"
+#include "condyle/start_threads.h"
 #include "strangers/pose_time.h"
 #include "strangers/stranger_jobs.h"
 
@@ -391,7 +391,7 @@ int run(int argc, char** argv) {
   Study study;
   fs::path output;
   std::vector<std::string> parts;
-  study.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  study.threads = thread_count(0);
   app.add_option("PROGRAM", study.program, "condyle")->required()->check(CLI::ExistingFile);
   app.add_option("SOURCE", study.source, "the project's folder")
       ->required()

@@ -16,7 +16,6 @@
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
 #include "condyle/equilibrium/sweep.h"
-#include "condyle/input_error.h"
 #include "condyle/results/make_run.h"
 #include "condyle/results/output_file.h"
 #include "condyle/results/run_view.h"
@@ -47,10 +46,7 @@ int run_compare(const CompareCommand& command) {
   refuse_to_overwrite_inputs(command.output, scene);
   check_journal_file(command.output, scene, kCompareJournal);
   override_range(command.scene, command.range, scene);
-  check_wismans_scene(scene);
-  if (scene.sweep->arc_length)
-    throw InputError(command.scene +
-                     ": [sweep]: path = \"arc length\", expected \"steps\" for a comparison");
+  check_compared_scene(scene);
   const std::vector<InputFile> meshes = mesh_files(scene);
   const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
   Run run = make_run(scene, surfaces);

@@ -14,7 +14,6 @@
 #include "condyle/app/reference_options.h"
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
-#include "condyle/input_error.h"
 #include "condyle/results/run_view.h"
 #include "condyle/results/sweep_table.h"
 
@@ -51,9 +50,7 @@ int run_laxity(const LaxityCommand& command) {
   CommandClock clock;
   auto [scene, surfaces, run] =
       begin_study(talk, command.scene, command.output, [&](const Scene& s) {
-        if (!s.laxity)
-          throw InputError(s.file.string() +
-                           ": [laxity] is missing, expected the angles of flexion of the test");
+        check_laxity_scene(s);
         check_journal_file(command.output, s, kLaxityJournal);
       });
   KeptPieces kept(talk, command.output, command.resume, kLaxityJournal,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <climits>
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -79,13 +78,11 @@ bool compute_chunks(const StudyWork& work, StudyJournals& journals) {
     ++done;
     return !interrupt.asked();
   };
-  const auto samples = [](std::uint64_t chunks) {
-    return static_cast<int>(std::min<std::uint64_t>(chunks * kChunkSamples, INT_MAX));
-  };
   const auto between = [&] {
     work.team.between();
-    progress.at(samples(std::min<std::uint64_t>(work.team.size > 1 ? begun : done, missing.size())),
-                samples(missing.size()));
+    const std::uint64_t far = work.team.size > 1 ? begun : done;
+    progress.at(samples_of_chunks(std::min<std::uint64_t>(far, missing.size())),
+                samples_of_chunks(missing.size()));
     return !interrupt.asked();
   };
   return run_chunks(work.plan, work.models, work.threads(), next, keep, between) &&

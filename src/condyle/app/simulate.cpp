@@ -18,7 +18,6 @@
 #include "condyle/app/resume.h"
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
-#include "condyle/input_error.h"
 #include "condyle/results/motion_journal.h"
 #include "condyle/results/motion_view.h"
 #include "condyle/results/sweep_table.h"
@@ -124,9 +123,7 @@ int run_simulate(const SimulateCommand& command) {
   CommandClock clock;
   auto [scene, surfaces, run] =
       begin_study(talk, command.scene, command.output, [&](const Scene& s) {
-        if (!s.simulation)
-          throw InputError(s.file.string() +
-                           ": [simulate] is missing, expected time, rate and gravity");
+        check_simulated_scene(s);
         check_journal_file(command.output, s, kMotionJournal);
       });
   LineFile journal_file(journal_path(command.output));

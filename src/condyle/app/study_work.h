@@ -2,15 +2,14 @@
 
 /// A study that is being computed by one process of a team.
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <thread>
 
 #include "condyle/app/study_options.h"
 #include "condyle/app/study_team.h"
 #include "condyle/app/summary.h"
 #include "condyle/results/study_journal.h"
+#include "condyle/start_threads.h"
 #include "condyle/study/study_worker.h"
 
 namespace condyle {
@@ -26,10 +25,7 @@ struct StudyWork {
   [[nodiscard]] std::filesystem::path folder() const {
     return StudyJournals::folder(command.output);
   }
-  [[nodiscard]] int threads() const {
-    return command.threads > 0 ? command.threads
-                               : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  }
+  [[nodiscard]] int threads() const { return thread_count(command.threads); }
 };
 
 }  // namespace condyle

@@ -32,8 +32,7 @@ bool in_parallel(const std::string& stage,
                  int threads,
                  const std::function<std::function<void(int)>()>& make_task,
                  StudyProgress& progress) {
-  if (threads <= 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  threads = std::min(threads, tasks);
+  threads = std::min(thread_count(threads), tasks);
   if (tasks == 0 || !progress(stage, 0, tasks)) return tasks == 0;
   std::vector<std::function<void(int)>> own;
   for (int t = 0; t < threads; ++t) own.push_back(make_task());

@@ -5,6 +5,7 @@
 
 #include "condyle/compare/one_contact_each.h"
 #include "condyle/equilibrium/sweep.h"
+#include "condyle/input_error.h"
 #include "condyle/reference/polynomial_surface.h"
 #include "condyle/reference/wismans_solver.h"
 
@@ -62,6 +63,15 @@ SweepResult reference_sweep(const Scene& scene,
   const std::optional<std::size_t> load =
       scene.sweep->varies_load ? std::optional<std::size_t>(scene.sweep->index) : std::nullopt;
   return sweep(model, load, scene.sweep->values, starts);
+}
+
+void check_compared_scene(const Scene& scene) {
+  const std::string file = scene.file.string();
+  if (!scene.sweep) throw InputError(file + ": [sweep] is missing, expected one to compare over");
+  check_wismans_scene(scene);
+  if (scene.sweep->arc_length)
+    throw InputError(file +
+                     ": [sweep]: path = \"arc length\", expected \"steps\" for a comparison");
 }
 
 Comparison compare(const Scene& scene,

@@ -48,6 +48,9 @@ struct Comparison {
   double iterations_ours = 0, iterations_reference = 0;  ///< means per pose
 };
 
+/// Throws InputError for a scene without a sweep in steps, or one that the reference model cannot hold.
+void check_compared_scene(const Scene& scene);
+
 /// `ours` is the engine's sweep of the scene. Throws InputError for a scene that the reference
 /// model cannot hold. `on_sweep` is told of each of the sweeps behind it, whose numbers for `keeping` are those
 /// of their variants, kVariantCount of ours again; the caller may keep `ours` as that of its own.

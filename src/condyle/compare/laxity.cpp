@@ -128,6 +128,12 @@ std::size_t loaded_coordinate(const Scene& scene) {
   return static_cast<std::size_t>(k) + (load.moment ? 0 : 3);
 }
 
+void check_laxity_scene(const Scene& scene) {
+  if (!scene.laxity)
+    throw InputError(scene.file.string() +
+                     ": [laxity] is missing, expected the angles of flexion of the test");
+}
+
 LaxityResult test_laxity(const Scene& scene,
                          const std::vector<FittedSurface>& surfaces,
                          const CompareOptions& options,

@@ -22,6 +22,9 @@ struct LaxityResult {
       curves;  ///< all flexions of the knee as it is, then those of the cut one
 };
 
+/// Throws InputError for a scene without [laxity].
+void check_laxity_scene(const Scene& scene);
+
 /// Needs scene.laxity. The load is reached from none, the flexion from that of the scene, in steps.
 /// `on_curve` is told of each curve. The sweeps of curve k have the numbers 2 k, ours, and 2 k + 1 for `keeping`.
 [[nodiscard]] LaxityResult test_laxity(const Scene& scene,

@@ -188,6 +188,12 @@ MassProperties moving_mass(const Scene& scene) {
   return mass_of_solid(load_body_mesh(body), *body.density, what);
 }
 
+void check_simulated_scene(const Scene& scene) {
+  if (!scene.simulation)
+    throw InputError(scene.file.string() +
+                     ": [simulate] is missing, expected time, rate and gravity");
+}
+
 Simulation simulate(const Scene& scene,
                     const std::vector<FittedSurface>& surfaces,
                     const OnProgress& on_frame,

@@ -37,6 +37,9 @@ struct SimulationKeeping {
 /// says neither.
 [[nodiscard]] MassProperties moving_mass(const Scene& scene);
 
+/// Throws InputError for a scene without [simulate].
+void check_simulated_scene(const Scene& scene);
+
 /// Needs scene.simulation. Throws InputError for a body without mass, an open mesh, or a start that
 /// is no equilibrium, or where what is to be taken over is of another motion. `on_frame` is told of each
 /// frame.

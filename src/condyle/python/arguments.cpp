@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "condyle/input_error.h"
+#include "condyle/scene_file/section.h"
 
 namespace condyle::python {
 namespace {
@@ -88,11 +89,8 @@ std::string path(const py::handle& value, const std::string& argument) {
 }
 
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& names) {
-  const py::object close = py::module_::import("difflib").attr("get_close_matches");
-  py::list all;
-  for (const std::string& other : names) all.append(other);
-  const py::list found = close(name, all, 1);
-  return found.empty() ? "" : ", did you mean \"" + py::cast<std::string>(found[0]) + "\"?";
+  const std::string meant = nearest(name, names);
+  return meant.empty() ? "" : ", did you mean \"" + meant + "\"?";
 }
 
 }  // namespace condyle::python

@@ -1,22 +1,12 @@
 #include "condyle/compare/compare.h"
 
 #include "condyle/equilibrium/sweep.h"
-#include "condyle/input_error.h"
 #include "condyle/python/bindings.h"
 #include "condyle/python/interrupts.h"
 #include "condyle/python/study_arguments.h"
 
 namespace condyle::python {
 namespace {
-
-void expect_comparable(const Scene& scene) {
-  const std::string file = scene.file.string();
-  if (!scene.sweep) throw InputError(file + ": [sweep] is missing, expected one to compare over");
-  check_wismans_scene(scene);
-  if (scene.sweep->arc_length)
-    throw InputError(file +
-                     ": [sweep]: path = \"arc length\", expected \"steps\" for a comparison");
-}
 
 std::shared_ptr<RunData> compare_models(const py::object& scene,
                                         const py::object& degree,
@@ -27,7 +17,7 @@ std::shared_ptr<RunData> compare_models(const py::object& scene,
   const auto knee = model_without_own_loads(scene, "a comparison");
   Run run;
   run.scene = knee->scene();
-  expect_comparable(run.scene);
+  check_compared_scene(run.scene);
   const std::vector<FittedSurface>& surfaces = knee->fitted().surfaces;
   run_interruptibly(tell, [&](const OnProgress& on_sweep) {
     run.sweep = sweep(run.scene, surfaces);

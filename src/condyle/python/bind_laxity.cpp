@@ -1,5 +1,4 @@
 #include "condyle/compare/laxity.h"
-#include "condyle/input_error.h"
 #include "condyle/python/bindings.h"
 #include "condyle/python/interrupts.h"
 #include "condyle/python/study_arguments.h"
@@ -16,9 +15,7 @@ std::shared_ptr<RunData> laxity(const py::object& scene,
   const auto knee = model_without_own_loads(scene, "a test of laxity");
   Run run;
   run.scene = knee->scene();
-  if (!run.scene.laxity)
-    throw InputError(run.scene.file.string() +
-                     ": [laxity] is missing, expected the angles of flexion of the test");
+  check_laxity_scene(run.scene);
   run_interruptibly(tell, [&](const OnProgress& on_curve) {
     run.study = std::make_shared<const LaxityResult>(
         test_laxity(run.scene, knee->fitted().surfaces, options, on_curve));

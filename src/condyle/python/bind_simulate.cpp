@@ -1,4 +1,3 @@
-#include "condyle/input_error.h"
 #include "condyle/network/simulate.h"
 #include "condyle/python/bindings.h"
 #include "condyle/python/interrupts.h"
@@ -12,9 +11,7 @@ std::shared_ptr<RunData> simulate_motion(const py::object& scene, const py::obje
   const auto knee = model_without_own_loads(scene, "a motion");
   Run run;
   run.scene = knee->scene();
-  if (!run.scene.simulation)
-    throw InputError(run.scene.file.string() +
-                     ": [simulate] is missing, expected time, rate and gravity");
+  check_simulated_scene(run.scene);
   run_interruptibly(tell, [&](const OnProgress& on_frame) {
     const auto simulation =
         std::make_shared<const Simulation>(simulate(run.scene, knee->fitted().surfaces, on_frame));

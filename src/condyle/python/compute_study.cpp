@@ -4,42 +4,20 @@
 
 #include <atomic>
 #include <chrono>
-#include <climits>
 #include <exception>
-#include <system_error>
-#include <thread>
 
 #include "condyle/input_error.h"
 #include "condyle/python/interrupts.h"
 #include "condyle/results/make_run.h"
 #include "condyle/results/output_file.h"
+#include "condyle/results/temporary_folder.h"
+#include "condyle/start_threads.h"
 #include "condyle/study/study_worker.h"
 
 namespace condyle::python {
 namespace {
 
 namespace fs = std::filesystem;
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "condyle-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
-      throw InputError(fs::temp_directory_path().string() +
-                       ": no folder can be made there, expected room for a study, or output");
-    path_ = name;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code unknown;
-    fs::remove_all(path_, unknown);
-  }
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 void check_output(const StudyToCompute& asked) {
   check_output_file(asked.output);
@@ -57,14 +35,10 @@ class SamplesTold {
     if (!progress_ || done == told_ || (done < chunks_ && now < next_)) return;
     next_ = now + std::chrono::milliseconds(50);
     told_ = done;
-    progress_(samples(done), samples(chunks_));
+    progress_(samples_of_chunks(done), samples_of_chunks(chunks_));
   }
 
  private:
-  static int samples(std::uint64_t chunks) {
-    return static_cast<int>(std::min<std::uint64_t>(chunks * kChunkSamples, INT_MAX));
-  }
-
   const OnProgress& progress_;
   std::uint64_t chunks_, told_ = UINT64_MAX;
   std::chrono::steady_clock::time_point next_ = {};
@@ -129,9 +103,7 @@ std::shared_ptr<StudyColumns> compute_study(StudyToCompute asked, const OnProgre
     journals.remove();
     return open_own_study(asked.output);
   }
-  const int threads = asked.threads > 0
-                          ? asked.threads
-                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = thread_count(asked.threads);
   std::shared_ptr<const StudyModels> models;
   run_interruptibly([&](const std::function<bool()>& should_stop) {
     models = study_models(plan);

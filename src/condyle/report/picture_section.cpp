@@ -18,6 +18,7 @@
 #include "condyle/report/sections.h"
 #include "condyle/results/digest.h"
 #include "condyle/results/run_view.h"
+#include "condyle/results/temporary_folder.h"
 
 namespace condyle {
 namespace {
@@ -167,7 +168,7 @@ std::string compared_picture_section(const RunComparison& comparison) {
 
 std::string plot_section(const Run& run) {
   if (count_with_place(run.sweep) == 0 && !run.laxity() && !run.calibration()) return "";
-  const PassingFolder folder;
+  const TemporaryFolder folder;
   std::string body, folded;
   int count = 0;
   for (const fs::path& file : plot_charts(all_charts(run), folder.path(), {PlotFormat::kSvg}))
@@ -179,7 +180,7 @@ std::string plot_section(const Run& run) {
 }
 
 std::string sensitivity_figure(const Run& run) {
-  const PassingFolder folder;
+  const TemporaryFolder folder;
   std::string body;
   for (const fs::path& file : plot_sensitivities(run, folder.path(), {PlotFormat::kSvg}, 1))
     body += plot_figure(file, "sensitivities-");

@@ -4,11 +4,12 @@
 #include "condyle/report/html.h"
 #include "condyle/report/plot_figures.h"
 #include "condyle/report/study_page.h"
+#include "condyle/results/temporary_folder.h"
 
 namespace condyle {
 
 std::string study_plot_section(const StudyView& study) {
-  const PassingFolder folder;
+  const TemporaryFolder folder;
   std::string body;
   int count = 0;
   for (const auto& file : plot_study(study, folder.path(), {PlotFormat::kSvg}, MapPanels::kApart))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <climits>
 #include <exception>
 #include <memory>
 #include <thread>
@@ -84,6 +85,10 @@ std::uint64_t chunk_count(const StudyPlan& plan) {
   return (plan.samples() + kChunkSamples - 1) / kChunkSamples;
 }
 
+int samples_of_chunks(std::uint64_t chunks) {
+  return static_cast<int>(std::min<std::uint64_t>(chunks * kChunkSamples, INT_MAX));
+}
+
 NextChunk chunks_from_counter(std::vector<std::uint64_t> wanted) {
   struct Counter {
     std::vector<std::uint64_t> wanted;
@@ -104,8 +109,7 @@ bool run_chunks(const StudyPlan& plan,
                 const NextChunk& next,
                 const KeepChunk& keep,
                 const std::function<bool()>& between) {
-  if (threads <= 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  return ChunkRun(plan, std::move(models), next, keep, between).on(threads);
+  return ChunkRun(plan, std::move(models), next, keep, between).on(thread_count(threads));
 }
 
 bool run_chunks(const StudyPlan& plan,

@@ -25,6 +25,8 @@ struct StudyChunk {
 };
 
 [[nodiscard]] std::uint64_t chunk_count(const StudyPlan& plan);
+/// How many samples whole chunks hold, for those who tell of progress: INT_MAX at most.
+[[nodiscard]] int samples_of_chunks(std::uint64_t chunks);
 
 /// Hands out the numbers of chunks, each once; none when there are no more. Threads may ask at the same
 /// time.

@@ -17,6 +17,10 @@ constexpr double kBeside =
     1;  ///< so near to each other two points have closest points that do too [mm]
 constexpr double kLeaf = 0.15;  ///< [mm]
 
+void keep(const LowestGap& found, LowestGap& best) {
+  if (found.gap < best.gap) best = found;
+}
+
 }  // namespace
 
 GapProbe::GapProbe(const SurfaceSide& sampled, const SurfaceSide& other)
@@ -96,46 +100,33 @@ LowestGap GapProbe::refine(
   return {now.gap, now.point};
 }
 
-void GapProbe::keep(const LowestGap& found, LowestGap& best) const {
-  if (found.gap < best.gap) best.gap = found.gap, best.point = found.point;
-}
-
 /// The middle of a leaf, or a corner where that is not known.
-void GapProbe::look_closely(const RigidTransform& X,
-                            const Node& node,
-                            const ClosestPoint* near,
-                            LowestGap& best) const {
+void GapProbe::look_closely(const Node& node, const ClosestPoint* near, Search& search) const {
   constexpr int kRefinement = 30;  // closest points, about
-  best.left -= kRefinement;
+  search.left -= kRefinement;
   const Cell& c = node.cell;
   const double u = (c.u0 + c.u1) / 2, v = (c.v0 + c.v1) / 2;
-  LowestGap found = refine(X, c.chart, u, v, near);
+  LowestGap found = refine(search.X, c.chart, u, v, near);
   if (std::isinf(found.gap))
     for (const double a : {c.u0, c.u1})
-      for (const double b : {c.v0, c.v1}) keep(refine(X, c.chart, a, b, near), found);
-  keep(found, best);
+      for (const double b : {c.v0, c.v1}) keep(refine(search.X, c.chart, a, b, near), found);
+  keep(found, search.best);
 }
 
-void GapProbe::look(const RigidTransform& X,
-                    const Node& node,
-                    const ClosestPoint* near,
-                    LowestGap& best) const {
-  if (--best.left < 0) return;
-  if (near == nullptr && other_.is_clear(X * node.middle, node.radius)) return;
+void GapProbe::look(const Node& node, const ClosestPoint* near, Search& search) const {
+  if (--search.left < 0) return;
+  if (near == nullptr && other_.is_clear(search.X * node.middle, node.radius)) return;
   const Cell& c = node.cell;
-  look_into(X, node, read(X, c.chart, (c.u0 + c.u1) / 2, (c.v0 + c.v1) / 2, near), best);
+  look_into(node, read(search.X, c.chart, (c.u0 + c.u1) / 2, (c.v0 + c.v1) / 2, near), search);
 }
 
 /// Over a cell of radius r the gap is no lower than φ - r, nor than φ - s r - k r²/2 with its slope
 /// s and the curvatures of both surfaces.
-void GapProbe::look_into(const RigidTransform& X,
-                         const Node& node,
-                         const Reading& at,
-                         LowestGap& best) const {
-  const double found = std::min(best.gap, 0.0), r = node.radius;
+void GapProbe::look_into(const Node& node, const Reading& at, Search& search) const {
+  const double found = std::min(search.best.gap, 0.0), r = node.radius;
   const double wanted = found - std::max(kNoise, -kOfDepth * found);
   const Cell& c = node.cell;
-  if (at.known) keep({at.gap, at.point}, best);
+  if (at.known) keep({at.gap, at.point}, search.best);
   // Below what is not known of the other side nothing is said.
   if (at.gap < 0 && at.closest.edge < -3 * r) return;
   double bound = at.gap - r;
@@ -143,7 +134,7 @@ void GapProbe::look_into(const RigidTransform& X,
     bound = std::max(
         bound, at.gap - at.slope * r - (node.curvature + 2 * at.closest.curvature) * r * r / 2);
   if (bound > wanted) return;
-  if (!(r > leaf_)) return look_closely(X, node, &at.closest, best);
+  if (!(r > leaf_)) return look_closely(node, &at.closest, search);
   const double du = (c.u1 - c.u0) / 2, dv = (c.v1 - c.v0) / 2;
   for (const double a : {c.u0, c.u0 + du})
     for (const double b : {c.v0, c.v0 + dv}) {
@@ -151,7 +142,7 @@ void GapProbe::look_into(const RigidTransform& X,
       if (sampled_.edge(c.chart, u, v) < -1.5 * r) continue;
       const Node part{
           {c.chart, a, a + du, b, b + dv}, sampled_.at(c.chart, u, v).p, 0.55 * r, node.curvature};
-      look(X, part, r < kBeside ? &at.closest : nullptr, best);
+      look(part, r < kBeside ? &at.closest : nullptr, search);
     }
 }
 
@@ -198,15 +189,16 @@ LowestGap GapProbe::lowest(const RigidTransform& X) const {
   // First where it is lowest by the middles of the cells: all bounds are then the sharper.
   std::sort(seen.begin(), seen.end(),
             [](const Seen& a, const Seen& b) { return a.at.gap < b.at.gap; });
-  LowestGap best;
+  Search search{X};
   for (const Seen& one : seen) {
     if (!one.at.known) continue;
-    look_closely(X, *one.node, &one.at.closest, best);
+    look_closely(*one.node, &one.at.closest, search);
     break;
   }
-  for (const Seen& one : seen) look_into(X, *one.node, one.at, best);
-  if (best.left < 0 && best.gap > -kNoise) best.gap = std::numeric_limits<double>::quiet_NaN();
-  return best;
+  for (const Seen& one : seen) look_into(*one.node, one.at, search);
+  if (search.left < 0 && search.best.gap > -kNoise)
+    search.best.gap = std::numeric_limits<double>::quiet_NaN();
+  return search.best;
 }
 
 }  // namespace condyle::verification

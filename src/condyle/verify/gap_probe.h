@@ -16,8 +16,6 @@ struct LowestGap {
   /// [mm], negative: overlap; NaN: no number.
   double gap = std::numeric_limits<double>::infinity();
   Vector3d point;  ///< in the frame of the sampled side
-  /// Closest points that may still be asked for; below 0 not all was looked at.
-  int left = 120000;
 };
 
 /// Samples one side; the sides must outlive it.
@@ -60,22 +58,19 @@ class GapProbe {
                              double u,
                              double v,
                              const ClosestPoint* near = nullptr) const;
-  void look(const RigidTransform& X,
-            const Node& node,
-            const ClosestPoint* near,
-            LowestGap& best) const;
-  void look_into(const RigidTransform& X,
-                 const Node& node,
-                 const Reading& at,
-                 LowestGap& best) const;
-  void look_closely(const RigidTransform& X,
-                    const Node& node,
-                    const ClosestPoint* near,
-                    LowestGap& best) const;
+  /// What is looked for at one pose.
+  struct Search {
+    const RigidTransform& X;
+    LowestGap best = {};
+    int left =
+        120000;  ///< closest points that may still be asked for; below 0 not all was looked at
+  };
+  void look(const Node& node, const ClosestPoint* near, Search& search) const;
+  void look_into(const Node& node, const Reading& at, Search& search) const;
+  void look_closely(const Node& node, const ClosestPoint* near, Search& search) const;
   /// The local minimum that a place leads to; infinite where it is not known.
   [[nodiscard]] LowestGap refine(
       const RigidTransform& X, int chart, double u, double v, const ClosestPoint* near) const;
-  void keep(const LowestGap& found, LowestGap& best) const;
 
   const SurfaceSide &sampled_, &other_;
   double leaf_ = 0;  ///< radius of a cell that is not divided any more [mm]
