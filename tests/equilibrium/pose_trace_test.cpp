@@ -74,6 +74,24 @@ TEST(PoseTrace, ADisplacedStartIsFoundByTheDescent) {
   EXPECT_LT(residuals(pose).back(), 1e-12);
 }
 
+// It is counted what searches look at, whatever was looked at for other poses before.
+TEST(PoseTrace, ADescentIsGivenUpAfterSoManyPointsLookedAt) {
+  Model model = test::quadric_knee();
+  model.start = {exp_rotation(kDegree * Eigen::Vector3d(2, -5, 6)), {6, -5, -7}};
+  EquilibriumSolver patient(model);
+  ASSERT_TRUE(patient.solve().converged());
+  const long needed = patient.spent().points;
+  EXPECT_GT(needed, 1000);
+  EquilibriumOptions options;
+  options.most.points = needed / 4;
+  EquilibriumSolver hasty(model, options);
+  for (int k = 0; k < 2; ++k) {
+    const PoseResult pose = hasty.solve();
+    EXPECT_EQ(pose.status, PoseStatus::kIterationLimit) << pose.reason;
+    EXPECT_LT(hasty.spent().points, needed);
+  }
+}
+
 // The start stands at 90 degrees of a flexion of 0: its contacts are found by the descent at its own
 // value, and the way from there is taken in parts.
 TEST(PoseTrace, AStartFarFromItsValuesIsLeftInParts) {

@@ -31,6 +31,10 @@ constexpr double kSame = 0.3;       // a minimum predicted nearer to one that is
 constexpr double kRefineReach = 4;  // from a sample to the minimum that it leads to
 constexpr double kModel = 0.01;     // what the paraboloid of the gap may be wrong by in its reach
 
+// Points of surfaces that are looked at, about, by the time that it takes:
+constexpr long kRefinement = 20;  // to a minimum of the gap
+constexpr long kRim = 100;        // for the lowest point of an edge
+
 /// The spacing that is wanted, or a wider one where that would take too many samples: a small model
 /// on a large ball. The area is told by a coarse cover.
 double affordable_spacing(const Surface& surface, double wanted) {
@@ -215,6 +219,7 @@ void ContactSearch::add_minimum(int sample,
                                 double cutoff,
                                 bool lowest,
                                 std::vector<GapMinimum>& minima) {
+  looked_at_ += kRefinement;
   // The ends of a line may lie lower than any minimum.
   const std::optional<GapMinimum> minimum =
       refine(sample, X_BA, cover_->lines ? kInfinity : cutoff);
@@ -230,7 +235,7 @@ void ContactSearch::add_minimum(int sample,
 /// minimum of the gap: unrefined.
 void ContactSearch::add_rims(const RigidTransform& X_BA,
                              double cutoff,
-                             std::vector<GapMinimum>& minima) const {
+                             std::vector<GapMinimum>& minima) {
   const double reach = kRimReach * spacing_;
   const Surface &own = sampled().surface(), &facing = other().surface();
   for (const int sample : near_) {
@@ -247,11 +252,12 @@ void ContactSearch::add_rim(int sample,
                             bool of_A,
                             const RigidTransform& X_BA,
                             double cutoff,
-                            std::vector<GapMinimum>& minima) const {
+                            std::vector<GapMinimum>& minima) {
   const double reach = kRimReach * spacing_;
   const Place &own = sampled().place(sample), &there = closest(sample).place;
   const Place &on_A = sampled_on_A_ ? own : there, &on_B = sampled_on_A_ ? there : own;
   const SurfacePair pair = surfaces();
+  looked_at_ += kRim;
   const std::optional<RimMinimum> rim =
       of_A ? rim_minimum(pair.on_A, on_A, pair.on_B, on_B, X_BA, reach, cutoff)
            : rim_minimum(pair.on_B, on_B, pair.on_A, on_A, X_BA.inverse(), reach, cutoff);
@@ -363,6 +369,12 @@ void ContactSearch::find_within(const RigidTransform& X_BA,
     find(X_BA, std::min(cutoff, reach), minima, merge);
     if (!minima.empty() || cutoff >= reach) return;
   }
+}
+
+long points_looked_at(const std::vector<ContactSearch>& searches) {
+  long points = 0;
+  for (const ContactSearch& search : searches) points += search.looked_at();
+  return points;
 }
 
 }  // namespace condyle

@@ -82,6 +82,9 @@ class ContactSearch {
                     std::vector<GapMinimum>& minima,
                     double merge = 0.3);
 
+  /// Points of the surfaces that it looked at since it was made or copied, refinements as some.
+  [[nodiscard]] long looked_at() const { return looked_at_; }
+
   /// False for a pair of surfaces without bounds: nothing can be searched there.
   [[nodiscard]] bool has_samples() const { return sampled().size() > 0; }
 
@@ -93,7 +96,8 @@ class ContactSearch {
     Place place = {Eigen::Vector3d::Zero()};
     SurfacePoint at = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(),
                        Eigen::Matrix<double, 3, 2>::Zero()};
-    int near = -1;       ///< sample of the other surface
+    int near = -1;       ///< sample of the other surface, -1 beyond them
+    int from = -1;       ///< the nearest one, from where it is looked for
     bool known = false;  ///< `place` and `at` were found, at this or an earlier pose
     bool close = false;  ///< by tangent steps, so the quadric there means something
   };
@@ -160,18 +164,18 @@ class ContactSearch {
   [[nodiscard]] bool is_beside(const Eigen::Vector3d& p, double r, const Closest& closest) const;
   [[nodiscard]] Facing face_closest(const Eigen::Vector3d& p, double r, Closest& closest);
   bool faces_known_part(const Eigen::Vector3d& p, double r, Closest& closest, Facing& facing);
-  void find_closest(const Eigen::Vector3d& p, double close, Closest& closest) const;
+  void find_closest(const Eigen::Vector3d& p, double close, Closest& closest);
   [[nodiscard]] double height_over(int sample, int neighbour) const;
   [[nodiscard]] bool is_lowest_of_neighbours(int sample) const;
   [[nodiscard]] bool is_lowest(int sample, const RigidTransform& X_from_to);
   [[nodiscard]] bool nearly_faces_known_part(int sample) const;
   [[nodiscard]] bool leads_elsewhere(int sample, const RigidTransform& X_BA, double cutoff) const;
-  void add_rims(const RigidTransform& X_BA, double cutoff, std::vector<GapMinimum>& minima) const;
+  void add_rims(const RigidTransform& X_BA, double cutoff, std::vector<GapMinimum>& minima);
   void add_rim(int sample,
                bool of_A,
                const RigidTransform& X_BA,
                double cutoff,
-               std::vector<GapMinimum>& minima) const;
+               std::vector<GapMinimum>& minima);
   void add_minimum(int sample,
                    const RigidTransform& X_BA,
                    double cutoff,
@@ -221,10 +225,14 @@ class ContactSearch {
   std::vector<int> doubtful_, doubtful_other_;  ///< samples not on their side of a quadric,
   std::vector<int> doubtful_there_, doubtful_other_there_;  ///< and of another one
   int now_ = 0;
+  long looked_at_ = 0;
   std::vector<GapMinimum> nearest_;  ///< the last answer of find_nearest, and to what
   RigidTransform nearest_X_;
   double nearest_reach_ = -1, nearest_merge_ = -1;
 };
+
+/// ContactSearch::looked_at of all of them.
+[[nodiscard]] long points_looked_at(const std::vector<ContactSearch>& searches);
 
 /// How low the gap may be [mm] in a cell of radius r [mm] about a point, in a frame turned by R,
 /// that faces the other surface like that and whose curvature changes by `bend` [1/mm]. Above the

@@ -14,7 +14,10 @@ namespace condyle {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kLargest = 40;     // radius of a cluster that is worth a look [sample spacings]
+constexpr double kLargest = 40;  // radius of a cluster that is worth a look [sample spacings]
+// Points of the other surface that are looked at for a closest point, about, by the time that it takes:
+constexpr long kFromNearby = 4;     // by steps from one nearby
+constexpr long kFromAnywhere = 30;  // from a seed
 constexpr double kDoubt = 0.05;     // of the curvatures: a paraboloid is that of a sample nearby
 constexpr double kSteep = 0.7;      // cosine between two normals below which quadrics say nothing
 constexpr double kWay = 1.05;       // a distance changes by no more than the way, a chord of it
@@ -102,8 +105,9 @@ void ContactSearch::set_known(const std::vector<KnownContact>& known) {
   for (std::size_t k = 0; k < known_; ++k) {
     const KnownContact& contact = known[k];
     NearContact& near = near_contacts_[k];
-    near.on_B = cover_->on_B.nearest(contact.on_B, near.on_B);
-    near.on_A = cover_->on_A.nearest(contact.on_A, near.on_A);
+    int on_B = near.on_B, on_A = near.on_A;
+    near.on_B = cover_->on_B.nearest(contact.on_B, on_B);
+    near.on_A = cover_->on_A.nearest(contact.on_A, on_A);
     near.doubt = kDoubt * (contact.K_B.norm() + contact.K_A.norm());
     near.shift =
         bending_B_.shift(near.on_B, contact.K_B) + bending_A_.shift(near.on_A, contact.K_A);
@@ -151,9 +155,10 @@ void ContactSearch::set_discs(const std::vector<KnownContact>& known) {
 
 /// Tangent steps from the place that is known, or else from a seed, until the point closest to p is
 /// within `close` [mm].
-void ContactSearch::find_closest(const Eigen::Vector3d& p, double close, Closest& closest) const {
+void ContactSearch::find_closest(const Eigen::Vector3d& p, double close, Closest& closest) {
   const Surface& surface = other().surface();
   double slide = kInfinity;
+  looked_at_ += kFromNearby;
   for (int attempt = closest.known ? 0 : 1; attempt < 2 && slide > close; ++attempt) {
     if (attempt == 1) {
       closest.place = closest.near >= 0 ? other().place(closest.near) : surface.seed(p);
@@ -169,6 +174,7 @@ void ContactSearch::find_closest(const Eigen::Vector3d& p, double close, Closest
   closest.known = true;
   closest.close = slide <= close;
   if (closest.close) return;
+  looked_at_ += kFromAnywhere;
   closest.place = surface.closest(p, surface.seed(p));
   closest.at = surface.evaluate(closest.place);
 }
@@ -255,10 +261,9 @@ bool ContactSearch::is_clear(int index, const RigidTransform& X_from_to, double 
   Closest& closest = cluster_closest_[static_cast<std::size_t>(index)];
   if (!other().bends_evenly()) {
     const Eigen::Vector3d p = X_from_to * cluster.center;
-    const int above = closest.near < 0 && cluster.parent >= 0
-                          ? cluster_closest_[static_cast<std::size_t>(cluster.parent)].near
-                          : closest.near;
-    closest.near = other().nearest(p, above);
+    if (closest.from < 0 && cluster.parent >= 0)
+      closest.from = cluster_closest_[static_cast<std::size_t>(cluster.parent)].from;
+    closest.near = other().nearest(p, closest.from);
     if (closest.near >= 0) return is_clear_of_sample(cluster, p, cutoff, closest.near);
   }
   return is_clear_of_closest(bending_sampled().quadrics().of(index).cell, X_from_to, cutoff,
@@ -284,11 +289,12 @@ void ContactSearch::look_at(int sample, int& near, const RigidTransform& X_from_
 bool ContactSearch::visit(int index, const RigidTransform& X_from_to, double cutoff) {
   const SurfaceCover::Cluster& cluster = sampled().cluster(index);
   if (in_disc(cluster)) return true;
+  ++looked_at_;
   char& split = split_[static_cast<std::size_t>(index)];
   if (!split && cluster.radius < kLargest * spacing_ && is_clear(index, X_from_to, cutoff))
     return true;
   if (cluster.child[0] < 0) {
-    int near = cluster_closest_[static_cast<std::size_t>(index)].near;
+    int near = cluster_closest_[static_cast<std::size_t>(index)].from;
     for (int k = cluster.first; k < cluster.last; ++k)
       look_at(sampled().in_order(k), near, X_from_to, cutoff);
     return false;
@@ -306,15 +312,17 @@ void ContactSearch::estimate(int sample,
                              int& near,
                              const RigidTransform& X_from_to,
                              double cutoff) {
+  ++looked_at_;
   const SurfacePoint& own = sampled().sample(sample);
   const Eigen::Vector3d p = X_from_to * own.c;
   const double r = sampled().cell_radius(sample);
   Closest& there = closest(sample);
   Facing facing;
   if (!other().bends_evenly() && other().size() > 0) {
-    there.near = other().nearest(p, other().nearer(p, near, there.near));
+    there.from = other().nearer(p, near, there.from);
+    there.near = other().nearest(p, there.from);
+    near = there.from;
     if (there.near < 0) return;  // beyond the edge of the other surface
-    near = there.near;
     facing = facing_cell(other(), p, there.near);
     const double cell = kCell * other().cell_radius(there.near);
     const double beside = facing.beside.squaredNorm();

@@ -150,17 +150,19 @@ void SurfaceCover::find_nearest(int index, const Eigen::Vector3d& point, Candida
 }
 
 CONDYLE_FMA_CLONE
-int SurfaceCover::nearest(const Eigen::Vector3d& point, int start) const {
+int SurfaceCover::nearest(const Eigen::Vector3d& point, int& from) const {
   if (cells_.empty()) return -1;
   const auto beside = [&](int i) {
     return off_normal(point - sample(i).c, sample(i).n).squaredNorm();
   };
   const auto near = [&](int i) { return beside(i) < kLost * kLost * spacing_ * spacing_; };
-  if (start >= 0) {
-    const double within = kWithin * cell_radius(start);
-    if (beside(start) < within * within) return start;
-    int best = start;
-    double square = (sample(best).c - point).squaredNorm();
+  Candidate nearest;
+  if (from >= 0) {
+    const double within = kWithin * cell_radius(from);
+    if (beside(from) < within * within) return from;
+    auto& [best, square] = nearest;
+    best = from;
+    square = (sample(best).c - point).squaredNorm();
     for (bool moved = true; moved;) {
       moved = false;
       for (const int other : neighbours(best)) {
@@ -173,11 +175,11 @@ int SurfaceCover::nearest(const Eigen::Vector3d& point, int start) const {
         break;
       }
     }
-    if (near(best)) return best;
+    if (near(best)) return from = best;
   }
-  Candidate nearest;
   find_nearest(0, point, nearest);
-  return near(nearest.sample) ? nearest.sample : -1;
+  from = nearest.sample;
+  return near(from) ? from : -1;
 }
 
 }  // namespace condyle

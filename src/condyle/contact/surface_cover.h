@@ -64,10 +64,10 @@ class SurfaceCover {
   /// No two samples are farther apart [mm].
   [[nodiscard]] double extent() const { return extent_; }
 
-  /// The sample nearest to a point, or one of which the point lies well within the cell, walking
-  /// from the sample `start` (-1: from any); -1 where none is near it beside its normal: beyond the
-  /// samples.
-  [[nodiscard]] int nearest(const Eigen::Vector3d& point, int start) const;
+  /// The sample nearest to a point, or one of which the point lies well within the cell; -1 where
+  /// none is near it beside its normal: beyond the samples. Walks from the sample `from` (-1: from any), which
+  /// becomes the one that was found, near or not.
+  [[nodiscard]] int nearest(const Eigen::Vector3d& point, int& from) const;
 
   /// Of two samples the nearer one; the other where one is -1.
   [[nodiscard]] int nearer(const Eigen::Vector3d& point, int one, int another) const {

@@ -25,15 +25,16 @@ struct OffSurfaces {
 };
 
 struct Attempt {
-  Work most;              ///< after which nothing more is begun
-  Work spent;             ///< over the whole attempt
-  PoseTrace trace;        ///< of the way under way; effort over the whole attempt
-  NewtonReport newton;    ///< the last
-  DescentReport descent;  ///< the last
-  int zero_element = -1;  ///< that had no length on the way from the pose before
-  std::string overflow;   ///< what had no finite force on the way, in words
-  int passed_pair = -1;   ///< whose surfaces had passed through each other
-  double depth = 0;       ///< by which they had [mm]
+  Work most;               ///< after which nothing more is begun
+  Work spent;              ///< over the whole attempt
+  long points_before = 0;  ///< EquilibriumSolver::looked_at when it began
+  PoseTrace trace;         ///< of the way under way; effort over the whole attempt
+  NewtonReport newton;     ///< the last
+  DescentReport descent;   ///< the last
+  int zero_element = -1;   ///< that had no length on the way from the pose before
+  std::string overflow;    ///< what had no finite force on the way, in words
+  int passed_pair = -1;    ///< whose surfaces had passed through each other
+  double depth = 0;        ///< by which they had [mm]
   /// Of those met with the values asked for the one least beyond an edge.
   std::optional<OffSurfaces> off;
   /// The first one met on the way to those values, else the last one the solver told of.

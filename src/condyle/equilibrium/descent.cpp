@@ -86,23 +86,27 @@ DescentReport Descent::solve(EquilibriumState& state,
   DescentReport report;
   const Eigen::Vector3d origin = state.X.p;
   paths_ = paths_from_ = paths_to_ = state.paths;
+  const long before = looked_at();
   start(state.X);
   bool asked = false;
   // Attempts of Newton's method within count as well.
   const int most_iterations = std::min(2 * options_.max_steps, most.iterations);
-  while (report.steps < options_.max_steps && report.spent.iterations < most_iterations &&
-         searches_made_ < most.searches) {
-    const bool few = report.steps < kFewSteps && report.spent.iterations < 2 * kFewSteps;
+  while (report.steps < options_.max_steps && report.iterations < most_iterations &&
+         looked_at() - before < most.points) {
+    const bool few = report.steps < kFewSteps && report.iterations < 2 * kFewSteps;
     if (!few && !std::exchange(asked, true) && !goes_on()) break;
     if (!iterate(accept, report)) break;
     report.ran_away = (X_.p - origin).norm() > kFarAway * model_.length;
     if (report.ran_away) break;
   }
-  report.spent.searches = searches_made_;
+  report.searches = searches_made_;
   state.X = X_;
   if (report.converged) state = result_;
   return report;
 }
+
+/// Points of surfaces that searches looked at.
+long Descent::looked_at() const { return points_looked_at(searches_); }
 
 void Descent::start(const RigidTransform& X) {
   X_ = X;
@@ -130,7 +134,7 @@ bool Descent::start_anew() {
 /// One quadratic programme and its step; false when there is nothing more to gain.
 bool Descent::iterate(const Accept& accept, DescentReport& report) {
   ++report.steps;
-  ++report.spent.iterations;
+  ++report.iterations;
   const double L = model_.length;
   Programme programme;
   set_forces(programme);
@@ -363,7 +367,7 @@ bool Descent::try_newton(const Multipliers& multipliers,
     trial.contacts.resize(kMaxConstraints - trial.sigma.size());
   }
   report.newton = newton_.solve(trial, *drive_);
-  report.spent.iterations += report.newton.iterations;
+  report.iterations += report.newton.iterations;
   report.converged = report.newton.outcome == NewtonOutcome::kConverged && accept(trial);
   if (report.converged) result_ = trial;
   const bool refused = !report.converged && report.newton.outcome == NewtonOutcome::kConverged;

@@ -35,7 +35,8 @@ struct DescentReport {
   bool converged = false;  ///< Newton converged from here and the caller accepted it
   bool ran_away = false;   ///< the pose left every reasonable place: nothing carries the load
   int steps = 0;           ///< quadratic programmes solved
-  Work spent;              ///< iterations: those and the ones of the Newton attempts within
+  int iterations = 0;      ///< those and the ones of the Newton attempts within
+  int searches = 0;        ///< for contacts of one pair
   double step = 0;         ///< last accepted step [mm]
   NewtonReport newton;     ///< of the last attempt
 };
@@ -83,6 +84,7 @@ class Descent {
     double largest = 0;  ///< [N]
   };
 
+  [[nodiscard]] long looked_at() const;
   void start(const RigidTransform& X);
   bool start_anew();
   bool iterate(const Accept& accept, DescentReport& report);

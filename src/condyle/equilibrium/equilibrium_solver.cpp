@@ -255,6 +255,7 @@ void EquilibriumSolver::solve(const Drive& drive, PoseResult& result, Patience p
   check_drive(drive, *model_);
   drive_ = target_ = drive;
   Attempt attempt;
+  attempt.points_before = looked_at();
   attempt.most = options_.most.share(patience == Patience::kWay ? 3 : 1);
   from_elsewhere_ = false;
   bool solved = false, at_once = false;
@@ -278,6 +279,7 @@ void EquilibriumSolver::solve(const Drive& drive, PoseResult& result, Patience p
   const bool off_surfaces = !solved && take_off_surfaces(next_, attempt);
   clear(result);
   result.iterations = attempt.spent.iterations;
+  attempt.spent.points = looked_at() - attempt.points_before;
   spent_ = attempt.spent;
   result.residual = attempt.newton.residual;
   if (!solved && !off_surfaces) attempt.begin(PoseRoute::kNone, PoseOrigin::kNone);

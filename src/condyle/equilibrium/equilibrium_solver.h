@@ -37,7 +37,7 @@ struct EquilibriumOptions {
   PoseDescriptionOptions description;
   /// Spent on one pose by all ways together; a third of it on one that is only followed from the
   /// pose before it.
-  Work most{450, 120};
+  Work most{450, 500000};
 };
 
 /// How much is tried where the step from the last pose does not settle.
@@ -121,6 +121,8 @@ class EquilibriumSolver {
   bool find_first(EquilibriumState& state, Attempt& attempt);
   bool solve_first(EquilibriumState& state, const Drive& target, Attempt& attempt);
   bool advance(EquilibriumState& state, const Drive& from, const Drive& to, Attempt& attempt);
+  [[nodiscard]] long looked_at() const;
+  [[nodiscard]] Work left(Attempt& attempt) const;
   bool descend(EquilibriumState& state, Attempt& attempt);
   bool descend_softly(EquilibriumState& state, Attempt& attempt);
   bool stiffen(double softest, EquilibriumState& state, Attempt& attempt);

@@ -17,8 +17,17 @@ bool EquilibriumSolver::tried_from(const RigidTransform& X, const Attempt& attem
       [&](const RigidTransform& Y) { return distance(*model_, X, Y) < kPracticallySame; });
 }
 
+/// Points of surfaces that searches looked at.
+long EquilibriumSolver::looked_at() const { return points_looked_at(searches_); }
+
+/// What may still be spent on the pose under way.
+Work EquilibriumSolver::left(Attempt& attempt) const {
+  attempt.spent.points = looked_at() - attempt.points_before;
+  return attempt.most.after(attempt.spent);
+}
+
 bool EquilibriumSolver::descend(EquilibriumState& state, Attempt& attempt) {
-  const Work left = attempt.most.after(attempt.spent);
+  const Work left = this->left(attempt);
   if (!left.any() || (!on_the_way_ && tried_from(state.X, attempt))) return false;
   const RigidTransform from = state.X;
   // Conforming surfaces leave the answer open: nothing is gained by going on.
@@ -26,8 +35,8 @@ bool EquilibriumSolver::descend(EquilibriumState& state, Attempt& attempt) {
       state, drive_, [&](EquilibriumState& s) { return is_admissible(s, attempt); },
       [&] { return !conforming_pair(*model_, searches_, from); }, left);
   attempt.newton = attempt.descent.newton;
-  attempt.spent.add(attempt.descent.spent);
-  attempt.trace.searches += attempt.descent.spent.searches;
+  attempt.spent.iterations += attempt.descent.iterations;
+  attempt.trace.searches += attempt.descent.searches;
   if (attempt.descent.converged) attempt.trace.residuals = newton_.residuals();
   if (!attempt.descent.converged && !on_the_way_) attempt.descended_from.push_back(from);
   return attempt.descent.converged;
@@ -90,7 +99,7 @@ bool EquilibriumSolver::advance(EquilibriumState& state,
       t = next;
       ++attempt.trace.parts;
       part = std::min(2 * part, kLongest);
-    } else if ((part /= 2) < kShortest || !attempt.most.after(attempt.spent).any()) {
+    } else if ((part /= 2) < kShortest || !left(attempt).any()) {
       return false;
     }
   }

@@ -26,8 +26,8 @@ struct EventOptions {
   double snap = 0.05;    ///< a body that moved farther than this, in units of L, may have snapped
                          ///< through
   int most_events = 16;  ///< between two poses
-  Work most_wasted{6000, 300};  ///< on trials without equilibrium, after which no event more is
-                                ///< looked for between the two poses
+  Work most_wasted{6000, 400000};  ///< on trials without equilibrium, after which no event more is
+                                   ///< looked for between the two poses
 };
 
 /// Appends the events between two poses of one sweep. The walker does not stay where it stood.
