@@ -170,7 +170,7 @@ TEST(Architecture, TheReferenceModelAndTheVerifierShareNoLineOfASolver) {
 /// The equations of a network know nothing of the other solver.
 TEST(Architecture, OnlyWhatMakesStartsAndTellsAMotionOfTheNetworkKnowsTheEquilibrium) {
   const std::set<std::string> doors = {
-      "src/condyle/network/contact_scout", "src/condyle/network/knee_network",
+      "src/condyle/network/contact_detection", "src/condyle/network/knee_network",
       "src/condyle/network/motion_poses", "src/condyle/network/simulate"};
   for (const Include& include : includes()) {
     if (folder(include.from, 3) != "src/condyle/network" ||

@@ -120,7 +120,7 @@ TEST(KneeMotion, KeepsItsEnergyForTenSeconds) {
   EXPECT_LT(motion.largest_imbalance, 1e-8 * motion.energy_scale);
 }
 
-// An integrator that fails says when and why, keeps what it has stored, and a scout that lets
+// An integrator that fails says when and why, keeps what it has stored, and a detection that lets
 // frames be tried again in halves does not multiply what is lost already.
 TEST(KneeMotion, TooManyStepsEndItAtOnce) {
   const Model model = test::quadric_knee();
@@ -132,18 +132,18 @@ TEST(KneeMotion, TooManyStepsEndItAtOnce) {
   options.interval = 0.01;
   options.tolerance = 1e-12;
   options.most_steps = 60;
-  long scouted = 0;
+  long detected = 0;
   const Motion motion =
       integrate(knee.network, state_at_rest(model, cover_pairs(model), knee, equilibrium(1)),
                 options, [&](NetworkState&) {
-                  ++scouted;
-                  return ContactSighting{};
+                  ++detected;
+                  return DetectedContacts{};
                 });
   EXPECT_FALSE(motion.completed);
   EXPECT_NE(motion.reason.find("too many steps for one frame"), std::string::npos) << motion.reason;
   EXPECT_EQ(motion.reason.find("at 0"), 0U) << motion.reason;
   EXPECT_GE(motion.frames.size(), 1U);
-  EXPECT_EQ(static_cast<std::size_t>(scouted), motion.frames.size());  // no frame twice
+  EXPECT_EQ(static_cast<std::size_t>(detected), motion.frames.size());  // no frame twice
   EXPECT_LT(motion.steps, 70 * static_cast<long>(motion.frames.size() + 1));
 }
 
@@ -158,9 +158,9 @@ TEST(KneeMotion, AnOverlapThatStaysEndsTheMotionInBoundedTime) {
       integrate(knee.network, state_at_rest(model, cover_pairs(model), knee, equilibrium(1)),
                 options, [&](NetworkState& state) {
                   ++asked;
-                  ContactSighting sighting;
-                  if (state.t > 0.002) sighting.unseen = -1;
-                  return sighting;
+                  DetectedContacts detected;
+                  if (state.t > 0.002) detected.unseen = -1;
+                  return detected;
                 });
   EXPECT_FALSE(motion.completed);
   EXPECT_NE(motion.reason.find("overlap where no contact could be followed"), std::string::npos);

@@ -13,7 +13,7 @@
 #include "condyle/equilibrium/equilibrium_solver.h"
 #include "condyle/equilibrium/model_covers.h"
 #include "condyle/input_error.h"
-#include "condyle/network/contact_scout.h"
+#include "condyle/network/contact_detection.h"
 #include "condyle/network/motion_lattices.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/surface/exact_surfaces.h"
@@ -103,12 +103,12 @@ Motion swing(MotionKeeping keeping) {
   KneeNetwork knee = make_knee_network(model, test::leg());
   knee.network.conditions.clear();
   knee.network.gravity = {0, -9810, 0};
-  PairScout scout(model, covers, knee);
-  keeping.forget = [&] { scout.forget(); };
+  KneeContactDetection detect(model, covers, knee);
+  keeping.forget = [&] { detect.forget(); };
   IntegrationOptions how = options(0.3, 0.005, 1e-9);
   how.stretch = 200;
   return integrate(knee.network, state_at_rest(model, covers, knee, solver.state()), how,
-                   std::ref(scout), keeping);
+                   std::ref(detect), keeping);
 }
 
 TEST(ResumedMotion, OfAKneeIsTheSameToTheLastBit) { expect_goes_on(swing); }

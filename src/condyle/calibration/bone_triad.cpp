@@ -50,7 +50,7 @@ Vector3d area_of(const TriangleMesh& mesh, std::size_t triangle) {
 
 std::optional<Vector3d> bone_normal(const TriangleMesh& mesh, const Vector3d& p) {
   constexpr double kWithin = 2;  // [mm]
-  Vector3d foot = Vector3d::Zero(), nearest_area = Vector3d::Zero();
+  Vector3d closest = Vector3d::Zero(), nearest_area = Vector3d::Zero();
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Vector3d area = area_of(mesh, i);
@@ -58,7 +58,7 @@ std::optional<Vector3d> bone_normal(const TriangleMesh& mesh, const Vector3d& p)
     const Vector3d on = nearest_on(mesh, i, p);
     if (const double square = (on - p).squaredNorm(); square < least) {
       least = square;
-      foot = on;
+      closest = on;
       nearest_area = area;
     }
   }
@@ -66,7 +66,7 @@ std::optional<Vector3d> bone_normal(const TriangleMesh& mesh, const Vector3d& p)
   Vector3d sum = Vector3d::Zero();
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Vector3d area = area_of(mesh, i);
-    if (area.norm() > 0 && (nearest_on(mesh, i, foot) - foot).norm() <= kWithin) sum += area;
+    if (area.norm() > 0 && (nearest_on(mesh, i, closest) - closest).norm() <= kWithin) sum += area;
   }
   // Of a plate thinner than that both sides are near: the side that is nearest counts.
   const bool one_side = sum.dot(nearest_area) > 0.5 * sum.norm() * nearest_area.norm();

@@ -24,18 +24,18 @@ class Integration {
   Integration(const Network& network,
               NetworkState start,
               const IntegrationOptions& options,
-              ContactScout scout,
+              ContactDetection detect,
               const MotionKeeping& keeping)
       : options_(options),
         keeping_(keeping),
-        scout_(std::move(scout)),
+        detect_(std::move(detect)),
         touch_(1e-5 / 30 * network.length),
         moving_(network, std::move(start), options) {}
 
   Motion run() {
     moving_.check_start();
     moving_.change_contacts({}, {}, motion_.events);
-    if (scout_) scout_(moving_.state());
+    if (detect_) detect_(moving_.state());
     double t = moving_.state().t;
     const double start = t;
     end_ = start + options_.end;
@@ -50,7 +50,7 @@ class Integration {
       const double to = std::min(end_, start + static_cast<double>(k) * options_.interval);
       steps_before_ = moving_.ode().steps();
       attempts_ = 0;
-      if (scout_ ? advance_scouted(t, to, 0) : advance(t, to) && land(t)) store(t);
+      if (detect_ ? advance_detecting(t, to, 0) : advance(t, to) && land(t)) store(t);
       if (motion_.completed && k < frames_ && stretch_steps() >= options_.stretch) end_stretch();
       tell_frame(k);
     }
@@ -134,16 +134,16 @@ class Integration {
 
   /// Goes on in halves where the way led into an overlap that no contact saw, or where a contact
   /// was lost.
-  bool advance_scouted(double& t, double to, int halvings) {
+  bool advance_detecting(double& t, double to, int halvings) {
     constexpr int kMostHalvings = 12, kMostAttempts = 200;
     const Moment before = moment(t);
     ++attempts_;
     if (advance(t, to) && land(t)) {
-      const ContactSighting sighting = scout_(moving_.state());
-      if (!sighting.lost.empty()) return end_here(t, sighting.lost);
-      if (sighting.unseen >= 0 && sighting.overlapping.empty()) return true;
-      if (sighting.unseen >= 0 && sighting.followed > -touch_)
-        return handle_event(t, sighting.overlapping, {});
+      const DetectedContacts detected = detect_(moving_.state());
+      if (!detected.lost.empty()) return end_here(t, detected.lost);
+      if (detected.unseen >= 0 && detected.overlapping.empty()) return true;
+      if (detected.unseen >= 0 && detected.followed > -touch_)
+        return handle_event(t, detected.overlapping, {});
       give_up(
           t,
           "the bodies overlap where no contact could be followed, as beyond the edge of a surface");
@@ -152,7 +152,7 @@ class Integration {
     go_back(before);
     t = before.t;
     const double middle = t + (to - t) / 2;
-    return advance_scouted(t, middle, halvings + 1) && advance_scouted(t, to, halvings + 1);
+    return advance_detecting(t, middle, halvings + 1) && advance_detecting(t, to, halvings + 1);
   }
 
   bool advance(double& t, double to) {
@@ -229,7 +229,7 @@ class Integration {
 
   IntegrationOptions options_;
   const MotionKeeping& keeping_;
-  ContactScout scout_;
+  ContactDetection detect_;
   double touch_;  ///< overlap of a contact that opened for nothing [mm]
   MovingNetwork moving_;
   Motion motion_;
@@ -247,9 +247,9 @@ class Integration {
 Motion integrate(const Network& network,
                  NetworkState start,
                  const IntegrationOptions& options,
-                 ContactScout scout,
+                 ContactDetection detect,
                  const MotionKeeping& keeping) {
-  return Integration(network, std::move(start), options, std::move(scout), keeping).run();
+  return Integration(network, std::move(start), options, std::move(detect), keeping).run();
 }
 
 }  // namespace condyle

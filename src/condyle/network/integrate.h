@@ -15,8 +15,8 @@
 
 namespace condyle {
 
-/// What a scout has seen.
-struct ContactSighting {
+/// What a detection has found.
+struct DetectedContacts {
   /// Smallest gap at places that no contact followed [mm].
   double unseen = std::numeric_limits<double>::infinity();
   double followed = unseen;           ///< and of the open contacts that overlap [mm]
@@ -25,24 +25,24 @@ struct ContactSighting {
 };
 /// Lets waiting contacts follow the places at which bodies have come near each other and that no
 /// contact follows yet.
-using ContactScout = std::function<ContactSighting(NetworkState&)>;
+using ContactDetection = std::function<DetectedContacts(NetworkState&)>;
 
 /// How a motion goes on where another run of it was stopped.
 struct MotionKeeping {
   std::vector<MotionStretch> earlier;                    ///< of that run, taken over as they are
   std::function<void(const MotionStretch&)> on_stretch;  ///< told of each that is computed
-  std::function<void()> forget;  ///< asks the scout to forget the frames before
+  std::function<void()> forget;  ///< has the detection forget the frames before
 };
 
 /// From `start`, whose closed contacts must touch. Throws InputError for an inconsistent network, a
 /// body without mass, or a start that violates its constraints; what fails later is told in the
-/// result. The scout is asked at every frame; where it finds an overlap, the frame is repeated in
+/// result. Detection is asked for at every frame; where it finds an overlap, the frame is repeated in
 /// halves until it finds the place before the bodies touch there. Throws InputError for stretches that are
 /// of no such motion.
 [[nodiscard]] Motion integrate(const Network& network,
                                NetworkState start,
                                const IntegrationOptions& options,
-                               ContactScout scout = {},
+                               ContactDetection detect = {},
                                const MotionKeeping& keeping = {});
 
 }  // namespace condyle

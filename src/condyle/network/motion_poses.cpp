@@ -6,7 +6,7 @@
 #include "condyle/contact/contact.h"
 #include "condyle/equilibrium/model_covers.h"
 #include "condyle/equilibrium/pose_result.h"
-#include "condyle/network/contact_scout.h"
+#include "condyle/network/contact_detection.h"
 
 namespace condyle {
 namespace {

@@ -79,9 +79,9 @@ struct ContactComponent {
   int body = 0;
   std::shared_ptr<const Surface> on_ground, on_body;
   bool opens = true;  ///< else it is held closed and may pull
-  /// Somebody looks where else the surfaces come near (ContactScout): one that loses its place
+  /// ContactDetection looks where else the surfaces come near: one that loses its place
   /// waits for a new one instead of ending the motion.
-  bool scouted = false;
+  bool is_detected = false;
 
   /// B is the ground, A the body.
   [[nodiscard]] SurfacePair surfaces() const { return {*on_ground, *on_body}; }

@@ -41,11 +41,11 @@ bool settle_contact(const ContactComponent& contact,
   extrapolate(surfaces, X, L, settled, trial);
   bool found = settle(trial, {kReach * L});
   // Beyond the middle of a cup the place that was nearest is the farthest one: downhill from there.
-  if (!found && !state.closed && !contact.scouted)
+  if (!found && !state.closed && !contact.is_detected)
     found = settle(trial = state.places, {kFarReach * L, true});
   if (!found) {
     settled.places.on_B.numbers.setConstant(NAN);
-    if (state.closed || !contact.scouted) return false;
+    if (state.closed || !contact.is_detected) return false;
     state.followed = false;
     return true;
   }

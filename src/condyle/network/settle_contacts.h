@@ -21,7 +21,7 @@ struct SettledContact {
                                    NetworkState& state,
                                    std::vector<SettledContact>& settled);
 
-/// The same for one contact that is followed, of a network of length L [mm]; a scouted one that is
+/// The same for one contact that is followed, of a network of length L [mm]; a detected one that is
 /// lost waits.
 [[nodiscard]] bool settle_contact(const ContactComponent& contact,
                                   const RigidTransform& X,

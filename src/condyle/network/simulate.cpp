@@ -12,7 +12,7 @@
 #include "condyle/equilibrium/equilibrium_solver.h"
 #include "condyle/equilibrium/model_covers.h"
 #include "condyle/input_error.h"
-#include "condyle/network/contact_scout.h"
+#include "condyle/network/contact_detection.h"
 #include "condyle/network/drive.h"
 #include "condyle/network/integrate.h"
 #include "condyle/network/knee_network.h"
@@ -163,9 +163,9 @@ Motion integrate_on_lattices(const Model& model,
   MotionKeeping stretches{keeping.stretches, keeping.on_stretch, {}};
   for (;;) {
     forget_places(knee.network);
-    PairScout scout(model, covers, knee);
-    stretches.forget = [&scout] { scout.forget(); };
-    Motion motion = integrate(knee.network, start, options, std::ref(scout), stretches);
+    KneeContactDetection detect(model, covers, knee);
+    stretches.forget = [&detect] { detect.forget(); };
+    Motion motion = integrate(knee.network, start, options, std::ref(detect), stretches);
     const std::vector<LatticeRefinement> refined = refine_lattices(motion, knee.network);
     if (refined.empty()) return motion;
     for (const LatticeRefinement& refinement : refined)

@@ -37,7 +37,7 @@ MeasuredCovariance covariance_of(const std::vector<const VertexOverPatch*>& core
     sum[0] += core[i]->height * core[i]->height;
     count[0] += 1;
     for (std::size_t j = i + 1; j < core.size(); ++j) {
-      const double d2 = (core[i]->foot - core[j]->foot).squaredNorm();
+      const double d2 = (core[i]->closest - core[j]->closest).squaredNorm();
       if (d2 >= kFarthest * kFarthest) continue;
       // NOLINTNEXTLINE(bugprone-incorrect-roundings): it is never negative, and lround is slow.
       const auto lag = static_cast<std::size_t>(std::sqrt(d2) / kLagStep + 0.5);
@@ -94,12 +94,12 @@ std::vector<VertexOverPatch> vertices_over_patch(const TriangleMesh& mesh,
     const Eigen::Vector3d& p = mesh.vertices[i];
     const Place place = patch.closest(p, patch.seed(p));
     const SurfacePoint at = patch.evaluate_frame(place);
-    const Eigen::Vector3d foot = at.c - offset * at.n;
+    const Eigen::Vector3d closest = at.c - offset * at.n;
     const double edge = patch.edge_distance(place);
-    if (edge < -kBeyondKnown || (p - foot).norm() > kFarthest ||
+    if (edge < -kBeyondKnown || (p - closest).norm() > kFarthest ||
         std::abs(at.n.dot(normals[i])) < kLeastCosine)
       continue;
-    over.push_back({i, foot, at.n, at.n.dot(p - foot), edge});
+    over.push_back({i, closest, at.n, at.n.dot(p - closest), edge});
   }
   return over;
 }

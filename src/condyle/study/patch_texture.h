@@ -21,10 +21,10 @@ namespace condyle {
 /// fitted.
 struct VertexOverPatch {
   int vertex = 0;
-  Eigen::Vector3d foot;  ///< closest point of the patch [mm]
+  Eigen::Vector3d closest;  ///< closest point of the patch [mm]
   Eigen::Vector3d normal;
   double height = 0;         ///< over the patch, out of the bone [mm]
-  double edge_distance = 0;  ///< of the foot from the edge of what is known [mm]
+  double edge_distance = 0;  ///< of that point from the edge of what is known [mm]
 };
 
 /// Those of `candidates` that the patch was fitted to: over its known part or within 2 mm of that, less

@@ -8,18 +8,18 @@
 
 namespace condyle {
 
-class PairScout {
+class KneeContactDetection {
  public:
   /// Keeps references.
-  PairScout(const Model& model, const ContactCovers& covers, const KneeNetwork& knee);
+  KneeContactDetection(const Model& model, const ContactCovers& covers, const KneeNetwork& knee);
 
   /// As newly made.
   void forget();
-  /// As ContactScout says.
-  ContactSighting operator()(NetworkState& state);
+  /// As ContactDetection says.
+  DetectedContacts operator()(NetworkState& state);
 
  private:
-  void scout_pair(int pair, NetworkState& state, ContactSighting& sighting);
+  void detect_in_pair(int pair, NetworkState& state, DetectedContacts& detected);
   void set_known(int pair, const NetworkState& state);
   [[nodiscard]] int follower_of(int pair,
                                 const GapMinimum& minimum,

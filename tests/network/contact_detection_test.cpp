@@ -1,6 +1,6 @@
 /// Points of contact that come and go while the phantom's shank is struck.
 
-#include "condyle/network/contact_scout.h"
+#include "condyle/network/contact_detection.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ const char* const kScene = CONDYLE_SOURCE_DIR "/data/phantom/blow.toml";
 // 80 N for 50 ms: the compartments lift, strike in turn and touch in places that no contact
 // followed at the start. At every frame the lowest gap anywhere between the surfaces is searched
 // for afresh.
-TEST(ContactScout, NoBlowDrivesTheBodiesIntoEachOther) {
+TEST(ContactDetection, NoBlowDrivesTheBodiesIntoEachOther) {
   Scene scene = read_scene(kScene);
   scene.loads.back().vector *= 1.6;
   scene.simulation->drives.front().duration = 0.05;
@@ -44,7 +44,7 @@ TEST(ContactScout, NoBlowDrivesTheBodiesIntoEachOther) {
 }
 
 // At rest on both compartments: each pair has one closed contact and the others wait.
-TEST(ContactScout, FollowsAnUnseenPlaceAndDropsADouble) {
+TEST(ContactDetection, FollowsAnUnseenPlaceAndDropsADouble) {
   const Scene scene = read_scene(kScene);
   const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
   const Model model = build_model(scene, surfaces);
@@ -55,16 +55,16 @@ TEST(ContactScout, FollowsAnUnseenPlaceAndDropsADouble) {
   state.bodies[0].X = model.start;
   state.contacts.resize(knee.places.size());
   for (MovingContact& contact : state.contacts) contact.followed = false;
-  PairScout scout(model, cover_pairs(model), knee);
+  KneeContactDetection detect(model, cover_pairs(model), knee);
 
-  EXPECT_TRUE(scout(state).overlapping.empty());
+  EXPECT_TRUE(detect(state).overlapping.empty());
   const auto followed = [&] {
     return std::count_if(state.contacts.begin(), state.contacts.end(),
                          [](const MovingContact& contact) { return contact.followed; });
   };
   const auto places = followed();
   ASSERT_GE(places, 2);
-  EXPECT_EQ(scout(state).unseen, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(detect(state).unseen, std::numeric_limits<double>::infinity());
   EXPECT_EQ(followed(), places);
 
   const auto waiting = std::find_if(state.contacts.begin(), state.contacts.end(),
@@ -73,7 +73,7 @@ TEST(ContactScout, FollowsAnUnseenPlaceAndDropsADouble) {
   const std::size_t pair_first =
       static_cast<std::size_t>(waiting - state.contacts.begin()) / kPointsPerPair * kPointsPerPair;
   *waiting = state.contacts[pair_first];
-  (void)scout(state);
+  (void)detect(state);
   EXPECT_EQ(followed(), places);
 }
 

@@ -1,4 +1,4 @@
-#include "condyle/network/contact_scout.h"
+#include "condyle/network/contact_detection.h"
 
 #include <fmt/format.h>
 
@@ -19,22 +19,24 @@ constexpr double kBuried = 0.05 / 30;    // where there is no single lowest poin
 
 }  // namespace
 
-PairScout::PairScout(const Model& model, const ContactCovers& covers, const KneeNetwork& knee)
+KneeContactDetection::KneeContactDetection(const Model& model,
+                                           const ContactCovers& covers,
+                                           const KneeNetwork& knee)
     : model_(model), knee_(knee), searches_(make_searches(model, covers)) {}
 
-void PairScout::forget() {
+void KneeContactDetection::forget() {
   for (ContactSearch& search : searches_) search.reset();
 }
 
-ContactSighting PairScout::operator()(NetworkState& state) {
-  ContactSighting sighting;
+DetectedContacts KneeContactDetection::operator()(NetworkState& state) {
+  DetectedContacts detected;
   for (std::size_t p = 0; p < model_.pairs.size(); ++p) {
     if (model_.pairs[p].mode != ContactMode::kAuto || !searches_[p].has_samples()) continue;
-    scout_pair(static_cast<int>(p), state, sighting);
+    detect_in_pair(static_cast<int>(p), state, detected);
   }
-  sighting.lost = lost_contact(state);
-  if (sighting.lost.empty()) sighting.lost = lost_layer(state);
-  return sighting;
+  detected.lost = lost_contact(state);
+  if (detected.lost.empty()) detected.lost = lost_layer(state);
+  return detected;
 }
 
 std::string beyond_edge(const ContactPair& pair, double edge_distance) {
@@ -43,7 +45,7 @@ std::string beyond_edge(const ContactPair& pair, double edge_distance) {
                      -edge_distance);
 }
 
-std::string PairScout::lost_contact(const NetworkState& state) const {
+std::string KneeContactDetection::lost_contact(const NetworkState& state) const {
   for (std::size_t i = 0; i < knee_.places.size(); ++i) {
     const MovingContact& contact = state.contacts[i];
     if (!contact.closed) continue;
@@ -54,7 +56,7 @@ std::string PairScout::lost_contact(const NetworkState& state) const {
   return "";
 }
 
-std::string PairScout::lost_layer(const NetworkState& state) {
+std::string KneeContactDetection::lost_layer(const NetworkState& state) {
   for (const PotentialComponent& contact : knee_.network.potentials) {
     clear(described_);
     const std::optional<Objection> objection =
@@ -64,7 +66,9 @@ std::string PairScout::lost_layer(const NetworkState& state) {
   return "";
 }
 
-void PairScout::scout_pair(int pair, NetworkState& state, ContactSighting& sighting) {
+void KneeContactDetection::detect_in_pair(int pair,
+                                          NetworkState& state,
+                                          DetectedContacts& detected) {
   const double L = model_.length;
   drop_doubles(pair, state);
   set_known(pair, state);
@@ -74,19 +78,19 @@ void PairScout::scout_pair(int pair, NetworkState& state, ContactSighting& sight
     const int follower = follower_of(pair, minimum, state);
     if (follower >= 0) {
       if (state.contacts[follower].closed || minimum.gap > -kOverlap * L) continue;
-      sighting.followed = std::min(sighting.followed, minimum.gap);
-      sighting.overlapping.push_back(follower);
+      detected.followed = std::min(detected.followed, minimum.gap);
+      detected.overlapping.push_back(follower);
       continue;
     }
     if (!minimum.refined && minimum.gap > -kBuried * L) continue;
-    sighting.unseen = std::min(sighting.unseen, minimum.gap);
+    detected.unseen = std::min(detected.unseen, minimum.gap);
     const int waiting = waiting_contact(pair, state);
     if (minimum.refined && waiting >= 0) state.contacts[waiting] = {minimum.places};
   }
 }
 
 /// Closed contacts are a help to the search, and need not be found.
-void PairScout::set_known(int pair, const NetworkState& state) {
+void KneeContactDetection::set_known(int pair, const NetworkState& state) {
   known_.clear();
   for (std::size_t i = 0; i < knee_.places.size(); ++i) {
     const MovingContact& contact = state.contacts[i];
@@ -96,12 +100,14 @@ void PairScout::set_known(int pair, const NetworkState& state) {
   }
 }
 
-Eigen::Vector3d PairScout::point_of(int contact, const NetworkState& state) const {
+Eigen::Vector3d KneeContactDetection::point_of(int contact, const NetworkState& state) const {
   const ContactPair& pair = model_.pairs[knee_.places[contact]];
   return pair.on_B->evaluate_frame(state.contacts[contact].places.on_B).c;
 }
 
-int PairScout::follower_of(int pair, const GapMinimum& minimum, const NetworkState& state) const {
+int KneeContactDetection::follower_of(int pair,
+                                      const GapMinimum& minimum,
+                                      const NetworkState& state) const {
   for (int i = 0; i < static_cast<int>(knee_.places.size()); ++i)
     if (knee_.places[i] == pair && state.contacts[i].followed &&
         (point_of(i, state) - minimum.point_B).norm() < kSamePlace * model_.length)
@@ -109,14 +115,14 @@ int PairScout::follower_of(int pair, const GapMinimum& minimum, const NetworkSta
   return -1;
 }
 
-int PairScout::waiting_contact(int pair, const NetworkState& state) const {
+int KneeContactDetection::waiting_contact(int pair, const NetworkState& state) const {
   for (int i = 0; i < static_cast<int>(knee_.places.size()); ++i)
     if (knee_.places[i] == pair && !state.contacts[i].followed) return i;
   return -1;
 }
 
 /// Two minima that have become one need one contact, a closed one where there is one.
-void PairScout::drop_doubles(int pair, NetworkState& state) const {
+void KneeContactDetection::drop_doubles(int pair, NetworkState& state) const {
   const int count = static_cast<int>(knee_.places.size());
   for (int i = 0; i < count; ++i) {
     for (int k = i + 1; k < count; ++k) {
