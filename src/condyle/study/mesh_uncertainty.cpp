@@ -22,7 +22,7 @@ constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 struct SmoothPatch {
   std::size_t mesh = 0, surface = 0;
   std::vector<VertexOverPatch> vertices;
-  std::vector<Eigen::Vector3d> feet;
+  std::vector<Eigen::Vector3d> closest;
   PatchTexture texture;
 };
 
@@ -63,7 +63,7 @@ SmoothKnee smooth_knee(const Scene& scene, const std::vector<FittedSurface>& sur
       if (taken[patch.mesh][v.vertex]) continue;
       taken[patch.mesh][v.vertex] = true;
       patch.vertices.push_back(v);
-      patch.feet.push_back(v.foot);
+      patch.closest.push_back(v.closest);
     }
     patch.texture = texture_beside(patch.vertices, surface.patch, *surfaces[i].report);
     knee.patches.push_back(std::move(patch));
@@ -77,10 +77,10 @@ std::vector<FittedMesh> noisy_meshes(const SmoothKnee& knee, std::uint64_t seed,
     const std::uint64_t number = (static_cast<std::uint64_t>(draw) << 16U) + patch.surface;
     FittedMesh& mesh = meshes[patch.mesh];
     const std::vector<double> height = roughness_field(
-        patch.feet, mesh.middle, {patch.texture.rms, patch.texture.correlation, seed}, number);
+        patch.closest, mesh.middle, {patch.texture.rms, patch.texture.correlation, seed}, number);
     for (std::size_t i = 0; i < height.size(); ++i)
       mesh.mesh.vertices[patch.vertices[i].vertex] =
-          patch.feet[i] + height[i] * patch.vertices[i].normal;
+          patch.closest[i] + height[i] * patch.vertices[i].normal;
   }
   return meshes;
 }
