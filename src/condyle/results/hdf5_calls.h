@@ -8,8 +8,8 @@
 #include <string>
 #include <type_traits>
 
-#include "condyle/results/hdf5_group.h"
 #include "condyle/results/hdf5_handle.h"
+#include "condyle/results/hdf5_shape.h"
 
 namespace condyle::hdf5 {
 

@@ -11,16 +11,9 @@
 
 #include "condyle/results/column_tree.h"
 #include "condyle/results/hdf5_handle.h"
+#include "condyle/results/hdf5_shape.h"
 
 namespace condyle {
-
-using Shape = std::vector<std::size_t>;
-
-/// With one dimension more for columns of a table that hold several numbers.
-[[nodiscard]] inline Shape with_width(Shape shape, std::size_t width) {
-  if (width > 1) shape.push_back(width);
-  return shape;
-}
 
 struct Hdf5Array {
   std::vector<double> values;  ///< last index fastest
