@@ -51,17 +51,16 @@ inline __attribute__((always_inline)) void horner(const double* a, double x, dou
 /// Four places, each in a cell of its own.
 CONDYLE_FMA_CLONE
 void evaluate(const double* const* cells, const double* x, const double* y, double (*out)[3][4]) {
-  using Places = long __attribute__((vector_size(32)));
   Four at[4][6];
   for (int k = 0; k < 4; ++k) horner(cells[k], x[k], y[k], at[k]);
   for (int i = 0; i < 6; ++i) {
-    const Four x_z = __builtin_shuffle(at[0][i], at[1][i], Places{0, 4, 2, 6}),
-               y_0 = __builtin_shuffle(at[0][i], at[1][i], Places{1, 5, 3, 7}),
-               X_Z = __builtin_shuffle(at[2][i], at[3][i], Places{0, 4, 2, 6}),
-               Y_0 = __builtin_shuffle(at[2][i], at[3][i], Places{1, 5, 3, 7});
-    store_four(out[i][0], __builtin_shuffle(x_z, X_Z, Places{0, 1, 4, 5}));
-    store_four(out[i][1], __builtin_shuffle(y_0, Y_0, Places{0, 1, 4, 5}));
-    store_four(out[i][2], __builtin_shuffle(x_z, X_Z, Places{2, 3, 6, 7}));
+    const Four x_z = __builtin_shufflevector(at[0][i], at[1][i], 0, 4, 2, 6),
+               y_0 = __builtin_shufflevector(at[0][i], at[1][i], 1, 5, 3, 7),
+               X_Z = __builtin_shufflevector(at[2][i], at[3][i], 0, 4, 2, 6),
+               Y_0 = __builtin_shufflevector(at[2][i], at[3][i], 1, 5, 3, 7);
+    store_four(out[i][0], __builtin_shufflevector(x_z, X_Z, 0, 1, 4, 5));
+    store_four(out[i][1], __builtin_shufflevector(y_0, Y_0, 0, 1, 4, 5));
+    store_four(out[i][2], __builtin_shufflevector(x_z, X_Z, 2, 3, 6, 7));
   }
 }
 
