@@ -37,8 +37,6 @@ constexpr double kGrow = 2;           // of the reach after a step that gained,
 constexpr double kShrink = 0.35;      // and after one that did not
 constexpr double kAnew = 0.1;         // of the longest step, without the material points
 constexpr double kLookAhead = 2;      // reaches within which gaps may close in the next step
-constexpr double kDemand = 0.7;       // of the reach: what constraints may ask for, so that a
-                                      // step of that reach can meet them [18.5]
 constexpr double kFirstFloor = 1e-2;  // stiffness that shortens a step, of the greatest,
 constexpr double kStiffer = 4;        // and so much more at each try,
 constexpr int kMostStiffer = 12;      // at most, until
@@ -50,7 +48,8 @@ constexpr double kOverMultiplier = 1.5;  // penalty over the greatest multiplier
 constexpr double kForget = 0.9;          // of the penalty, in each step
 constexpr double kLeastPenalty = 0.1;    // multiplier of a body that nothing presses yet [forces]
 constexpr double kRoundOff = 1e-10;      // of the forces' work over a step
-constexpr double kRestores = 0.9;        // of the violation: a step that leaves less restores it
+constexpr double kRestores = 0.9;        // of the violation: a step that leaves less restores it,
+constexpr double kCostlier = 2;          // and is judged by so many times the penalty
 constexpr double kLongestSecond = 2;     // second-order correction, of the step [15.6]
 
 constexpr int kPatience = 2;       // iterations between attempts of Newton
@@ -165,9 +164,8 @@ bool Descent::iterate(const Accept& accept, DescentReport& report) {
 /// farther than that, and the stiffness is raised until the step fits [Levenberg].
 Descent::Vector6 Descent::step_within_reach(Programme& programme) const {
   SmallQp& qp = programme.qp;
-  const double demand = kDemand * reach_;
-  if (qp.b.norm() > demand) qp.b *= demand / qp.b.norm();
-  qp.d = qp.d.cwiseMin(demand);
+  if (qp.b.norm() > reach_) qp.b *= reach_ / qp.b.norm();
+  qp.d = qp.d.cwiseMin(reach_);
   Vector6 step = solve_qp(qp).x;
   qp.floor = std::max(qp.floor, kFirstFloor * programme.stiffness_scale);
   for (int k = 0; k < kMostStiffer && step.norm() > kFits * reach_; ++k) {
@@ -335,7 +333,7 @@ void Descent::take_step(const Programme& programme, const Vector6& step, Descent
   if (improves(to, kRoundOff * programme.force_scale * step.norm())) return accept(to, step.norm());
   // Restoring the constraints may cost more energy than the forces of this moment suggest.
   if (violation_after < kRestores * violation_before) {
-    penalty_ *= 2;
+    penalty_ *= kCostlier;
     if (energy + penalty_ * (violation_after - violation_before) < 0)
       return accept(to, step.norm());
   }

@@ -37,7 +37,7 @@ struct EquilibriumOptions {
   PoseDescriptionOptions description;
   /// Spent on one pose by all ways together; a third of it on one that is only followed from the
   /// pose before it.
-  Work most{450, 500000};
+  Work most{450, 1000000};
 };
 
 /// How much is tried where the step from the last pose does not settle.
