@@ -135,10 +135,10 @@ PatchData bumpy(double rms, unsigned seed) {
   data.nu = data.nv = 13;
   data.knots_u = data.knots_v = uniform_knots(13, 3, 0, 30);
   std::mt19937 random(seed);
-  std::normal_distribution<double> height(0, rms);
+  std::normal_distribution<double> height;
   for (int i = 0; i < data.nu; ++i)
     for (int j = 0; j < data.nv; ++j)
-      data.control_points.emplace_back(3 * i - 3, 3 * j - 3, height(random));
+      data.control_points.emplace_back(3 * i - 3, 3 * j - 3, rms * height(random));
   return data;
 }
 

@@ -42,7 +42,7 @@ TEST(TautString, AFalseSlackLengthOfALigamentThatWrapsIsFound) {
   for (LigamentDescription& ligament : run.scene.ligaments)
     if (!ligament.path.wraps.empty() && ligament.reference_strain)
       std::get<ToeLinearLaw>(ligament.law).slack_length += 0.01;
-  const CheckSummary& slack = verify_run(run).checks.at(static_cast<std::size_t>(Check::kSlack));
+  const CheckSummary slack = verify_run(run).checks.at(static_cast<std::size_t>(Check::kSlack));
   EXPECT_GT(slack.failed, 0);
   EXPECT_NEAR(slack.figure, 0.01, 1e-6);
 }
