@@ -6,7 +6,7 @@ namespace condyle {
 
 struct Work {
   int iterations = 0;  ///< of Newton and of the descent; one takes about 10 us on a knee
-  long points = 0;     ///< of surfaces that searches for contacts looked at; one takes about 0.05 us
+  long points = 0;  ///< of surfaces that searches for contacts looked at; one takes about 0.05 us
 
   void add(const Work& other) {
     iterations += other.iterations;

@@ -56,13 +56,12 @@ CalibrationContents read_calibration_journal(const std::filesystem::path& path,
   CalibrationContents journal;
   if (!head) return journal;
   expect_same_parts(path.string(), *head, parts);
-  journal.whole_bytes = head->bytes;
-  while (const std::optional<std::string_view> line = line_at(text, journal.whole_bytes)) {
-    std::optional<Eigen::VectorXd> theta = theta_of(std::string(*line));
-    if (!theta) break;
+  journal.whole_bytes = read_journal_lines(text, head->bytes, [&](std::string_view line) {
+    std::optional<Eigen::VectorXd> theta = theta_of(std::string(line));
+    if (!theta) return false;
     journal.best = std::move(theta);
-    journal.whole_bytes += line->size() + 1;
-  }
+    return true;
+  });
   return journal;
 }
 

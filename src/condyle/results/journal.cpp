@@ -1,5 +1,7 @@
 #include "condyle/results/journal.h"
 
+#include <utility>
+
 #include "condyle/results/journal_line.h"
 #include "condyle/results/sweep_record.h"
 
@@ -18,15 +20,14 @@ JournalContents read_journal(const std::filesystem::path& path, const Scene& sce
   if (!head) return journal;
   journal.started = true;
   journal.identity = {head->hashes[0], head->hashes[1]};
-  journal.whole_bytes = head->bytes;
-  KnownPose known;
-  while (const std::optional<std::string_view> line = line_at(text, journal.whole_bytes)) {
-    if (!read_journal_line(*line, scene.contacts.size(), scene.conditions.size(), known) ||
+  journal.whole_bytes = read_journal_lines(text, head->bytes, [&](std::string_view line) {
+    KnownPose known;
+    if (!read_journal_line(line, scene.contacts.size(), scene.conditions.size(), known) ||
         !belongs_to(scene, known))
-      break;
-    journal.poses.push_back(known);
-    journal.whole_bytes += line->size() + 1;
-  }
+      return false;
+    journal.poses.push_back(std::move(known));
+    return true;
+  });
   return journal;
 }
 

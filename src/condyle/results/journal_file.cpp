@@ -42,6 +42,13 @@ bool take_part(std::string_view& line, std::string_view word, std::uint64_t& has
   return end.ec == std::errc();
 }
 
+/// The line that begins at `at`, without its end; nothing where it has none.
+std::optional<std::string_view> line_at(std::string_view text, std::size_t at) {
+  const std::size_t end = text.find('\n', at);
+  if (end == std::string_view::npos) return std::nullopt;
+  return text.substr(at, end - at);
+}
+
 }  // namespace
 
 std::filesystem::path journal_path(const std::filesystem::path& run) {
@@ -99,10 +106,14 @@ void expect_same_parts(const std::string& file,
       throw InputError(fmt::format("{}: belongs to {}", file, parts[i].another));
 }
 
-std::optional<std::string_view> line_at(std::string_view text, std::size_t at) {
-  const std::size_t end = text.find('\n', at);
-  if (end == std::string_view::npos) return std::nullopt;
-  return text.substr(at, end - at);
+std::size_t read_journal_lines(std::string_view text,
+                               std::size_t bytes,
+                               const std::function<bool(std::string_view)>& take) {
+  while (const std::optional<std::string_view> line = line_at(text, bytes)) {
+    if (!take(*line)) break;
+    bytes += line->size() + 1;
+  }
+  return bytes;
 }
 
 JournalLines::JournalLines(LineFile& file,

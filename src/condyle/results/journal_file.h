@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -62,8 +63,11 @@ void expect_journal(const std::filesystem::path& path, const JournalKind& kind);
 /// Throws InputError, naming the first that differs, where a journal belongs to other parts.
 void expect_same_parts(const std::string& file, const JournalHead& head, const JournalParts& parts);
 
-/// The line that begins at `at`, without its end; nothing where it has none.
-[[nodiscard]] std::optional<std::string_view> line_at(std::string_view text, std::size_t at);
+/// Hands the lines after the first `bytes` of a journal, each without its end, to `take`, which says whether one is
+/// whole and of this work. The bytes up to the first that is not.
+[[nodiscard]] std::size_t read_journal_lines(std::string_view text,
+                                             std::size_t bytes,
+                                             const std::function<bool(std::string_view)>& take);
 
 /// A journal that grows.
 class JournalLines {

@@ -100,11 +100,8 @@ MotionContents read_motion_journal(const std::filesystem::path& path, const Jour
   const std::string text = bytes_of_file(path);
   journal.head = read_journal_head(path.string(), text, kMotionJournal, parts);
   if (!journal.head) return journal;
-  journal.whole_bytes = journal.head->bytes;
-  while (const std::optional<std::string_view> line = line_at(text, journal.whole_bytes)) {
-    if (!take_line(*line, journal)) break;
-    journal.whole_bytes += line->size() + 1;
-  }
+  journal.whole_bytes = read_journal_lines(
+      text, journal.head->bytes, [&](std::string_view line) { return take_line(line, journal); });
   return journal;
 }
 

@@ -18,6 +18,17 @@ bool has_values(const Scene& scene, const SweepResult& sweep) {
       [](const PoseResult& pose, double value) { return same_value(value, pose.value); });
 }
 
+bool take_sweep_line(std::string_view line, const Scene& scene, PieceContents& journal) {
+  if (!take_seal(line) || !line.starts_with(kSweepWord)) return false;
+  WordTaker take{line.substr(kSweepWord.size())};
+  const int number = take.number<int>();
+  SweepResult sweep = take_sweep(take);
+  if (!take.ok || !take.rest.empty() || !belongs_to(scene, sweep) || !has_values(scene, sweep))
+    return false;
+  journal.sweeps.insert_or_assign(number, std::move(sweep));
+  return true;
+}
+
 }  // namespace
 
 JournalParts comparison_parts(const Scene& scene,
@@ -44,18 +55,9 @@ PieceContents read_piece_journal(const std::filesystem::path& path,
   const std::string text = bytes_of_file(path);
   journal.head = read_journal_head(path.string(), text, kind, parts);
   if (!journal.head) return journal;
-  journal.whole_bytes = journal.head->bytes;
-  while (const std::optional<std::string_view> whole = line_at(text, journal.whole_bytes)) {
-    std::string_view line = *whole;
-    if (!take_seal(line) || !line.starts_with(kSweepWord)) break;
-    WordTaker take{line.substr(kSweepWord.size())};
-    const int number = take.number<int>();
-    SweepResult sweep = take_sweep(take);
-    if (!take.ok || !take.rest.empty() || !belongs_to(scene, sweep) || !has_values(scene, sweep))
-      break;
-    journal.sweeps.insert_or_assign(number, std::move(sweep));
-    journal.whole_bytes += whole->size() + 1;
-  }
+  journal.whole_bytes = read_journal_lines(text, journal.head->bytes, [&](std::string_view line) {
+    return take_sweep_line(line, scene, journal);
+  });
   return journal;
 }
 
