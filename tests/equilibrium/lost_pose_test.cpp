@@ -231,7 +231,7 @@ TEST(PassedThrough, WhatSlidOffAnEdgeAndWentOnBehindIsBehind) {
   };
   EXPECT_FALSE(depth(0, 2).has_value());
   EXPECT_FALSE(depth(40, 5).has_value());
-  EXPECT_FALSE(depth(40, -10).has_value()) << "as deep as the search sees";
+  EXPECT_FALSE(depth(40, -7).has_value()) << "12.8 mm, as deep as the search sees";
   ASSERT_TRUE(depth(40, -40).has_value());
   EXPECT_NEAR(*depth(40, -40), 43, 3);  // of the lower part of the tilted disc
   ASSERT_TRUE(depth(0, -20).has_value());
@@ -248,6 +248,22 @@ TEST(PassedThrough, WhatStandsHalfBehindAnEdgeIsBehind) {
   const Eigen::Matrix3d upright = exp_rotation({0, 1.3, 0});
   ASSERT_TRUE(passed.depth({upright, {60, 0, 0}}).has_value());
   EXPECT_FALSE(passed.depth({upright, {60, 0, 30}}).has_value()) << "all of it in front";
+}
+
+// A ball beside a ring is in the ring's solid, although most of what faces it is the ring's far side, from the front.
+TEST(PassedThrough, ABallBesideAHollowCylinderIsBehind) {
+  const Eigen::Vector3d axis = Eigen::Vector3d::UnitZ(), origin = Eigen::Vector3d::Zero();
+  ContactPair pair;
+  pair.on_B = make_cylinder(origin, axis, 16, false, 13);
+  pair.on_A = make_sphere(origin, 12, true);
+  for (const double L : {30.0, 150.0}) {
+    const PassedThrough passed(pair, L);
+    EXPECT_FALSE(passed.depth({exp_rotation({0.1, 0.2, 0.3}), {2, 1, 3}}).has_value())
+        << "within it";
+    EXPECT_FALSE(passed.depth({exp_rotation({0.1, 0.2, 0.3}), {0, 1, 40}}).has_value())
+        << "before its end";
+    ASSERT_TRUE(passed.depth({exp_rotation({0.1, 0.2, 0.3}), {130, 1, 0}}).has_value()) << L;
+  }
 }
 
 TEST(CarriedPose, HasThePrescribedCoordinatesAndKeepsTheOthers) {

@@ -1,6 +1,7 @@
 #include "condyle/equilibrium/passed_through.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "condyle/surface/has_edge.h"
 
@@ -8,6 +9,7 @@ namespace condyle {
 namespace {
 
 constexpr double kSpacing = 0.2;   // of the samples [L]
+constexpr double kFinest = 0.25;   // of them on a small surface [its radius]
 constexpr double kOpposed = -0.5;  // cosine between normals that face each other
 constexpr std::size_t kFew = 3;    // fewer samples tell nothing
 
@@ -55,8 +57,9 @@ void add_gaps(const Samples& samples,
   }
 }
 
-/// The third lowest: one or two samples may have met a closest point far from the true one.
+/// The third lowest, of fewer none: one or two samples may have met a closest point far from the true one.
 double low(std::vector<double>& values) {
+  if (values.size() < kFew) return std::numeric_limits<double>::infinity();
   const auto third = values.begin() + (kFew - 1);
   std::nth_element(values.begin(), third, values.end());
   return *third;
@@ -70,7 +73,8 @@ PassedThrough::PassedThrough(const ContactPair& pair, double L)
   if (pair.mode != ContactMode::kAuto || !(has_edge(*on_B_) || has_edge(*on_A_))) return;
   const auto sample = [L](const Surface& surface) {
     std::vector<Sample> samples;
-    for (const Place& place : surface.samples(kSpacing * L)) {
+    const double spacing = std::min(kSpacing * L, kFinest * surface.extent().radius);
+    for (const Place& place : surface.samples(spacing)) {
       if (surface.edge_distance(place) < 0) continue;
       const SurfacePoint at = surface.evaluate_frame(place);
       samples.push_back({at.c, at.n});
@@ -94,10 +98,16 @@ bool PassedThrough::may_be_deep(const RigidTransform& X_BA) const {
 std::optional<double> PassedThrough::depth(const RigidTransform& X_BA) const {
   if (!may_be_deep(X_BA)) return std::nullopt;
   const auto any = [](const Eigen::Vector3d&) { return true; };
-  Gaps gaps;
-  add_gaps(samples_A_, X_BA, *on_B_, any, gaps);
-  add_gaps(samples_B_, X_BA.inverse(), *on_A_, any, gaps);
-  const double gap = low(gaps.facing.size() < kFew ? gaps.all : gaps.facing);
+  Gaps of_A, of_B;
+  add_gaps(samples_A_, X_BA, *on_B_, any, of_A);
+  add_gaps(samples_B_, X_BA.inverse(), *on_A_, any, of_B);
+  // Each for itself: what lies behind a short edge, few samples of one surface may face, and many of the
+  // other's face the one from afar, as those across a hollow cylinder face a ball beside it.
+  double gap = std::min(low(of_A.facing), low(of_B.facing));
+  if (of_A.facing.size() + of_B.facing.size() < kFew) {
+    of_A.all.insert(of_A.all.end(), of_B.all.begin(), of_B.all.end());
+    gap = low(of_A.all);
+  }
   if (gap > -kDeep * L_) return std::nullopt;
   return -gap;
 }
