@@ -46,7 +46,15 @@ std::optional<double> wrapped_length_at(const Run& run,
     if (pose.converged() && (nearest == nullptr || far_off(pose) < far_off(*nearest)))
       nearest = &pose;
   if (nearest == nullptr) return std::nullopt;
-  return TautString(run.scene, *nearest, ligament).led_to(X_BA);
+  TautString string(run.scene, *nearest, ligament);
+  const std::optional<double> length = string.led_to(X_BA);
+  if (!length) return std::nullopt;
+  // Where the way back leads to another string than that of the pose, one has slipped on the way.
+  constexpr double kSame = 1e-6;  // [mm]
+  const std::optional<double> back = string.led_to(nearest->X_BA);
+  const double told = course_of(run.scene, *nearest, ligament).length;
+  if (!back || !(std::abs(*back - told) < kSame)) return std::nullopt;
+  return length;
 }
 
 }  // namespace
