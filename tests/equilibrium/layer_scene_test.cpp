@@ -102,6 +102,17 @@ TEST(LayerScene, StiffLayersAreFoundFromAStartThatOverlaps) {
   EXPECT_NEAR(depths[1] / depths[0], 0.1, 0.02);
 }
 
+// Contacts of half a millimetre, which lie between the points of the coarsest lattice.
+TEST(LayerScene, StiffLayersAreSwept) {
+  Scene scene = layered_phantom(1e5);
+  scene.sweep->values = {0, 5 * kDegree, 10 * kDegree, 100 * kDegree};
+  for (const PoseResult& pose : sweep(scene, fitted()).poses) {
+    ASSERT_TRUE(pose.converged()) << pose.value / kDegree << ": " << pose.reason;
+    for (const ContactResult& contact : pose.contacts)
+      EXPECT_GT(contact.layer.value().force.norm(), 20) << pose.value / kDegree;
+  }
+}
+
 TEST(LayerScene, AllocatesNothingOnAWayThatItKnows) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "allocations are not counted here";
   const Scene scene = layered_phantom();

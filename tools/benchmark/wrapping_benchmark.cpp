@@ -1,10 +1,16 @@
 /// What a wrapped strand costs in one Newton iteration: its ends a little further than at the call
 /// before, the path warm, wrench and blocks included. Argument: minus the power of ten of the step [mm].
+/// And what the wrapped strands of a whole scene cost in a warm pose.
 
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <cstdlib>
 
+#include "condyle/equilibrium/build_model.h"
+#include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "condyle/wrapping/wrapped_path.h"
 
 namespace condyle::benchmarks {
@@ -59,6 +65,33 @@ BENCHMARK_CAPTURE(warm_pull, anchored_D, one(WrapEllipsoid{{30, 18, 12}}, true),
     ->Arg(1)
     ->Arg(3);
 BENCHMARK_CAPTURE(warm_pull, two_surfaces, kTwo, kX, Eigen::Vector3d(40, -45, 5))->Arg(1)->Arg(3);
+
+/// A pose of the scene that CONDYLE_SCENE names, contacts rigid, the first condition from 0 to 120 degrees by
+/// 5 and back; without its wraps all strands are straight.
+void scene_pose(benchmark::State& state) {
+  const char* file = std::getenv("CONDYLE_SCENE");
+  if (file == nullptr) return state.SkipWithError("CONDYLE_SCENE names no scene");
+  Scene scene = read_scene(file);
+  for (ContactDescription& contact : scene.contacts) contact.layer.reset();
+  if (state.range(0) == 0)
+    for (LigamentDescription& ligament : scene.ligaments) ligament.path.wraps.clear();
+  EquilibriumSolver solver(build_model(scene, fit_surfaces(scene)));
+  Drive drive = drive_of(solver.model());
+  PoseResult result;
+  long poses = 0;
+  const auto next = [&] {
+    constexpr int kSteps = 24;
+    const int phase = static_cast<int>(poses++ % (2 * kSteps));
+    drive.values.at(0) = (phase <= kSteps ? phase : 2 * kSteps - phase) * M_PI / 36;
+    solver.solve(drive, result);
+  };
+  for (int warm = 0; warm < 48; ++warm) next();
+  for (auto _ : state) {
+    next();
+    if (!result.converged()) return state.SkipWithError(result.reason.c_str());
+  }
+}
+BENCHMARK(scene_pose)->ArgName("wraps")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace condyle::benchmarks

@@ -5,16 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source tools/figures/program.sh
 scratch
-specimen=../shared/specimens/lenhart2015
-[ -d "$specimen" ] || exit 77
-
-# The model names its cartilage by names of its own.
-mkdir -p "$out/Geometry"
-cp "$specimen/lenhart2015.osim" "$out"
-for bone in femur tibia; do
-  ln -sf "$(realpath "$specimen")/ACLC01-R-$bone-cart-medium.stl" "$out/Geometry/lenhart2015-R-$bone-cartilage.stl"
-done
-"$CONDYLE" import "$out/lenhart2015.osim" -o "$out/imported.toml" >/dev/null
+source tools/figures/lenhart.sh
 
 # swept NAME FROM TO STEP
 swept() {

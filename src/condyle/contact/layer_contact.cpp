@@ -115,6 +115,10 @@ class BothSides {
     for (LayerSide& side : sides_) points += side.pressed(X);
     return points;
   }
+  [[nodiscard]] bool come_within(const RigidTransform& X, double margin) {
+    return std::any_of(sides_.begin(), sides_.end(),
+                       [&](LayerSide& side) { return side.comes_within(X, margin); });
+  }
   /// The points that are pressed, B's first.
   void add_pressures(const RigidTransform& X,
                      const LayerLaw& law,
@@ -163,16 +167,25 @@ class LayerContact final : public ContactPotential {
   }
 
   /// The coarsest lattice that should do by the number of its points, as one that is coarser tells
-  /// that.
+  /// that. What is pressed between the points of a coarse one, finer ones tell: no less than a ball of 2 mm
+  /// rises from points 2 mm apart.
   void prepare(const RigidTransform& X_BA) override {
     constexpr double kEnough = 8;  // points, to tell those of other lattices
+    constexpr double kBetween = 0.5;
     level_ = 0;
-    for (;;) {
-      const double points = static_cast<double>(sides().pressed(X_BA)) / sides().count();
+    double points = pressed_on_a_side(X_BA);
+    if (points == 0 && sides().come_within(X_BA, kBetween))
+      while (points == 0 && level_ + 1 < kLevels) {
+        ++level_;
+        points = pressed_on_a_side(X_BA);
+      }
+    if (points == 0) level_ = 0;
+    while (points > 0 && level_ + 1 < kLevels) {
       const double finer = std::sqrt(fewest_points(options_.tolerance) / points);
-      if (level_ + 1 == kLevels || points == 0 || !(finer > 1)) break;
+      if (!(finer > 1)) break;
       level_ = points < kEnough ? level_ + 1 : level_of(finer * kCells[level_]);
       if (points >= kEnough) break;
+      points = pressed_on_a_side(X_BA);
     }
   }
 
@@ -215,6 +228,9 @@ class LayerContact final : public ContactPotential {
     std::optional<BothSides>& sides = sides_[level_];
     if (!sides) sides.emplace(*lattices_, level_);
     return *sides;
+  }
+  [[nodiscard]] double pressed_on_a_side(const RigidTransform& X_BA) {
+    return static_cast<double>(sides().pressed(X_BA)) / sides().count();
   }
   /// Of the force, relative. An error that goes along one direction of the lattice changes its sign
   /// with a shift of half a cell, so half the difference is that error; what goes along diagonals

@@ -203,13 +203,13 @@ void LayerPackets::reset() {
   is_at_ = has_candidates_ = false;
 }
 
-/// Bits of the blocks that may hold points that are candidates.
-unsigned LayerPackets::near(BlockPacket& blocks, const RigidTransform& X) const {
+/// Bits of the blocks that may hold points nearer than `margin`.
+unsigned LayerPackets::near(BlockPacket& blocks, const RigidTransform& X, double margin) const {
   alignas(32) FourPoints center;
   place_all(X, blocks.center, center);
   Near found{0, 15};
   if (blocks.closest.known()) {
-    found = near_from(center, blocks.radius, kMargin, blocks.closest);
+    found = near_from(center, blocks.radius, margin, blocks.closest);
     if (found.unknown == 0) return found.near;
     find_.find(center, blocks.closest, kFound, blocks.closest, found.unknown);
   } else {
@@ -217,7 +217,7 @@ unsigned LayerPackets::near(BlockPacket& blocks, const RigidTransform& X) const 
   }
   unsigned near = found.near;
   for (int k = 0; k < 4; ++k)
-    if ((found.unknown >> k & 1U) != 0 && !(blocks.closest.phi[k] > blocks.radius[k] + kMargin))
+    if ((found.unknown >> k & 1U) != 0 && !(blocks.closest.phi[k] > blocks.radius[k] + margin))
       near |= 1U << k;
   return near;
 }
@@ -227,17 +227,33 @@ unsigned LayerPackets::near(BlockPacket& blocks, const RigidTransform& X) const 
 void LayerPackets::choose_candidates(const RigidTransform& X) {
   candidates_.clear();
   for (BlockPacket& blocks : blocks_) {
-    const unsigned found = near(blocks, X);
+    const unsigned found = near(blocks, X, kMargin);
     for (int k = 0; k < 4; ++k) {
       if ((found >> k & 1U) == 0) continue;
       for (std::uint32_t i = blocks.first[k]; i < blocks.end[k]; ++i) {
         if (!bounds_[i].known) find_anew(i, blocks.closest.repeated(k), X);
-        if (!is_clear(i, X)) candidates_.push_back(i);
+        if (!is_clear(i, X, kMargin)) candidates_.push_back(i);
       }
     }
   }
   X_candidates_ = X;
   has_candidates_ = true;
+}
+
+bool LayerPackets::comes_within(const RigidTransform& X, double margin) {
+  press_at(X, LayerCare::kExact);
+  for (BlockPacket& blocks : blocks_) {
+    const unsigned found = near(blocks, X, margin);
+    for (int k = 0; k < 4; ++k) {
+      if ((found >> k & 1U) == 0) continue;
+      for (std::uint32_t i = blocks.first[k]; i < blocks.end[k]; ++i) {
+        if (bounds_[i].known && is_clear(i, X, margin)) continue;
+        find_anew(i, blocks.closest.repeated(k), X);
+        if (!is_clear(i, X, margin)) return true;
+      }
+    }
+  }
+  return false;
 }
 
 void LayerPackets::find_anew(std::uint32_t index,
@@ -262,10 +278,10 @@ void LayerPackets::keep_bound(std::uint32_t index, const RigidTransform& X) {
   bound.known = true;
 }
 
-/// Is all of a packet farther off than kMargin?
-bool LayerPackets::is_clear(std::uint32_t index, const RigidTransform& X) const {
+/// Is all of a packet farther off than `margin`?
+bool LayerPackets::is_clear(std::uint32_t index, const RigidTransform& X, double margin) const {
   const Bound& bound = bounds_[index];
-  const double rest = bound.phi - kMargin - (turned_ - bound.turned) * bound.radius;
+  const double rest = bound.phi - margin - (turned_ - bound.turned) * bound.radius;
   return rest > 0 && (X * bound.center - bound.at).squaredNorm() < rest * rest;
 }
 
@@ -297,7 +313,7 @@ void LayerPackets::press_at(const RigidTransform& X, LayerCare care) {
   const bool chosen = has_candidates_ && way_from_candidates(X) < kMargin;
   if (!chosen) choose_candidates(X);
   for (const std::uint32_t i : candidates_) press(i, X, care);
-  if (!chosen) std::erase_if(candidates_, [&](std::uint32_t i) { return is_clear(i, X); });
+  if (!chosen) std::erase_if(candidates_, [&](std::uint32_t i) { return is_clear(i, X, kMargin); });
   X_ = X;
   care_ = care;
   is_at_ = true;

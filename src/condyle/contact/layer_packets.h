@@ -52,6 +52,9 @@ class LayerPackets {
   /// frame of the other, unless that is known. Allocates nothing.
   void press_at(const RigidTransform& X, LayerCare care);
 
+  /// Is any point within `margin` of the other surface, or in it [mm]?
+  [[nodiscard]] bool comes_within(const RigidTransform& X, double margin);
+
   /// Of the last pose.
   [[nodiscard]] std::size_t size() const { return pressed_.size(); }
   [[nodiscard]] const LayerPacket& operator[](std::size_t i) const { return packets_[pressed_[i]]; }
@@ -74,7 +77,7 @@ class LayerPackets {
     std::uint32_t first[4], end[4];  ///< packets of each
     FourClosestPoints closest;
   };
-  [[nodiscard]] unsigned near(BlockPacket& blocks, const RigidTransform& X) const;
+  [[nodiscard]] unsigned near(BlockPacket& blocks, const RigidTransform& X, double margin) const;
   /// No point of a packet is nearer than φ less the way that it went, which is that of the centre
   /// and what the body has turned since by the radius.
   struct Bound {
@@ -87,7 +90,7 @@ class LayerPackets {
   };
   void find_anew(std::uint32_t packet, const FourClosestPoints& near, const RigidTransform& X);
   void keep_bound(std::uint32_t packet, const RigidTransform& X);
-  [[nodiscard]] bool is_clear(std::uint32_t packet, const RigidTransform& X) const;
+  [[nodiscard]] bool is_clear(std::uint32_t packet, const RigidTransform& X, double margin) const;
   void choose_candidates(const RigidTransform& X);
   [[nodiscard]] double way_from_candidates(const RigidTransform& X) const;
   void press(std::uint32_t packet, const RigidTransform& X, LayerCare care);

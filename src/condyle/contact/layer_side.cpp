@@ -49,6 +49,10 @@ std::size_t LayerSide::pressed(const RigidTransform& X_BA) {
   return press_at(X_BA, LayerCare::kExact).points();
 }
 
+bool LayerSide::comes_within(const RigidTransform& X_BA, double margin) {
+  return packets_.comes_within(of_A_ ? X_BA : X_BA.inverse(), margin);
+}
+
 /// Of each pressed point.
 template <typename Each>
 void LayerSide::for_pressed(const RigidTransform& X_BA, const Each& each) {

@@ -103,6 +103,9 @@ class LayerSide {
   /// How many points are pressed.
   [[nodiscard]] std::size_t pressed(const RigidTransform& X_BA);
 
+  /// Is any point within `margin` of the other surface, or in it [mm]?
+  [[nodiscard]] bool comes_within(const RigidTransform& X_BA, double margin);
+
   /// Appends the points that are pressed.
   void add_pressures(const RigidTransform& X_BA,
                      const LayerLaw& law,
