@@ -221,5 +221,14 @@ TEST_F(StudyFile, IsRefusedWhereItIsDamagedBeforeAnythingOfItIsShown) {
   EXPECT_THROW((void)open_study(folder_ / "missing.h5"), InputError);
 }
 
+// HDF5 crashes on the heap of this one, or would look for its end for as long as it may.
+TEST_F(StudyFile, WhatCannotBeReadIsNotTakenForSomethingElse) {
+  const fs::path damaged = fs::path(CONDYLE_SOURCE_DIR) / "tests/fuzz/run/broken_heap.h5";
+  EXPECT_THROW((void)is_study_file(damaged), InputError);
+  EXPECT_FALSE(holds_study(damaged, made_up_study()));
+  EXPECT_FALSE(is_study_file(folder_ / "missing.h5"));
+  EXPECT_FALSE(is_study_file(fs::path(CONDYLE_SOURCE_DIR) / "README.md"));
+}
+
 }  // namespace
 }  // namespace condyle

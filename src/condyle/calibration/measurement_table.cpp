@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "condyle/elements/joint_table.h"
+#include "condyle/input_error.h"
 
 namespace condyle {
 
 std::string name_of(const Measurement& row, const MeasurementTable& table, const Scene& scene) {
   std::string name =
-      fmt::format("{}:{}: {}, {:.6g} {}", table.file.string(), row.line, row.test,
+      fmt::format("{}:{}: {}, {:.6g} {}", table.file.string(), row.line, one_line(row.test),
                   row.flexion / scene.angle_to_rad, scene.angle_to_rad == 1 ? "rad" : "deg");
   if (row.load < 0) return name;
   const CalibrationLoad& load = scene.calibration->loads[static_cast<std::size_t>(row.load)];

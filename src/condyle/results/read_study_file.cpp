@@ -90,8 +90,8 @@ bool is_study_file(const std::filesystem::path& path) {
     return root.has_attribute("format") &&
            root.read_attribute("format").starts_with("condyle study ");
   };
+  rehearse(path, [&] { (void)is_study(); });
   try {
-    rehearse(path, [&] { (void)is_study(); });
     return is_study();
   } catch (const InputError&) {
     return false;

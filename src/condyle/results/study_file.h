@@ -69,6 +69,8 @@ struct StudyView {
   std::vector<StudySummary> by_knee;  ///< of a population; else empty
 };
 
+/// False for a file that is missing or holds something else. Throws InputError for one so damaged that it is not
+/// known (rehearsal.h): whoever asks would wait for that as long again.
 [[nodiscard]] bool is_study_file(const std::filesystem::path& path);
 /// Throws InputError for a file that is missing or is no study.
 [[nodiscard]] StudyView read_study_file(const std::filesystem::path& path);

@@ -208,8 +208,11 @@ void write_provenance(const Hdf5Group& root, const StudyProvenance& provenance) 
 }  // namespace
 
 bool holds_study(const std::filesystem::path& path, const StudyPlan& plan) {
-  std::error_code unknown;
-  if (!std::filesystem::is_regular_file(path, unknown) || !is_study_file(path)) return false;
+  try {
+    if (!is_study_file(path)) return false;
+  } catch (const InputError&) {  // a damaged one
+    return false;
+  }
   const auto identity = [&] {
     const Hdf5Reader file(path);
     const Hdf5Group root = file.root();
