@@ -63,7 +63,7 @@ class VanishingArc {
     const double off = guess_ ? 2 * std::abs(value - *guess_) : INFINITY;
     guess_ = value;
     const double width = std::abs(right - left);
-    const double aside = std::clamp(off, 0.3 * tolerance, 0.25 * width);
+    const double aside = std::min(std::max(off, 0.3 * tolerance), 0.25 * width);
     const double to = std::abs(left - value) > std::abs(right - value) ? left : right;
     const double next = value + std::copysign(aside, to - value);
     const bool inside = (next - left) * (right - next) > 0;
