@@ -132,6 +132,7 @@ class EquilibriumSolver {
   bool solve_from_last(EquilibriumState& state, Attempt& attempt, Patience patience);
   bool solve_from_elsewhere(EquilibriumState& state, Attempt& attempt);
   bool descend_from(const RigidTransform& X, EquilibriumState& state, Attempt& attempt);
+  bool descend_from_beside_start(EquilibriumState& state, Attempt& attempt);
   bool solve_from_edge(EquilibriumState& state, Attempt& attempt);
   bool take_off_surfaces(EquilibriumState& state, Attempt& attempt);
   bool starts_passed_through(Attempt& attempt);

@@ -207,8 +207,33 @@ bool EquilibriumSolver::solve_from_elsewhere(EquilibriumState& state, Attempt& a
   if (from_last && !from_start) state = last;
   if (from_start) attempt.found_by(way_from_start);
   if (from_last && from_start && !same_pose(*model_, state.X, last.X)) attempt.other = last.X;
+  if (!from_last && !from_start && !has_state_ && !attempt.off)
+    return descend_from_beside_start(state, attempt);
   if (from_last || from_start) newton_.system().assemble(state, drive_);
   return from_last || from_start;
+}
+
+/// The descent from the carried start moved out and in along the normals of where the surfaces are nearest:
+/// of a first pose no other start is known, and one in some thousand comes to where nothing carries.
+bool EquilibriumSolver::descend_from_beside_start(EquilibriumState& state, Attempt& attempt) {
+  constexpr double kBeside = 0.05, kFar = 0.5, kSame = 0.01;  // of L
+  const RigidTransform start = carried(*model_, drive_, model_->start);
+  Eigen::Vector3d out = Eigen::Vector3d::Zero();
+  for (std::size_t p = 0; p < searches_.size(); ++p) {
+    if (model_->pairs[p].mode == ContactMode::kOpen || !searches_[p].has_samples()) continue;
+    searches_[p].find(start, kFar * model_->length, minima_, kSame * model_->length);
+    if (!minima_.empty()) out += minima_.front().n;
+  }
+  if (!(out.norm() > 0)) return false;
+  for (const double by : {kBeside, -kBeside}) {
+    attempt.begin(PoseRoute::kDescent, PoseOrigin::kCarriedStart);
+    RigidTransform X = start;
+    X.p += by * model_->length * out.normalized();
+    if (!descend_from(X, state, attempt)) continue;
+    newton_.system().assemble(state, drive_);
+    return true;
+  }
+  return false;
 }
 
 /// From the last equilibrium beyond an edge: its branch may return to the known surfaces, else it
