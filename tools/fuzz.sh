@@ -4,7 +4,7 @@
 #
 #   tools/fuzz.sh [DOOR [MINUTES]] [--runs N]
 #
-# DOOR: a folder of tests/fuzz; all of them where none is named. MINUTES: for each door, 2. --runs ends a door after so many
+# DOOR: a folder of tests/fuzz; all of them where none is named, or "all". MINUTES: for each door, 2. --runs ends a door after so many
 # executions. A door begins with the files of its folder and of out/fuzz/DOOR, where what it learns is kept. An input that crashes,
 # leaks, takes more than 10 s or 2 GB is kept in out/fuzz, with the command that repeats it. Ends with 2 where there is one, with 77
 # where there is no Clang with libFuzzer.
@@ -67,7 +67,7 @@ fuzz() {
 }
 
 printf '| door | executions | s | MB | edges | corpus | finds |\n|---|---|---|---|---|---|---|\n'
-if [ ${#words[@]} -gt 0 ]; then
+if [ "${words[0]:-all}" != all ]; then
   fuzz "${words[0]}"
 else
   for folder in tests/fuzz/*/; do
