@@ -25,8 +25,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // All in sample spacings:
 constexpr double kFacingSpacing = 1.5;  // of the surface that the samples of the other one face
 constexpr double kRimReach = 1.5;       // from a sample to an edge that it stands for, and along it
-constexpr double kDeepest = 12;     // overlap of a surface with an edge that is still taken for one
-constexpr double kNeighbour = 1.6;  // a sample nearer than this may be the lower one
+constexpr double kNeighbour = 1.6;      // a sample nearer than this may be the lower one
 constexpr double kSame = 0.3;       // a minimum predicted nearer to one that is known is that one
 constexpr double kRefineReach = 4;  // from a sample to the minimum that it leads to
 constexpr double kModel = 0.01;     // what the paraboloid of the gap may be wrong by in its reach
@@ -106,7 +105,7 @@ ContactSearch::ContactSearch(std::shared_ptr<const ContactCover> cover)
     : cover_(std::move(cover)),
       spacing_(cover_->spacing),
       sampled_on_A_(cover_->sampled_on_A),
-      deepest_(has_edge(other().surface()) ? kDeepest * spacing_ : kInfinity),
+      deepest_(has_edge(other().surface()) ? deepest() : kInfinity),
       shells_(Bending::shells(spacing_, sampled().extent())),
       bending_B_(cover_->on_B, shells_),
       bending_A_(cover_->on_A, shells_) {

@@ -57,10 +57,15 @@ using ContactCovers = std::vector<std::shared_ptr<const ContactCover>>;
 /// A search is warm: it begins where it last was, and belongs to one thread.
 class ContactSearch {
  public:
+  static constexpr double kDeepest = 12;  ///< [sample spacings]
+
   explicit ContactSearch(std::shared_ptr<const ContactCover> cover);
   /// `spacing` of the samples [mm].
   explicit ContactSearch(const ContactPair& pair, double spacing = 1.2)
       : ContactSearch(std::make_shared<const ContactCover>(pair, spacing)) {}
+
+  /// What lies deeper behind a surface with an edge is taken for no overlap [mm].
+  [[nodiscard]] double deepest() const { return kDeepest * spacing_; }
 
   /// As newly made. Allocates nothing.
   void reset();

@@ -48,7 +48,8 @@ EquilibriumSolver::EquilibriumSolver(std::shared_ptr<const Model> model,
       newton_(*model_, options_.newton),
       descent_(*model_, searches_, newton_, options_.descent),
       predictor_(*model_) {
-  for (const ContactPair& pair : model_->pairs) passed_.emplace_back(pair, model_->length);
+  for (std::size_t p = 0; p < model_->pairs.size(); ++p)
+    passed_.emplace_back(model_->pairs[p], model_->length, searches_[p].deepest());
   state_.contacts.reserve(kMaxConstraints);
   minima_.reserve(kMinimaOfAPair);
   reset();

@@ -207,7 +207,8 @@ bool EquilibriumSolver::solve_from_elsewhere(EquilibriumState& state, Attempt& a
   if (from_last && !from_start) state = last;
   if (from_start) attempt.found_by(way_from_start);
   if (from_last && from_start && !same_pose(*model_, state.X, last.X)) attempt.other = last.X;
-  if (!from_last && !from_start && !has_state_ && !attempt.off)
+  const bool singular = attempt.newton.outcome == NewtonOutcome::kSingular;
+  if (!from_last && !from_start && !has_state_ && !attempt.off && !singular)
     return descend_from_beside_start(state, attempt);
   if (from_last || from_start) newton_.system().assemble(state, drive_);
   return from_last || from_start;

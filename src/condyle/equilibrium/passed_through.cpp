@@ -67,8 +67,8 @@ double low(std::vector<double>& values) {
 
 }  // namespace
 
-PassedThrough::PassedThrough(const ContactPair& pair, double L)
-    : on_B_(pair.on_B.get()), on_A_(pair.on_A.get()), L_(L) {
+PassedThrough::PassedThrough(const ContactPair& pair, double L, double seen)
+    : on_B_(pair.on_B.get()), on_A_(pair.on_A.get()), L_(L), seen_(std::min(kDeep * L, seen)) {
   // Closed surfaces are searched to any depth.
   if (pair.mode != ContactMode::kAuto || !(has_edge(*on_B_) || has_edge(*on_A_))) return;
   const auto sample = [L](const Surface& surface) {
@@ -85,9 +85,8 @@ PassedThrough::PassedThrough(const ContactPair& pair, double L)
   samples_A_ = sample(*on_A_);
 }
 
-/// Do enough samples lie deep enough for `depth`?
-bool PassedThrough::may_be_deep(const RigidTransform& X_BA) const {
-  const double deep = kDeep * L_;
+/// Do enough samples lie deep enough?
+bool PassedThrough::may_be_deep(const RigidTransform& X_BA, double deep) const {
   Gaps far;
   add_gaps(samples_A_, X_BA, *on_B_, FarFrom(samples_B_, deep), far);
   add_gaps(samples_B_, X_BA.inverse(), *on_A_, FarFrom(samples_A_, deep), far);
@@ -96,7 +95,11 @@ bool PassedThrough::may_be_deep(const RigidTransform& X_BA) const {
 }
 
 std::optional<double> PassedThrough::depth(const RigidTransform& X_BA) const {
-  if (!may_be_deep(X_BA)) return std::nullopt;
+  return depth_beyond(X_BA, kDeep * L_);
+}
+
+std::optional<double> PassedThrough::depth_beyond(const RigidTransform& X_BA, double deep) const {
+  if (!may_be_deep(X_BA, deep)) return std::nullopt;
   const auto any = [](const Eigen::Vector3d&) { return true; };
   Gaps of_A, of_B;
   add_gaps(samples_A_, X_BA, *on_B_, any, of_A);
@@ -108,14 +111,14 @@ std::optional<double> PassedThrough::depth(const RigidTransform& X_BA) const {
     of_A.all.insert(of_A.all.end(), of_B.all.begin(), of_B.all.end());
     gap = low(of_A.all);
   }
-  if (gap > -kDeep * L_) return std::nullopt;
+  if (gap > -deep) return std::nullopt;
   return -gap;
 }
 
 bool PassedThrough::moved_far(const RigidTransform& X_BA) const {
   const auto any_far = [this](const std::vector<Sample>& samples, const RigidTransform& X,
                               const RigidTransform& Y) {
-    const double far = 0.8 * kDeep * L_;
+    const double far = 0.8 * seen_;
     return std::any_of(samples.begin(), samples.end(), [&](const Sample& sample) {
       return (X * sample.c - Y * sample.c).squaredNorm() > far * far;
     });
@@ -127,7 +130,7 @@ bool PassedThrough::moved_far(const RigidTransform& X_BA) const {
 std::optional<double> PassedThrough::depth_of_clear_pose(const RigidTransform& X_BA) {
   if (samples_A_.empty() && samples_B_.empty()) return std::nullopt;
   if (!trusted_ || moved_far(X_BA)) {
-    if (const std::optional<double> deep = depth(X_BA)) return deep;
+    if (const std::optional<double> deep = depth_beyond(X_BA, seen_)) return deep;
   }
   trusted_ = X_BA;
   return std::nullopt;

@@ -13,8 +13,10 @@ namespace condyle {
 
 class PassedThrough {
  public:
-  /// `L` is the model's length [mm].
-  PassedThrough(const ContactPair& pair, double L);
+  /// `L` is the model's length, `seen` the depth to which the search for contacts takes one surface behind
+  /// the other for an overlap [mm]; it is less than kDeep L where surfaces are small beside the model.
+  PassedThrough(const ContactPair& pair, double L, double seen);
+  PassedThrough(const ContactPair& pair, double L) : PassedThrough(pair, L, kDeep * L) {}
 
   /// How deep one surface lies behind the other [mm], where some of what faces the other's known part
   /// does so by more than `kDeep` L; where next to nothing faces it (a joint that slid off its edge
@@ -22,9 +24,9 @@ class PassedThrough {
   /// sides: in a joint nothing that faces lies behind.
   [[nodiscard]] std::optional<double> depth(const RigidTransform& X_BA) const;
 
-  /// The same for a pose at which the search found no overlap, sought only where no such pose is
-  /// known nearby: a point that was in front of a surface cannot have passed the depth the search
-  /// sees.
+  /// The same for a pose at which the search found no overlap, of what lies deeper than it sees; sought only
+  /// where no such pose is known nearby: a point that was in front of a surface cannot have passed that
+  /// depth.
   [[nodiscard]] std::optional<double> depth_of_clear_pose(const RigidTransform& X_BA);
 
   /// The surfaces touch here: they are on their right sides.
@@ -33,18 +35,19 @@ class PassedThrough {
   /// As newly made.
   void reset() { trusted_.reset(); }
 
-  static constexpr double kDeep = 0.48;  ///< of L: as deep as the search takes for an overlap
+  static constexpr double kDeep = 0.48;  ///< of L
 
  private:
   struct Sample {
     Eigen::Vector3d c, n;  ///< in its body's frame
   };
-  [[nodiscard]] bool may_be_deep(const RigidTransform& X_BA) const;
+  [[nodiscard]] std::optional<double> depth_beyond(const RigidTransform& X_BA, double deep) const;
+  [[nodiscard]] bool may_be_deep(const RigidTransform& X_BA, double deep) const;
   [[nodiscard]] bool moved_far(const RigidTransform& X_BA) const;
 
   const Surface* on_B_;
   const Surface* on_A_;
-  double L_;
+  double L_, seen_;
   std::vector<Sample> samples_B_, samples_A_;
   std::optional<RigidTransform> trusted_;
 };
