@@ -6,6 +6,9 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/input_error.h"
@@ -207,6 +210,15 @@ TEST_F(JournalFile, IsRemovedByASignalAsLongAsItHoldsNothing) {
   journal.append(made_up_known(0));
   remove_unkept_files();
   EXPECT_EQ(read().poses.size(), 1U);
+}
+
+// A study on many threads has one each.
+TEST_F(JournalFile, AndSoAreManyOfThem) {
+  std::vector<std::unique_ptr<LineFile>> files;
+  for (int i = 0; i < 32; ++i)
+    files.push_back(std::make_unique<LineFile>(path_.string() + std::to_string(i)));
+  remove_unkept_files();
+  for (int i = 0; i < 32; ++i) EXPECT_FALSE(fs::exists(path_.string() + std::to_string(i))) << i;
 }
 
 TEST_F(JournalFile, BelongsToOneRunAtATime) {

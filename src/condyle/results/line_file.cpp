@@ -16,7 +16,8 @@
 
 namespace condyle {
 
-LineFile::LineFile(std::filesystem::path path) : path_(std::move(path)) {
+LineFile::LineFile(std::filesystem::path path)
+    : path_(std::move(path)), empty_(path_, UnkeptFile::Unless::kHoldsBytes) {
   const auto fail = [&](const std::string& why) {
     if (descriptor_ >= 0) ::close(descriptor_);
     throw InputError(path_.string() + ": " + why);
@@ -32,7 +33,6 @@ LineFile::LineFile(std::filesystem::path path) : path_(std::move(path)) {
     if (::fstat(descriptor_, &state) != 0)
       fail("cannot be written: " + std::generic_category().message(errno));
   }
-  if (state.st_size == 0) empty_.emplace(path_);
 }
 
 LineFile::~LineFile() {
@@ -45,13 +45,10 @@ void LineFile::keep(std::size_t bytes) {
   if (::ftruncate(descriptor_, static_cast<off_t>(bytes)) != 0)
     throw InputError(path_.string() +
                      ": cannot be written: " + std::generic_category().message(errno));
-  if (bytes == 0 && !empty_) empty_.emplace(path_);
-  if (bytes > 0) empty_.reset();
 }
 
 void LineFile::append(const std::string& line) {
   if (!failure_.empty()) return;
-  empty_.reset();
   const ssize_t written = ::write(descriptor_, line.data(), line.size());
   if (written == static_cast<ssize_t>(line.size())) return;
   failure_ = fmt::format("{}: cannot be written: {}", path_.string(),

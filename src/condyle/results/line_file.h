@@ -3,7 +3,6 @@
 /// A text file that grows by whole lines while a command works, and belongs to one process at a time.
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "condyle/results/unkept_file.h"
@@ -29,8 +28,8 @@ class LineFile {
 
  private:
   std::filesystem::path path_;
+  UnkeptFile empty_;  ///< as long as it is, a signal removes it
   int descriptor_ = -1;
-  std::optional<UnkeptFile> empty_;  ///< as long as it is: a signal removes it
   std::string failure_;
 };
 

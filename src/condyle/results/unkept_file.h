@@ -10,7 +10,10 @@ namespace condyle {
 /// While one of these lives `remove_unkept_files` knows of the name.
 class UnkeptFile {
  public:
-  explicit UnkeptFile(const std::filesystem::path& name);
+  enum class Unless { kNever, kHoldsBytes };
+
+  /// `unless` it holds bytes: of one that is written line by line, and of use as soon as it has one.
+  explicit UnkeptFile(const std::filesystem::path& name, Unless unless = Unless::kNever);
   ~UnkeptFile();
   UnkeptFile(const UnkeptFile&) = delete;
   UnkeptFile& operator=(const UnkeptFile&) = delete;
