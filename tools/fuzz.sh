@@ -38,7 +38,7 @@ mkdir -p "$kept"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 export UBSAN_OPTIONS=print_stacktrace=1
-export LSAN_OPTIONS=suppressions=$PWD/tools/sanitize/leaks.supp:print_suppressions=0
+export LSAN_OPTIONS=suppressions=$PWD/tools/fuzz/leaks.supp:print_suppressions=0
 [ ! -d /dev/shm ] || export TMPDIR=/dev/shm
 
 # last WORD of a line that begins with it
