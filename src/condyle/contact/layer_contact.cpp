@@ -167,11 +167,11 @@ class LayerContact final : public ContactPotential {
   }
 
   /// The coarsest lattice that should do by the number of its points, as one that is coarser tells
-  /// that. What is pressed between the points of a coarse one, finer ones tell: no less than a ball of 2 mm
-  /// rises from points 2 mm apart.
+  /// that. What is pressed between the points of a coarse one, finer ones tell.
   void prepare(const RigidTransform& X_BA) override {
     constexpr double kEnough = 8;  // points, to tell those of other lattices
-    constexpr double kBetween = 0.5;
+    constexpr double kBetween =
+        0.5;  // a ball of 2 mm rises so far over points 2 mm from each other [mm]
     level_ = 0;
     double points = pressed_on_a_side(X_BA);
     if (points == 0 && sides().come_within(X_BA, kBetween))

@@ -222,38 +222,41 @@ unsigned LayerPackets::near(BlockPacket& blocks, const RigidTransform& X, double
   return near;
 }
 
+/// Hands the packets of blocks that come within `margin` to `each`, with closest points to begin from, until one
+/// says true.
+template <typename Each>
+bool LayerPackets::any_near(const RigidTransform& X, double margin, const Each& each) {
+  for (BlockPacket& blocks : blocks_) {
+    const unsigned found = near(blocks, X, margin);
+    for (int k = 0; k < 4; ++k) {
+      if ((found >> k & 1U) == 0) continue;
+      for (std::uint32_t i = blocks.first[k]; i < blocks.end[k]; ++i)
+        if (each(i, [&] { return blocks.closest.repeated(k); })) return true;
+    }
+  }
+  return false;
+}
+
 /// Those that may hold points that are pressed at a pose at which no point is farther from where it
 /// is at X than kMargin.
 void LayerPackets::choose_candidates(const RigidTransform& X) {
   candidates_.clear();
-  for (BlockPacket& blocks : blocks_) {
-    const unsigned found = near(blocks, X, kMargin);
-    for (int k = 0; k < 4; ++k) {
-      if ((found >> k & 1U) == 0) continue;
-      for (std::uint32_t i = blocks.first[k]; i < blocks.end[k]; ++i) {
-        if (!bounds_[i].known) find_anew(i, blocks.closest.repeated(k), X);
-        if (!is_clear(i, X, kMargin)) candidates_.push_back(i);
-      }
-    }
-  }
+  any_near(X, kMargin, [&](std::uint32_t i, const auto& closest) {
+    if (!bounds_[i].known) find_anew(i, closest(), X);
+    if (!is_clear(i, X, kMargin)) candidates_.push_back(i);
+    return false;
+  });
   X_candidates_ = X;
   has_candidates_ = true;
 }
 
 bool LayerPackets::comes_within(const RigidTransform& X, double margin) {
   press_at(X, LayerCare::kExact);
-  for (BlockPacket& blocks : blocks_) {
-    const unsigned found = near(blocks, X, margin);
-    for (int k = 0; k < 4; ++k) {
-      if ((found >> k & 1U) == 0) continue;
-      for (std::uint32_t i = blocks.first[k]; i < blocks.end[k]; ++i) {
-        if (bounds_[i].known && is_clear(i, X, margin)) continue;
-        find_anew(i, blocks.closest.repeated(k), X);
-        if (!is_clear(i, X, margin)) return true;
-      }
-    }
-  }
-  return false;
+  return any_near(X, margin, [&](std::uint32_t i, const auto& closest) {
+    if (bounds_[i].known && is_clear(i, X, margin)) return false;
+    find_anew(i, closest(), X);
+    return !is_clear(i, X, margin);
+  });
 }
 
 void LayerPackets::find_anew(std::uint32_t index,

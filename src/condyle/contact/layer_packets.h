@@ -91,6 +91,8 @@ class LayerPackets {
   void find_anew(std::uint32_t packet, const FourClosestPoints& near, const RigidTransform& X);
   void keep_bound(std::uint32_t packet, const RigidTransform& X);
   [[nodiscard]] bool is_clear(std::uint32_t packet, const RigidTransform& X, double margin) const;
+  template <typename Each>
+  bool any_near(const RigidTransform& X, double margin, const Each& each);
   void choose_candidates(const RigidTransform& X);
   [[nodiscard]] double way_from_candidates(const RigidTransform& X) const;
   void press(std::uint32_t packet, const RigidTransform& X, LayerCare care);
