@@ -50,16 +50,28 @@ TEST(TautString, AFalseSlackLengthOfALigamentThatWrapsIsFound) {
   EXPECT_NEAR(slack.figure, 0.01, 1e-6);
 }
 
-// A made-up knee (number 691 of seed 1): led to the start pose and back, a string over small surfaces is another one.
-TEST(TautString, AStringThatSlipsOnTheWaySaysNothing) {
-  const condyle::Run run = test::computed_run(test::kSource / "tests/data/slipped_string.toml");
+// A made-up knee (number 691 of seed 1): strings over small surfaces, and bodies that have their origins metres
+// away. A way that turned the femur about its origin would draw them off what they lie on.
+TEST(TautString, TheWayDoesNotDependOnWhereTheOriginLies) {
+  const condyle::Run run = test::computed_run(test::kSource / "tests/data/far_origins.toml");
   const Verification verified = verify_run(run);
+  EXPECT_EQ(verified.converged, 5);
   EXPECT_TRUE(verified.verified());
-  const CheckSummary slack = verified.checks.at(static_cast<std::size_t>(Check::kSlack));
-  EXPECT_EQ(slack.failed, 0);
+  EXPECT_GT(verified.checks.at(static_cast<std::size_t>(Check::kSlack)).count, 0);
+  for (const std::string& what : verified.not_checked)
+    EXPECT_EQ(what.find("slack length"), std::string::npos) << what;
+}
+
+// A made-up knee (number 241 of seed 1): a string goes through a ring no larger than itself, the bodies have
+// their origins metres away, and between the poses and the start one of its ends is in the ring.
+TEST(TautString, AStringWhoseEndPassesThroughASurfaceSaysNothing) {
+  const condyle::Run run = test::computed_run(test::kSource / "tests/data/threaded_string.toml");
+  const Verification verified = verify_run(run);
+  EXPECT_EQ(verified.converged, 3);
+  EXPECT_TRUE(verified.verified());
   EXPECT_TRUE(std::any_of(
       verified.not_checked.begin(), verified.not_checked.end(), [](const std::string& what) {
-        return what.find("slack length of ligament \"line 3\", whose path does not lead") !=
+        return what.find("slack length of ligament \"line 5\", whose path does not lead") !=
                std::string::npos;
       }));
 }

@@ -68,6 +68,55 @@ TEST(WrappedPath, LiftsOffACylinderSmoothly) {
   EXPECT_NEAR(at(9.99).length, 80.00000250005205, 1e-12);
 }
 
+/// Over a circle of radius r about the origin, on the far side of it from the ends (±x, y), y < 0.
+double round_the_far_side(double r, double x, double y) {
+  const double far = std::hypot(x, y), turn = M_PI - 2 * std::atan2(y, x) - 2 * std::acos(r / far);
+  return 2 * std::sqrt(far * far - r * r) + r * turn;
+}
+
+// A pose may lie so far from the last one that the straight line has gone through a cylinder, or through the
+// tube of a ring: the string has not. Closed forms in the plane.
+TEST(WrappedPath, IsNotDrawnThroughASurface) {
+  StringOver post({WrapCylinder{10}});
+  EXPECT_EQ(post.length({-40, 12, 0}, {40, 12, 0}), 80);
+  EXPECT_FALSE(post.revise({-40, 12, 0}, {40, 12, 0}));
+  EXPECT_EQ(post.length({-40, -12, 0}, {40, -12, 0}), 80);  // held
+  EXPECT_TRUE(post.revise({-40, -12, 0}, {40, -12, 0}));
+  EXPECT_NEAR(post.length({-40, -12, 0}, {40, -12, 0}), round_the_far_side(10, 40, -12), 1e-10);
+  EXPECT_FALSE(post.revise({-40, -12, 0}, {40, -12, 0}));
+
+  StringOver ring({WrapTorus{30, 8}});
+  EXPECT_EQ(ring.length({0, 0, -40}, {0, 0, 40}), 80);
+  EXPECT_EQ(ring.length({50, 0, -40}, {50, 0, 40}), 80);
+  EXPECT_TRUE(ring.revise({50, 0, -40}, {50, 0, 40}));
+  EXPECT_NEAR(ring.length({50, 0, -40}, {50, 0, 40}), round_the_far_side(8, 40, -20), 1e-10);
+  EXPECT_GT(ring.finding({50, 0, -40}, {50, 0, 40}).conjugate, 0);
+}
+
+// Off a sphere it slips; about the end of what it passes it may go.
+TEST(WrappedPath, IsStraightWhereItSlipsOffOrGoesAround) {
+  StringOver ball({WrapSphere{10}});
+  EXPECT_EQ(ball.length({-40, 12, 0}, {40, 12, 0}), 80);
+  EXPECT_FALSE(ball.revise({-40, -12, 1}, {40, -12, 1}));
+  EXPECT_EQ(ball.length({-40, -12, 1}, {40, -12, 1}), 80);
+
+  StringOver post({WrapCylinder{10}});
+  const double L = std::hypot(20, 30);
+  EXPECT_EQ(post.length({-40, 0, 0}, {-20, 30, 0}), L);
+  EXPECT_FALSE(post.revise({-40, 0, 0}, {-20, -30, 0}));
+  EXPECT_EQ(post.length({-40, 0, 0}, {-20, -30, 0}), L);
+}
+
+// As a run is taken up again: what was told of a path says where it passed.
+TEST(WrappedPath, TakenUpAgainItIsNotDrawnThroughASurfaceEither) {
+  StringOver post({WrapCylinder{10}}), again({WrapCylinder{10}});
+  const Vector3d X(-40, 12, 0), Y(40, 12, 0);
+  (void)post.length(X, Y);
+  again.path()->keep(post.touches(X, Y), {X, Y, Y}, {}, again.kept());
+  EXPECT_TRUE(again.revise({-40, -12, 0}, {40, -12, 0}));
+  EXPECT_NEAR(again.length({-40, -12, 0}, {40, -12, 0}), round_the_far_side(10, 40, -12), 1e-10);
+}
+
 TEST(WrappedPath, TurnedMovedAndMirroredItIsTheSame) {
   Random random(11);
   StringOver string({kEllipsoid});

@@ -93,8 +93,11 @@ class LinePath {
                            const RigidTransform&,
                            const double*,
                            std::vector<LineTouch>&) const {}
-  /// The numbers of a path that was told by add_touches.
-  virtual void keep(const std::vector<LineTouch>&, double*) const {}
+  /// The numbers of a path that was told by add_touches at this pose.
+  virtual void keep(const std::vector<LineTouch>&,
+                    const LineEnds&,
+                    const RigidTransform&,
+                    double*) const {}
 
   /// What speaks against calling a pose converged whose path this is, or says why the path could not
   /// be found: half a sentence; empty where nothing does.
@@ -106,7 +109,7 @@ class LinePath {
 };
 
 /// Most numbers that one path keeps.
-inline constexpr int kMostPathNumbers = 64;
+inline constexpr int kMostPathNumbers = 80;
 
 /// Numbers of a path of which nothing is known.
 [[nodiscard]] inline std::array<double, kMostPathNumbers> unknown_path() {

@@ -21,6 +21,7 @@ Place place_on(const Surface& surface, const Eigen::Vector3d& point) {
 std::vector<double> kept_paths(const Model& model, const PoseResult& pose) {
   std::vector<double> kept(path_numbers(model.elements), std::numeric_limits<double>::quiet_NaN());
   if (kept.empty() || pose.paths.size() != model.elements.size()) return kept;
+  const RigidTransform X = model.origins.into_model(pose.X_BA);
   KeptPaths next(model.elements, kept);
   for (std::size_t i = 0; i < model.elements.size(); ++i) {
     std::vector<LineTouch> touches = pose.paths[i].touches;
@@ -29,7 +30,8 @@ std::vector<double> kept_paths(const Model& model, const PoseResult& pose) {
       touch.Q -= touch.on_moving ? model.origins.A : model.origins.B;
     }
     double* numbers = next.of(model.elements[i]);
-    if (numbers != nullptr && !touches.empty()) model.elements[i].path->keep(touches, numbers);
+    if (numbers != nullptr && !touches.empty())
+      model.elements[i].path->keep(touches, ends_of(model.elements[i], X), X, numbers);
   }
   return kept;
 }

@@ -189,23 +189,53 @@ bool TautString::changes_touch(const Place& at) {
   return false;
 }
 
+/// An end lies inside a surface of the other body: no string goes on from there.
+bool TautString::ends_inside(const Place& at) const {
+  const LigamentDescription& ligament = scene_.ligaments[ligament_];
+  return std::any_of(at.wraps.begin(), at.wraps.end(), [&](const WrapAt& wrap) {
+    const bool of_first = wrap.wrap->body == scene_.fixed_body();
+    const Vector3d& other = of_first ? at.last.x : at.first.x;
+    return field_at(wrap.wrap->shape, wrap.larger, wrap.own(other)).f < -kTouch &&
+           !passed_over(ligament, wrap, X_BA_, scene_);
+  });
+}
+
+/// Its end on the moving body goes straight, and that turns about it, in steps of a quarter of the least radius
+/// of what it may touch: so it does not matter where the bodies have their origins.
+std::vector<RigidTransform> TautString::way_to(const RigidTransform& X_BA) const {
+  constexpr double kStep = 0.25;
+  constexpr int kFewest = 40, kMost = 400;
+  const Place from = place_at(X_BA_);
+  const Vector3d end = X_BA_.inverse() * from.last.x;
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(X_BA.R * X_BA_.R.transpose()));
+  double least = INFINITY;
+  for (const WrapAt& wrap : from.wraps) least = std::min(least, least_radius(wrap.wrap->shape));
+  const double moved =
+      (X_BA * end - from.last.x).norm() + turn.angle() * (from.last.x - from.first.x).norm();
+  const int steps = static_cast<int>(
+      std::clamp(std::ceil(moved / (kStep * least)), double{kFewest}, double{kMost}));
+  std::vector<RigidTransform> way;
+  for (int step = 1; step < steps; ++step) {
+    const double part = static_cast<double>(step) / steps;
+    RigidTransform& X = way.emplace_back();
+    X.R = Eigen::AngleAxisd(part * turn.angle(), turn.axis()) * X_BA_.R;
+    X.p = (1 - part) * from.last.x + part * (X_BA * end) - X.R * end;
+  }
+  way.push_back(X_BA);
+  return way;
+}
+
 std::optional<double> TautString::led_to(const RigidTransform& X_BA) {
-  constexpr int kSteps = 40, kChanges = 8;
-  const RigidTransform from = X_BA_;
-  const Eigen::AngleAxisd turn(Eigen::Matrix3d(X_BA.R * from.R.transpose()));
+  constexpr int kChanges = 8;
   std::optional<double> length;
-  for (int step = 1; step <= kSteps; ++step) {
-    const double part = static_cast<double>(step) / kSteps;
-    RigidTransform X = X_BA;
-    if (step < kSteps) {
-      X.R = Eigen::AngleAxisd(part * turn.angle(), turn.axis()) * from.R;
-      X.p = from.p + part * (X_BA.p - from.p);
-    }
+  for (const RigidTransform& X : way_to(X_BA)) {
+    const Place at = place_at(X);
+    if (ends_inside(at)) return std::nullopt;
     int changes = 0;
     do {
       length = pulled_to(X);
       if (!length || ++changes > kChanges) return std::nullopt;
-    } while (changes_touch(place_at(X)));
+    } while (changes_touch(at));
   }
   return length;
 }

@@ -21,7 +21,8 @@ class TautString {
   /// settle. It lies there then.
   [[nodiscard]] std::optional<double> pulled_to(const RigidTransform& X_BA);
 
-  /// The same at any pose: it leaves surfaces and comes to others on the way.
+  /// The same at any pose: it leaves surfaces and comes to others on the way. Nothing, too, where an end
+  /// passes through a surface of the other body.
   [[nodiscard]] std::optional<double> led_to(const RigidTransform& X_BA);
 
  private:
@@ -41,6 +42,8 @@ class TautString {
     BeginAt first, last;
   };
   [[nodiscard]] Place place_at(const RigidTransform& X_BA) const;
+  [[nodiscard]] bool ends_inside(const Place& at) const;
+  [[nodiscard]] std::vector<RigidTransform> way_to(const RigidTransform& X_BA) const;
   [[nodiscard]] static Arc changed(const Place& at, const Arc& arc, const Eigen::Vector4d& by);
   [[nodiscard]] static Ends ends_of(const Place& at, const Arc& arc);
   [[nodiscard]] static std::vector<Ends> all_ends(const Place& at, const std::vector<Arc>& arcs);

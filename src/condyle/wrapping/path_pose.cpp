@@ -67,6 +67,15 @@ int link_on(const PathChain& chain, int wrap) {
   return -1;
 }
 
+int add_link(PathChain& chain, const ChainLink& link) {
+  int i = 0;
+  while (i < chain.n && chain.links[i].wrap < link.wrap) ++i;
+  for (int k = chain.n; k > i; --k) chain.links[k] = chain.links[k - 1];
+  chain.links[i] = link;
+  ++chain.n;
+  return i;
+}
+
 void remove_link(PathChain& chain, int i) {
   for (int k = i; k + 1 < chain.n; ++k) chain.links[k] = chain.links[k + 1];
   --chain.n;

@@ -40,6 +40,9 @@ void keep(const PathChain& chain, PathState& state);
 /// The link on a wrap; -1 where there is none.
 [[nodiscard]] int link_on(const PathChain& chain, int wrap);
 
+/// In the order of the surfaces; where it is then.
+int add_link(PathChain& chain, const ChainLink& link);
+
 void remove_link(PathChain& chain, int link);
 
 /// The straight piece that passes a surface it does not touch, frame of the surface; and whether its ends

@@ -5,6 +5,7 @@
 #include "condyle/wrapping/chain_system.h"
 #include "condyle/wrapping/path_start.h"
 #include "condyle/wrapping/solve_chain.h"
+#include "condyle/wrapping/swept_string.h"
 #include "condyle/wrapping/touching_line.h"
 
 namespace condyle {
@@ -13,9 +14,33 @@ namespace {
 using Eigen::Vector3d;
 using Outcome = WrappedPath::Outcome;
 
+/// The path is straight past a surface that it does not touch: does it hang on it since the statuses were last
+/// revised? The chain goes over it then.
+bool hangs_on(const PathPose& pose,
+              PathChain& chain,
+              int wrap,
+              const PathState& state,
+              const Passing& line,
+              double height) {
+  const std::optional<StraightPiece> before = state.line(wrap);
+  const StraightPiece now{line.U, line.V};
+  if (!before || comes_clear(*before, now, height)) return false;
+  const std::optional<ArcPlace> place = swept_onto(pose.surfaces[wrap].shape, *before, now);
+  if (!place) return false;
+  PathChain hung = chain;
+  ChainLink link = link_of(pose, wrap);
+  link.P = place->P;
+  link.t = place->t;
+  link.arc = place->arc;
+  const int at = add_link(hung, link);
+  if (!solve(hung) || !(hung.links[at].arc > kTouch) || !(conjugate(hung) > 0)) return false;
+  chain = hung;
+  return true;
+}
+
 /// How high the path passes over a surface that it does not touch; less than 0 where it has to come to it.
-double height(
-    const PathPose& pose, const PathChain& chain, int wrap, PathState& state, bool first) {
+/// The chain goes over it already where it hangs on it.
+double height(const PathPose& pose, PathChain& chain, int wrap, PathState& state, bool first) {
   const PathSurface& surface = pose.surfaces[wrap];
   const Passing line = passing(pose, chain, wrap);
   if (ends_inside(surface.shape, line)) {
@@ -30,8 +55,9 @@ double height(
   double part = 0;
   const double g = clearance(surface.shape, line.U, line.V, &part);
   const bool told = first && surface.side;
-  if (g > kTouch && !told)
-    state.leave(wrap, normal_at(surface.shape, line.U + part * (line.V - line.U)));
+  if (g > kTouch && !told && !hangs_on(pose, chain, wrap, state, line, g))
+    state.leave(wrap, normal_at(surface.shape, line.U + part * (line.V - line.U)),
+                StraightPiece{line.U, line.V});
   return g;
 }
 
@@ -91,6 +117,10 @@ bool change_one(const PathPose& pose, PathChain& chain, PathState& state, bool f
   for (int wrap = 0; wrap < count(pose); ++wrap) {
     if (pose.ends.passed_over[wrap] || link_on(chain, wrap) >= 0) continue;
     double g = height(pose, chain, wrap, state, first);
+    if (link_on(chain, wrap) >= 0) {
+      keep(chain, state);
+      return true;
+    }
     if (first && g > -kTouch && passes_on_the_other_side(pose, chain, wrap)) g = -1;
     if (g < deepest) {
       deepest = g;
@@ -128,7 +158,12 @@ bool stays_off(const PathPose& pose, const Passing& line, PathState& state) {
   if (state.finding().outcome != Outcome::kFound || ends_inside(shape, line)) return false;
   double part = 0;
   const double height = clearance(shape, line.U, line.V, &part);
-  if (height > kTouch) state.leave(0, normal_at(shape, line.U + part * (line.V - line.U)));
+  const StraightPiece now{line.U, line.V};
+  if (height > kTouch) {
+    const std::optional<StraightPiece> before = state.line(0);
+    if (before && !comes_clear(*before, now, height)) return false;
+    state.leave(0, normal_at(shape, line.U + part * (line.V - line.U)), now);
+  }
   return height >= -kTouch;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "condyle/wrapping/chain_system.h"
+#include "condyle/wrapping/path_pose.h"
 #include "condyle/wrapping/solve_chain.h"
 
 namespace condyle {
@@ -48,18 +49,6 @@ std::optional<Vector3d> across(const Vector3d& w, const Vector3d& d) {
   const Vector3d part = w - w.dot(d) / d.squaredNorm() * d;
   if (!(part.norm() > 1e-6 * w.norm())) return std::nullopt;
   return part.normalized();
-}
-
-int place_of(const PathChain& chain, int wrap) {
-  int i = 0;
-  while (i < chain.n && chain.links[i].wrap < wrap) ++i;
-  return i;
-}
-
-void insert_at(PathChain& chain, int i, const ChainLink& link) {
-  for (int k = chain.n; k > i; --k) chain.links[k] = chain.links[k - 1];
-  chain.links[i] = link;
-  ++chain.n;
 }
 
 /// An anchored link: the path begins in the tangent plane of the anchor, as far off as the next point is
@@ -132,9 +121,8 @@ bool insert_free(
 
 bool insert_link(PathChain& chain, const ChainLink& link, const Vector3d* side) {
   const PathChain before_it = chain;
-  const int i = place_of(chain, link.wrap);
   const RigidTransform placed = link.X_GS;
-  insert_at(chain, i, link);
+  const int i = add_link(chain, link);
   const Vector3d U = link.starts_here ? link.X_GS * link.anchor : before(chain, i);
   const Vector3d V = link.ends_here ? link.X_GS * link.anchor : after(chain, i);
   const bool done = link.starts_here || link.ends_here ? insert_anchored(chain, i, U, V)

@@ -1,13 +1,15 @@
 #pragma once
 
 /// What a wrapped path keeps, as doubles: the outcome of the last pull, its length with the pose
-/// (noted_length.h), and of each surface its status and the geodesic on it, or, while it is off it, the normal at the side where it passes.
+/// (noted_length.h), and of each surface its status and the geodesic on it, or, while it is off it, the
+/// normal at the side where it passes and the straight piece that did so when the statuses were last revised.
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "condyle/wrapping/one_surface.h"
+#include "condyle/wrapping/straight_piece.h"
 #include "condyle/wrapping/wrapped_path.h"
 
 namespace condyle {
@@ -53,6 +55,7 @@ class PathState {
   }
   void touch(int wrap, const ArcPlace& at) {
     double* w = of(wrap);
+    std::fill_n(w, kPerWrap, 0.0);
     w[0] = 1;
     for (int i = 0; i < 3; ++i) {
       w[1 + i] = at.P[i];
@@ -83,15 +86,25 @@ class PathState {
     end_[9] = end.r;
     end_[10] = end.dr;
   }
-  /// Off the surface; `side`: the normal there, 0 where it is not known.
-  void leave(int wrap, const Eigen::Vector3d& side) {
+  /// Off the surface; `side`: the normal there, 0 where it is not known; `line`: the piece that passes it.
+  void leave(int wrap, const Eigen::Vector3d& side, const std::optional<StraightPiece>& line = {}) {
     touch(wrap, {side, Eigen::Vector3d::Zero(), 0});
-    of(wrap)[0] = 0;
+    double* w = of(wrap);
+    w[0] = 0;
+    for (int i = 0; i < 3; ++i) {
+      w[4 + i] = line ? line->U[i] : NAN;
+      w[7 + i] = line ? line->V[i] : NAN;
+    }
   }
   [[nodiscard]] Eigen::Vector3d side(int wrap) const { return place(wrap).P; }
+  [[nodiscard]] std::optional<StraightPiece> line(int wrap) const {
+    const double* w = of(wrap);
+    if (touches(wrap) || std::isnan(w[4])) return std::nullopt;
+    return StraightPiece{{w[4], w[5], w[6]}, {w[7], w[8], w[9]}};
+  }
 
  private:
-  static constexpr int kHead = 3, kPerWrap = 8, kEnd = 11;
+  static constexpr int kHead = 3, kPerWrap = 10, kEnd = 11;
   static constexpr int kMostNoted = 6, kMostWithEnd = 4;
   static_assert(kHead + kMostWraps * kPerWrap <= kMostPathNumbers);
   static_assert(kHead + kMostNoted * kPerWrap + kNoted <= kMostPathNumbers);

@@ -63,7 +63,10 @@ class SurfacesPath final : public WrappedPath {
                    const RigidTransform& X_BA,
                    const double* kept,
                    std::vector<LineTouch>& touches) const override;
-  void keep(const std::vector<LineTouch>& touches, double* kept) const override;
+  void keep(const std::vector<LineTouch>& touches,
+            const LineEnds& ends,
+            const RigidTransform& X_BA,
+            double* kept) const override;
   [[nodiscard]] std::string objection(const LineEnds& ends,
                                       const RigidTransform& X_BA,
                                       const double* kept) const override;
@@ -259,7 +262,10 @@ void SurfacesPath::add_touches(const LineEnds& ends,
   }
 }
 
-void SurfacesPath::keep(const std::vector<LineTouch>& touches, double* kept) const {
+void SurfacesPath::keep(const std::vector<LineTouch>& touches,
+                        const LineEnds& ends,
+                        const RigidTransform& X_BA,
+                        double* kept) const {
   if (touches.size() != wraps_.size()) return;
   PathState state(kept, wraps_.size());
   state.set(Outcome::kFound, -1, 1);
@@ -270,6 +276,15 @@ void SurfacesPath::keep(const std::vector<LineTouch>& touches, double* kept) con
       state.touch(static_cast<int>(i), {X_SW * touch.P, X_SW.R * touch.t_P, touch.arc});
     else
       state.leave(static_cast<int>(i), X_SW.R * touch.side);
+  }
+  PathEnds other;
+  const PathPose pose{surfaces_, ends_at(ends, X_BA, other), X_BA};
+  PathChain chain = kept_chain(pose, state);
+  if (!solve(chain)) return;
+  for (int i = 0; i < count(pose); ++i) {
+    if (state.touches(i)) continue;
+    const Passing line = passing(pose, chain, i);
+    state.leave(i, state.side(i), StraightPiece{line.U, line.V});
   }
 }
 
