@@ -102,5 +102,31 @@ TEST(LayerPackets, AfterAResetNoBitDoes) {
   EXPECT_EQ(first.M2, again.M2);
 }
 
+// Told from the points around them, they carry what a lattice of them does, but at the edge of the
+// contact: there they lie beside cells that are not pressed.
+TEST(LayerPackets, CornersCarryAsALatticeOfThem) {
+  for (const PressureLaw pressure : {PressureLaw::kLinear, PressureLaw::kLogarithmic}) {
+    const LayerLaw law(kCartilage, kCartilage, pressure);
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      const Pressed pressed(seed);
+      const Surface& surface = *pressed.pair.on_A;
+      const LayerLattice lattice = layer_lattice(surface, 3),
+                         shifted = layer_lattice(surface, 3, true);
+      const LayerCorners corners = layer_corners(surface, 3, lattice);
+      const LayerClosestPoints into(*pressed.pair.on_B);
+      LayerSide side(lattice, true, into), of_corners(shifted, true, into);
+      for (const RigidTransform& X : pressed.poses) {
+        const CornerForce told = side.at_corners(X, law, corners);
+        LayerSums sums;
+        of_corners.add_to(X, law, 1, sums);
+        EXPECT_NEAR(told.force, sums.force, 1e-3 * sums.force);
+        EXPECT_LT((told.along_n - sums.on_A).norm(), 1e-3 * sums.force);
+        const CornerForce again = side.at_corners(X, law, corners);
+        EXPECT_EQ(told.along_n, again.along_n);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace condyle

@@ -63,15 +63,20 @@ TEST_P(PatchOfDegree, IsTheSameByItsCells) {
   for (const PatchData& data : {wavy_sheet(GetParam()[0], GetParam()[1]), uneven}) {
     const Patch patch(data);
     const PatchCells cells(patch);
-    const double u[] = {7.3, 0, 30, 31}, v[] = {2.1, 15, -5, 3};
-    FourDerivatives found;
-    cells.derivatives(u, v, found);
-    for (int k = 0; k < 4; ++k) {
-      const PatchDerivatives d = patch.derivatives(u[k], v[k]);
-      const Eigen::Vector3d* all[] = {&d.c, &d.c_u, &d.c_v, &d.c_uu, &d.c_uv, &d.c_vv};
-      for (int i = 0; i < 6; ++i)
-        for (int x = 0; x < 3; ++x)  // of some 40 mm to round-off
-          EXPECT_NEAR(found.d[i][x][k], (*all[i])[x], 2e-13) << i << x << k;
+    const double everywhere[] = {7.3, 0, 30, 31}, inside[] = {7.3, 0, 30, 12.9},
+                 together[] = {7.3, 7.4, 7.35, 7.3}, v[] = {2.1, 2.2, 2.1, 2.15},
+                 across[] = {2.1, 15, 0, 3};
+    for (const auto& [u, w] :
+         {std::pair(everywhere, across), std::pair(inside, across), std::pair(together, v)}) {
+      FourDerivatives found;
+      cells.derivatives(u, w, found);
+      for (int k = 0; k < 4; ++k) {
+        const PatchDerivatives d = patch.derivatives(u[k], w[k]);
+        const Eigen::Vector3d* all[] = {&d.c, &d.c_u, &d.c_v, &d.c_uu, &d.c_uv, &d.c_vv};
+        for (int i = 0; i < 6; ++i)
+          for (int x = 0; x < 3; ++x)  // of some 40 mm to round-off
+            EXPECT_NEAR(found.d[i][x][k], (*all[i])[x], 2e-13) << i << x << k;
+      }
     }
   }
 }

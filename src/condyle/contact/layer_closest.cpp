@@ -30,6 +30,7 @@ inline __attribute__((always_inline)) Four dot(const Four* a, const Four* b) {
 }
 
 inline __attribute__((always_inline)) void load(const FourPoints& from, Four* x) {
+  CONDYLE_UNROLL
   for (int i = 0; i < 3; ++i) x[i] = load_four(from[i]);
 }
 
@@ -43,6 +44,7 @@ bool step_to_closest(const FourDerivatives& at,
                      FollowedPlaces& places,
                      FourClosestPoints& closest) {
   Four q[3], c_u[3], c_v[3], c_uu[3], c_uv[3], c_vv[3];
+  CONDYLE_UNROLL
   for (int i = 0; i < 3; ++i) q[i] = load_four(p[i]) - load_four(at.d[0][i]);
   load(at.d[1], c_u);
   load(at.d[2], c_v);
@@ -75,6 +77,7 @@ bool step_to_closest(const FourDerivatives& at,
   store_four(closest.phi, dot(n, q) - 0.5 * (in_u * k_u + in_v * k_v));
   // -K (I - φ K)⁻¹ maps v to -b h⁻¹ c·v, by the reciprocal base.
   Four g_u[3], g_v[3], row_u[3], row_v[3];
+  CONDYLE_UNROLL
   for (int i = 0; i < 3; ++i) {
     g_u[i] = (c * c_u[i] - b * c_v[i]) * inverse;
     g_v[i] = (a * c_v[i] - b * c_u[i]) * inverse;
@@ -86,9 +89,10 @@ bool step_to_closest(const FourDerivatives& at,
     row_u[i] = b_uu * turn_u + b_uv * turn_v;
     row_v[i] = b_uv * turn_u + b_vv * turn_v;
   }
-  for (int i = 0, ij = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j, ++ij)
-      store_four(closest.H[ij], -g_u[i] * row_u[j] - g_v[i] * row_v[j]);
+  CONDYLE_UNROLL
+  for (int i = 0, ij = 0; i < 3; ++i) CONDYLE_UNROLL
+  for (int j = i; j < 3; ++j, ++ij)
+    store_four(closest.H[ij], -g_u[i] * row_u[j] - g_v[i] * row_v[j]);
   return (ends[0] & ends[1] & ends[2] & ends[3]) != 0;
 }
 
@@ -96,6 +100,7 @@ bool step_to_closest(const FourDerivatives& at,
 CONDYLE_FMA_CLONE
 void predict(const FourPoints& p, const FourClosestPoints& from, double* u, double* v) {
   Four way[3], turn[3];
+  CONDYLE_UNROLL
   for (int i = 0; i < 3; ++i) way[i] = load_four(p[i]) - load_four(from.at[i]);
   load(from.turn[0], turn);
   store_four(u, load_four(from.place[0]) + dot(turn, way));
@@ -127,6 +132,7 @@ LayerClosestPoints::LayerClosestPoints(const Surface& surface)
   if (patch_ == nullptr) return;
   constexpr double kReach = 0.15;  // of the domain
   cells_.emplace(*patch_);
+  bends_.emplace(*cells_);
   const double reach_u = kReach * (patch_->u_max() - patch_->u_min()),
                reach_v = kReach * (patch_->v_max() - patch_->v_min());
   u_[0] = patch_->u_min() - reach_u, u_[1] = patch_->u_max() + reach_u;
@@ -148,7 +154,7 @@ unsigned LayerClosestPoints::follow(const FourPoints& p,
   FourDerivatives at;
   for (int i = 0; i < kMost && (found | lost) != kAll; ++i) {
     for (int k = 0; k < 4; ++k) {
-      if (u[k] >= u_[0] && u[k] <= u_[1] && v[k] >= v_[0] && v[k] <= v_[1]) continue;
+      if ((u[k] >= u_[0]) & (u[k] <= u_[1]) & (v[k] >= v_[0]) & (v[k] <= v_[1])) continue;
       lost |= 1U << k;
       u[k] = patch_->u_min(), v[k] = patch_->v_min();
     }

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "condyle/surface/patch.h"
+#include "condyle/surface/patch_bends.h"
 #include "condyle/surface/patch_cells.h"
 
 namespace condyle {
@@ -41,6 +42,8 @@ class LayerClosestPoints {
  public:
   /// The surface is referred to.
   explicit LayerClosestPoints(const Surface& surface);
+  LayerClosestPoints(const LayerClosestPoints&) = delete;
+  LayerClosestPoints& operator=(const LayerClosestPoints&) = delete;
 
   [[nodiscard]] const Surface& surface() const { return surface_; }
 
@@ -57,6 +60,11 @@ class LayerClosestPoints {
             double step,
             FourClosestPoints& closest,
             unsigned asked = 15) const;
+
+  /// How the surface bends about the place of one of them.
+  [[nodiscard]] BendBound bends_about(const FourClosestPoints& closest, int k) const {
+    return bends_ ? bends_->about(closest.place[0][k], closest.place[1][k]) : BendBound();
+  }
 
   /// From anywhere.
   void find_anew(const FourPoints& p, FourClosestPoints& closest) const;
@@ -75,6 +83,7 @@ class LayerClosestPoints {
   const Surface& surface_;
   const Patch* patch_;  ///< null where it is none
   std::optional<PatchCells> cells_;
+  std::optional<PatchBends> bends_;
   double u_[2] = {}, v_[2] = {};  ///< how far places are followed
 };
 

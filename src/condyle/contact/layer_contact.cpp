@@ -105,8 +105,11 @@ class BothSides {
   /// What the corners of the lattices' cells would carry.
   CornerForce at_corners(const RigidTransform& X, const LayerLaw& law) {
     CornerForce all;
-    for (std::size_t i = 0; i < sides_.size(); ++i)
-      sides_[i].add_to(X, law, share(), lattices_.corners_of(of_A_[i], level_), all);
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      const CornerForce side = sides_[i].at_corners(X, law, lattices_.corners_of(of_A_[i], level_));
+      all.force += share() * side.force;
+      all.along_n += share() * side.along_n;
+    }
     return all;
   }
   /// How many points are pressed.
@@ -242,7 +245,7 @@ class LayerContact final : public ContactPotential {
     const CornerForce shifted = sides().at_corners(X_BA, law_);
     const double force = std::max(here.force, shifted.force);
     if (!(force > 0)) return 0;
-    const double seen = 0.5 * (here.on_A - shifted.on_A).norm() / force;
+    const double seen = 0.5 * (here.on_A - shifted.along_n).norm() / force;
     const double points = std::max(1.0, here.points / sides().count());
     return std::hypot(seen, kUnseen * std::pow(points, -1.25));
   }

@@ -148,22 +148,24 @@ LayerLattice layer_lattice(const Surface& surface, int per_span, bool shifted) {
 }
 
 LayerCorners layer_corners(const Surface& surface, int per_span, const LayerLattice& lattice) {
-  constexpr std::array<int, 4> kNone = {-1, -1, -1, -1};
+  const LayerLattice shifted = layer_lattice(surface, per_span, true);
+  std::map<std::array<int, 3>, std::uint32_t> corner_of;
+  for (const std::array<int, 3>& cell : shifted.cell)
+    corner_of.emplace(cell, static_cast<std::uint32_t>(corner_of.size()));
   LayerCorners corners;
-  corners.lattice = layer_lattice(surface, per_span, true);
-  std::map<std::array<int, 3>, int> corner_of;
-  for (const std::array<int, 3>& cell : corners.lattice.cell)
-    corner_of.emplace(cell, static_cast<int>(corner_of.size()));
-  corners.of_cell.assign(lattice.x.size(), kNone);
-  corners.around.assign(corners.lattice.x.size(), kNone);
-  for (std::size_t i = 0; i < lattice.x.size(); ++i)
+  for (std::size_t i = 0; i < shifted.x.size(); ++i) {
+    const Vector3d &x = shifted.x[i], &n = shifted.n[i];
+    corners.points.push_back({{x[0], x[1], x[2], shifted.area[i]}, {n[0], n[1], n[2], 0}});
+  }
+  corners.points.push_back({});
+  for (const auto& [chart, row, column] : lattice.cell) {
+    std::array<std::uint32_t, 4>& of_cell = corners.of_cell.emplace_back();
     for (int k = 0; k < 4; ++k) {
-      const auto [chart, row, column] = lattice.cell[i];
       const auto corner = corner_of.find({chart, row + k / 2, column + k % 2});
-      if (corner == corner_of.end()) continue;
-      corners.of_cell[i][k] = corner->second;
-      corners.around[static_cast<std::size_t>(corner->second)][k] = static_cast<int>(i);
+      of_cell[static_cast<std::size_t>(k)] =
+          corner == corner_of.end() ? corners.none() : corner->second;
     }
+  }
   return corners;
 }
 

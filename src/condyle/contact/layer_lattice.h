@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "condyle/surface/patch.h"
@@ -33,11 +34,15 @@ struct LayerLattice {
 };
 
 /// The corners of a lattice's cells: the same lattice shifted by half a cell in both directions.
-/// Each point is named with those around it, -1 where there is none.
 struct LayerCorners {
-  LayerLattice lattice;
-  std::vector<std::array<int, 4>> of_cell;  ///< corners of each point of the lattice
-  std::vector<std::array<int, 4>> around;   ///< points of the lattice around each corner
+  struct alignas(32) Point {
+    double x_area[4];  ///< [mm], and the area that it stands for [mm²]
+    double n[4];       ///< outward unit normal, and 0
+  };
+  std::vector<Point> points;  ///< one more than there are corners: the last stands for none
+  std::vector<std::array<std::uint32_t, 4>> of_cell;  ///< corners of each point of the lattice
+
+  [[nodiscard]] std::uint32_t none() const { return static_cast<std::uint32_t>(points.size() - 1); }
 };
 
 /// Width of the border at the edge of the known part over which areas fade to nothing [mm]: a hard

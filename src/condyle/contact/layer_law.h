@@ -36,9 +36,12 @@ class LayerLaw {
   /// that it is finite at every pose.
   [[nodiscard]] Answer at(double d) const {
     if (!(d > 0)) return {};
-    if (law_ == PressureLaw::kLinear) return {k_ * d, 0.5 * k_ * d * d, k_};
+    if (is_linear()) return {k_ * d, 0.5 * k_ * d * d, k_};
     return logarithmic_at(d);
   }
+
+  /// Is p = stiffness() d?
+  [[nodiscard]] bool is_linear() const { return law_ == PressureLaw::kLinear; }
 
   /// ∂p/∂ln E of the layers on B and on A at a depth d, 0 < d <= deepest() [N/mm²]: together p.
   [[nodiscard]] std::array<double, 2> pressure_by_moduli(double d) const;

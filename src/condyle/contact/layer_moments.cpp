@@ -21,22 +21,24 @@ inline __attribute__((always_inline)) void add(double* sum, const Four& x) {
 }
 
 /// With the forces w p and stiffnesses w W'' of the points.
-CONDYLE_FMA_CLONE
-void add_packet(const LayerPacket& packet,
-                const double* origin,
-                const double* forces,
-                const double* stiffnesses,
-                FourMoments& sums) {
-  const Four wp = load_four(forces), wk = load_four(stiffnesses), none = {};
+inline __attribute__((always_inline)) void add_packet(const LayerPacket& packet,
+                                                      const double* origin,
+                                                      const Four& wp,
+                                                      const Four& wk,
+                                                      FourMoments& sums) {
+  const Four none = {};
   // Of those that are not pressed nothing may be a number.
   const auto pressed = load_four(packet.pressed) > 0;
   Four s[3], n[3], G[3][3], SG[3][3];
+  CONDYLE_UNROLL
   for (int i = 0; i < 3; ++i) {
     s[i] = load_four(packet.p[i]) - origin[i];
     n[i] = pressed ? load_four(packet.n[i]) : none;
   }
+  CONDYLE_UNROLL
   for (int i = 0, ij = 0; i < 3; ++i) {
     const Four pull = wk * n[i];
+    CONDYLE_UNROLL
     for (int j = i; j < 3; ++j, ++ij) {
       const Four H = pressed ? load_four(packet.closest.H[ij]) : none;
       G[i][j] = G[j][i] = wp * H - pull * n[j];
@@ -44,12 +46,14 @@ void add_packet(const LayerPacket& packet,
     }
   }
   add(sums.force, wp);
+  CONDYLE_UNROLL
   for (int j = 0; j < 3; ++j) {
     SG[0][j] = s[1] * G[2][j] - s[2] * G[1][j];
     SG[1][j] = s[2] * G[0][j] - s[0] * G[2][j];
     SG[2][j] = s[0] * G[1][j] - s[1] * G[0][j];
     const Four f = wp * n[j];
     add(sums.f[j], f);
+    CONDYLE_UNROLL
     for (int i = 0; i < 3; ++i) {
       add(sums.s_f[i][j], s[i] * f);
       add(sums.S_G[i][j], SG[i][j]);
@@ -62,6 +66,32 @@ void add_packet(const LayerPacket& packet,
   add(sums.S_G_S[3], SG[1][2] * s[0] - SG[1][0] * s[2]);
   add(sums.S_G_S[4], SG[1][0] * s[1] - SG[1][1] * s[0]);
   add(sums.S_G_S[5], SG[2][0] * s[1] - SG[2][1] * s[0]);
+}
+
+CONDYLE_FMA_CLONE
+void add_packets(const LayerPackets& packets,
+                 const LayerLaw& law,
+                 double share,
+                 const double* origin,
+                 FourMoments& sums) {
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    const LayerPacket& packet = packets[i];
+    const auto pressed = load_four(packet.pressed) > 0;
+    const Four none = {}, w = share * load_four(packet.area),
+               depth = pressed ? -load_four(packet.phi) : none;
+    Four pressure, stiffness;
+    if (law.is_linear()) {
+      pressure = law.stiffness() * depth;
+      stiffness = law.stiffness() * load_four(packet.pressed);
+    } else {
+      for (int k = 0; k < 4; ++k) {
+        const LayerLaw::Answer answer = law.at(depth[k]);
+        pressure[k] = answer.pressure;
+        stiffness[k] = answer.stiffness;
+      }
+    }
+    add_packet(packet, origin, w * pressure, w * stiffness, sums);
+  }
 }
 
 double total(const double* x) { return (x[0] + x[1]) + (x[2] + x[3]); }
@@ -94,17 +124,7 @@ LayerMoments layer_moments(const LayerPackets& packets,
                            double share,
                            const Vector3d& origin) {
   FourMoments sums;
-  alignas(32) double forces[4], stiffnesses[4];
-  for (std::size_t i = 0; i < packets.size(); ++i) {
-    const LayerPacket& packet = packets[i];
-    for (int k = 0; k < 4; ++k) {
-      const LayerLaw::Answer answer = law.at(packet.pressed[k] > 0 ? -packet.phi[k] : 0);
-      const double w = share * packet.area[k];
-      forces[k] = w * answer.pressure;
-      stiffnesses[k] = w * answer.stiffness;
-    }
-    add_packet(packet, origin.data(), forces, stiffnesses, sums);
-  }
+  add_packets(packets, law, share, origin.data(), sums);
   return total(sums);
 }
 

@@ -17,7 +17,7 @@ constexpr double kFound = 1e-7;
 
 /// Packets that are farther off are no candidates for poses within this way of where they were
 /// chosen [mm].
-constexpr double kMargin = 0.05;
+constexpr double kMargin = 0.02;
 
 /// How far closest points are relied on.
 struct Reliance {
@@ -43,6 +43,7 @@ inline __attribute__((always_inline)) void turn(const RigidTransform& X,
                                                 const FourPoints& x,
                                                 Four* out) {
   const double* R = X.R.data();  // column by column
+  CONDYLE_UNROLL
   for (int i = 0; i < 3; ++i)
     out[i] = R[i] * load_four(x[0]) + R[3 + i] * load_four(x[1]) + R[6 + i] * load_four(x[2]);
 }
@@ -51,6 +52,7 @@ inline __attribute__((always_inline)) void place(const RigidTransform& X,
                                                  const FourPoints& x,
                                                  Four* out) {
   turn(X, x, out);
+  CONDYLE_UNROLL
   for (int i = 0; i < 3; ++i) out[i] += X.p.data()[i];
 }
 
@@ -66,6 +68,7 @@ Told tell(const RigidTransform& X, const Reliance& rely, LayerPacket& packet) {
   const FourClosestPoints& closest = packet.closest;
   Four p[3], v[3], n[3], Hv[3], facing[3];
   place(X, packet.x, p);
+  CONDYLE_UNROLL
   for (int i = 0; i < 3; ++i) {
     store_four(packet.p[i], p[i]);
     v[i] = p[i] - load_four(closest.at[i]);
@@ -85,6 +88,7 @@ Told tell(const RigidTransform& X, const Reliance& rely, LayerPacket& packet) {
   Hv[2] = xz * v[0] + yz * v[1] + zz * v[2];
   turn(X, packet.normal, facing);
   Four now = phi, cosine = {};
+  CONDYLE_UNROLL
   for (int i = 0; i < 3; ++i) {
     now += v[i] * (n[i] + 0.5 * Hv[i]);
     n[i] += Hv[i];
@@ -129,6 +133,7 @@ Near near_from(const FourPoints& center,
                const FourClosestPoints& closest) {
   constexpr double kSurely = 0.75;
   Four way = {}, along = {};
+  CONDYLE_UNROLL
   for (int i = 0; i < 3; ++i) {
     const Four v = load_four(center[i]) - load_four(closest.at[i]);
     way += v * v;
@@ -138,6 +143,7 @@ Near near_from(const FourPoints& center,
   const auto clear = (rest > 0) & (way < rest * rest);
   const auto surely = (phi + sqrt_four(way) <= r) | (phi + along < kSurely * r);
   Near all{0, 0};
+  CONDYLE_UNROLL
   for (int k = 0; k < 4; ++k) {
     if (clear[k] != 0) continue;
     (surely[k] != 0 ? all.near : all.unknown) |= 1U << k;
@@ -149,13 +155,14 @@ CONDYLE_FMA_CLONE
 void place_all(const RigidTransform& X, const FourPoints& x, FourPoints& out) {
   Four p[3];
   place(X, x, p);
+  CONDYLE_UNROLL
   for (int i = 0; i < 3; ++i) store_four(out[i], p[i]);
 }
 
 }  // namespace
 
 LayerPackets::LayerPackets(const LayerLattice& points, const LayerClosestPoints& find)
-    : find_(find), slots_(points.x.size()) {
+    : find_(find) {
   for (std::size_t b = 0; b < points.blocks.size(); ++b) {
     const LayerBlock& block = points.blocks[b];
     const auto first = static_cast<std::uint32_t>(packets_.size());
@@ -163,7 +170,6 @@ LayerPackets::LayerPackets(const LayerLattice& points, const LayerClosestPoints&
       if (i % 4 == 0) packets_.emplace_back();
       LayerPacket& packet = packets_.back();
       const std::size_t point = block.first + i;
-      slots_[point] = static_cast<std::uint32_t>(4 * (packets_.size() - 1) + i % 4);
       for (int k = static_cast<int>(i % 4); k < 4; ++k) {
         set_point(points.x[point], k, packet.x);
         set_point(points.n[point], k, packet.normal);
@@ -279,13 +285,44 @@ void LayerPackets::keep_bound(std::uint32_t index, const RigidTransform& X) {
         std::min(bound.phi, packet.closest.phi[k] - (find_.finds_in_fours() ? 0 : way(packet, k)));
   bound.turned = turned_;
   bound.known = true;
+  bound.reach = 0;
+  if (bound.phi > 0) keep_bend(packet, bound);
+}
+
+/// Places, φ and n are wrong by less than the last step.
+void LayerPackets::keep_bend(const LayerPacket& packet, Bound& bound) const {
+  const FourClosestPoints& closest = packet.closest;
+  double bend = 0, along = std::numeric_limits<double>::infinity(), farthest = 0;
+  bound.n.setZero();
+  for (int k = 0; k < 4; ++k) {
+    const BendBound about = find_.bends_about(closest, k);
+    bend = std::max(bend, about.most);
+    along = std::min(along, about.way - closest.step[k]);
+    farthest = std::max(farthest, closest.phi[k]);
+    bound.n += 0.25 * point_of(closest.n, k);
+  }
+  if (!(along > 0 && farthest * bend < 1)) return;
+  double spread = 0, step = 0;
+  for (int k = 0; k < 4; ++k) {
+    spread = std::max(spread, (point_of(closest.n, k) - bound.n).squaredNorm());
+    step = std::max(step, closest.step[k]);
+  }
+  bound.spread = std::sqrt(spread) + step;
+  bound.reach = along * (1 - farthest * bend) / (1 + along * bend);
+  bound.turning = bend * along / bound.reach;
 }
 
 /// Is all of a packet farther off than `margin`?
 bool LayerPackets::is_clear(std::uint32_t index, const RigidTransform& X, double margin) const {
   const Bound& bound = bounds_[index];
-  const double rest = bound.phi - margin - (turned_ - bound.turned) * bound.radius;
-  return rest > 0 && (X * bound.center - bound.at).squaredNorm() < rest * rest;
+  const double turn = (turned_ - bound.turned) * bound.radius, rest = bound.phi - margin - turn;
+  if (!(rest > 0) && !(bound.reach > 0)) return false;
+  const Vector3d w = X * bound.center - bound.at;
+  const double square = w.squaredNorm();
+  if (rest > 0 && square < rest * rest) return true;
+  const double way = std::sqrt(square) + turn;
+  return way < bound.reach &&
+         rest + bound.n.dot(w) > (bound.spread + 0.5 * bound.turning * way) * way;
 }
 
 /// No point is farther from where it was when candidates were chosen.
@@ -305,7 +342,8 @@ void LayerPackets::press(std::uint32_t index, const RigidTransform& X, LayerCare
   }
   if (told != Told::kPressed) return;
   pressed_.push_back(index);
-  for (const double pressed : packet.pressed) points_pressed_ += pressed > 0 ? 1 : 0;
+  points_pressed_ += static_cast<std::size_t>((packet.pressed[0] + packet.pressed[1]) +
+                                              (packet.pressed[2] + packet.pressed[3]));
 }
 
 void LayerPackets::press_at(const RigidTransform& X, LayerCare care) {

@@ -60,15 +60,6 @@ class LayerPackets {
   [[nodiscard]] const LayerPacket& operator[](std::size_t i) const { return packets_[pressed_[i]]; }
   [[nodiscard]] std::size_t points() const { return points_pressed_; }
 
-  /// The packet that holds a point of the lattice, and where in it.
-  struct Slot {
-    const LayerPacket& packet;
-    int k;
-  };
-  [[nodiscard]] Slot slot_of(std::size_t point) const {
-    return {packets_[slots_[point] / 4], static_cast<int>(slots_[point] % 4)};
-  }
-
  private:
   /// The balls about four blocks.
   struct alignas(32) BlockPacket {
@@ -78,18 +69,25 @@ class LayerPackets {
     FourClosestPoints closest;
   };
   [[nodiscard]] unsigned near(BlockPacket& blocks, const RigidTransform& X, double margin) const;
-  /// No point of a packet is nearer than φ less the way that it went, which is that of the centre
-  /// and what the body has turned since by the radius.
+  /// No point of a packet is nearer than φ less the way w that it went, which is that of the centre
+  /// and what the body has turned since by the radius. Nor is a point outside nearer than
+  /// φ + n·w - h w²/2, where h bounds ∂²φ below: closest points go by w/(1 - φ k) at most on a surface
+  /// that does not bend towards the point by more than k, and h = k/(1 - φ k).
   struct Bound {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< of the packet [mm]
     double radius = 0;                                 ///< about it [mm]
     Eigen::Vector3d at = Eigen::Vector3d::Zero();      ///< where it was
     double phi = 0;                                    ///< least of its points there [mm]
     double turned = 0;                                 ///< turned_ there
+    Eigen::Vector3d n = Eigen::Vector3d::Zero();       ///< mean of its points there
+    double spread = 0;                                 ///< of their n about that
+    double turning = 0;                                ///< h [1/mm]
+    double reach = 0;                                  ///< longest w for which that holds [mm]
     bool known = false;
   };
   void find_anew(std::uint32_t packet, const FourClosestPoints& near, const RigidTransform& X);
   void keep_bound(std::uint32_t packet, const RigidTransform& X);
+  void keep_bend(const LayerPacket& packet, Bound& bound) const;
   [[nodiscard]] bool is_clear(std::uint32_t packet, const RigidTransform& X, double margin) const;
   template <typename Each>
   bool any_near(const RigidTransform& X, double margin, const Each& each);
@@ -101,7 +99,6 @@ class LayerPackets {
   std::vector<BlockPacket> blocks_;
   std::vector<LayerPacket> packets_;
   std::vector<Bound> bounds_;           ///< of packets
-  std::vector<std::uint32_t> slots_;    ///< of the lattice's points: 4 packet + place in it
   std::vector<std::uint32_t> pressed_;  ///< packets, at X_; with room for all
   std::size_t points_pressed_ = 0;
   std::vector<std::uint32_t> candidates_;  ///< packets that may be pressed near X_candidates_

@@ -14,29 +14,10 @@ using Eigen::Vector3d;
 
 Vector3d one_of(const FourPoints& x, int k) { return {x[0][k], x[1][k], x[2][k]}; }
 
-/// What closest points say of a point near one of theirs.
-struct ToldNear {
-  double phi;
-  Vector3d n, turn;  ///< there, and how it turns on the way
-};
-
-ToldNear told_near(const FourClosestPoints& closest, int k, const Vector3d& p) {
-  const Vector3d v = p - one_of(closest.at, k), n = one_of(closest.n, k);
-  const auto H = [&](int i) { return closest.H[i][k]; };
-  const Vector3d Hv(H(0) * v[0] + H(1) * v[1] + H(2) * v[2],
-                    H(1) * v[0] + H(3) * v[1] + H(4) * v[2],
-                    H(2) * v[0] + H(4) * v[1] + H(5) * v[2]);
-  return {closest.phi[k] + v.dot(n + 0.5 * Hv), n, Hv};
-}
-
 }  // namespace
 
 LayerSide::LayerSide(const LayerLattice& points, bool of_A, const LayerClosestPoints& into)
-    : points_(points),
-      of_A_(of_A),
-      into_(into.surface()),
-      packets_(points, into),
-      is_pressed_(points.x.size(), 0) {}
+    : points_(points), of_A_(of_A), into_(into.surface()), packets_(points, into) {}
 
 void LayerSide::reset() { packets_.reset(); }
 
@@ -163,56 +144,13 @@ void LayerSide::add_pressures(const RigidTransform& X_BA,
   });
 }
 
-void LayerSide::add_corner(std::size_t corner,
-                           const RigidTransform& X,
-                           const LayerLaw& law,
-                           double share,
-                           const LayerCorners& corners,
-                           CornerForce& sums) const {
-  const Vector3d p = X * corners.lattice.x[corner];
-  double phi = 0, count = 0;
-  Vector3d n = Vector3d::Zero(), turn = Vector3d::Zero();
-  for (const int k : corners.around[corner]) {
-    if (k < 0 || is_pressed_[static_cast<std::size_t>(k)] == 0) continue;
-    const LayerPackets::Slot slot = packets_.slot_of(static_cast<std::size_t>(k));
-    const ToldNear told = told_near(slot.packet.closest, slot.k, p);
-    phi += told.phi;
-    n += told.n;
-    turn += told.turn;
-    ++count;
-  }
-  if (!(phi < 0)) return;
-  // Between four points a cubic has the mean of their normals and half of the turns.
-  n = (n + (count == 4 ? 0.5 : 1) * turn) / count;
-  if (!(n.dot(X.R * corners.lattice.n[corner]) < kOpposed)) return;
-  const double force = share * corners.lattice.area[corner] * law.at(-phi / count).pressure;
-  sums.force += force;
-  sums.on_A += force * n;
-}
-
-void LayerSide::add_to(const RigidTransform& X_BA,
-                       const LayerLaw& law,
-                       double share,
-                       const LayerCorners& corners,
-                       CornerForce& sums) {
-  is_done_.resize(corners.lattice.x.size(), 0);
-  const RigidTransform X = of_A_ ? X_BA : X_BA.inverse();
-  CornerForce own;
-  for_pressed(X_BA, [&](const LayerPacket&, int, std::size_t i) { is_pressed_[i] = 1; });
-  for_pressed(X_BA, [&](const LayerPacket&, int, std::size_t i) {
-    for (const int corner : corners.of_cell[i]) {
-      if (corner < 0 || is_done_[static_cast<std::size_t>(corner)] != 0) continue;
-      is_done_[static_cast<std::size_t>(corner)] = 1;
-      add_corner(static_cast<std::size_t>(corner), X, law, share, corners, own);
-    }
-  });
-  for_pressed(X_BA, [&](const LayerPacket&, int, std::size_t i) {
-    is_pressed_[i] = 0;
-    for (const int corner : corners.of_cell[i])
-      if (corner >= 0) is_done_[static_cast<std::size_t>(corner)] = 0;
-  });
-  sums.force += own.force;
-  sums.on_A += of_A_ ? own.on_A : Vector3d(-(X_BA.R * own.on_A));
+CornerForce LayerSide::at_corners(const RigidTransform& X_BA,
+                                  const LayerLaw& law,
+                                  const LayerCorners& corners) {
+  const LayerPackets& packets = press_at(X_BA, LayerCare::kExact);
+  CornerForce sums = corners_.force(packets, of_A_ ? X_BA : X_BA.inverse(), law, corners);
+  if (!of_A_) sums.along_n = -(X_BA.R * sums.along_n);
+  return sums;
 }
 
 }  // namespace condyle

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "condyle/contact/contact_result.h"
+#include "condyle/contact/layer_corner_sums.h"
 #include "condyle/contact/layer_lattice.h"
 #include "condyle/contact/layer_law.h"
 #include "condyle/contact/layer_packets.h"
@@ -61,12 +62,6 @@ struct LayerRateSums {
   std::array<Stiffer, 2> stiffer;  ///< on B, on A
 };
 
-/// What the corners of the cells would carry in place of their points.
-struct CornerForce {
-  double force = 0;                                ///< Σ w p [N]
-  Eigen::Vector3d on_A = Eigen::Vector3d::Zero();  ///< ground frame [N]
-};
-
 /// Points of one body, pressed into a surface of the other. Keeps closest points from pose to pose,
 /// and the points that are pressed until it is asked for another pose; one thread.
 class LayerSide {
@@ -88,14 +83,11 @@ class LayerSide {
                 LayerCare care,
                 Wrench& wrench);
 
-  /// Adds `share` of what the corners of the points' cells would carry. Their closest points are
-  /// told from those of the pressed points around them by φ, n and H: between four of these the
-  /// errors are of fourth order. Allocates nothing once it was asked.
-  void add_to(const RigidTransform& X_BA,
-              const LayerLaw& law,
-              double share,
-              const LayerCorners& corners,
-              CornerForce& sums);
+  /// The force on A that the corners of the points' cells would carry [N] (layer_corner_sums.h), with
+  /// the sum of the magnitudes. Allocates nothing once it was asked.
+  CornerForce at_corners(const RigidTransform& X_BA,
+                         const LayerLaw& law,
+                         const LayerCorners& corners);
 
   /// Adds `share` of how that changes. Allocates nothing.
   void add_to(const RigidTransform& X_BA, const LayerLaw& law, double share, LayerRateSums& sums);
@@ -115,18 +107,11 @@ class LayerSide {
   const LayerPackets& press_at(const RigidTransform& X_BA, LayerCare care);
   template <typename Each>
   void for_pressed(const RigidTransform& X_BA, const Each& each);
-  void add_corner(std::size_t corner,
-                  const RigidTransform& X,
-                  const LayerLaw& law,
-                  double share,
-                  const LayerCorners& corners,
-                  CornerForce& sums) const;
-
   const LayerLattice& points_;
   bool of_A_;
   const Surface& into_;
   LayerPackets packets_;
-  std::vector<char> is_pressed_, is_done_;  ///< points and corners; all 0 between questions
+  LayerCornerSums corners_;
 };
 
 }  // namespace condyle

@@ -20,6 +20,13 @@ using Four = double __attribute__((vector_size(32)));
 #define CONDYLE_FMA_CLONE
 #endif
 
+// Before a loop over coordinates: so that arrays of Four stay in registers. GCC unrolls such loops too late for that.
+#if defined(__GNUC__) && !defined(__clang__)
+#define CONDYLE_UNROLL _Pragma("GCC unroll 16")
+#else
+#define CONDYLE_UNROLL
+#endif
+
 inline __attribute__((always_inline)) Four load_four(const double* p) {
   Four v;
   std::memcpy(&v, p, sizeof v);

@@ -337,7 +337,7 @@ Place Patch::seed(const Eigen::Vector3d& p) const {
 double Patch::edge_distance(const Place& at) const {
   const double x = at.numbers.x(), y = at.numbers.y();
   const double u = std::clamp(x, u_.min, u_.max), v = std::clamp(y, v_.min, v_.max);
-  const double outside = std::hypot(x - u, y - v);
+  const double outside = x == u && y == v ? 0 : std::hypot(x - u, y - v);
   const double inside =
       std::min(std::min(u - u_.min, u_.max - u), std::min(v - v_.min, v_.max - v));
   if (data_.mask.empty()) return outside > 0 ? -outside : inside;

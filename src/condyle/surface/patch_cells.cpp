@@ -26,6 +26,7 @@ struct SpanBasis {
 /// Of one place: c, c_u, c_v, c_uu, c_uv, c_vv, by Horner's scheme with its derivatives.
 inline __attribute__((always_inline)) void horner(const double* a, double x, double y, Four* out) {
   Four f[4], g[4], h[4];  // of each power of u: value, first and half the second derivative by v
+  CONDYLE_UNROLL
   for (int k = 0; k < 4; ++k, a += 16) {
     const Four a3 = load_four(a + 12);
     f[k] = a3 * y + load_four(a + 8);
@@ -48,11 +49,47 @@ inline __attribute__((always_inline)) void horner(const double* a, double x, dou
   out[5] = 2 * (((h[3] * x + h[2]) * x + h[1]) * x + h[0]);
 }
 
+/// Four places in one cell, by the same scheme.
+inline __attribute__((always_inline)) void evaluate_together(const double* cell,
+                                                             const Four& x,
+                                                             const Four& y,
+                                                             double (*out)[3][4]) {
+  CONDYLE_UNROLL
+  for (int c = 0; c < 3; ++c) {
+    const double* a = cell + c;
+    Four f[4], g[4], h[4];
+    CONDYLE_UNROLL
+    for (int k = 0; k < 4; ++k, a += 16) {
+      f[k] = a[12] * y + a[8];
+      g[k] = a[12] * y + f[k];
+      h[k] = a[12] * y + g[k];
+      f[k] = f[k] * y + a[4];
+      g[k] = g[k] * y + f[k];
+      f[k] = f[k] * y + a[0];
+    }
+    Four p = f[3] * x + f[2], p_u = f[3] * x + p, p_uu = f[3] * x + p_u;
+    p = p * x + f[1];
+    p_u = p_u * x + p;
+    Four p_v = g[3] * x + g[2], p_uv = g[3] * x + p_v;
+    p_v = p_v * x + g[1];
+    store_four(out[0][c], p * x + f[0]);
+    store_four(out[1][c], p_u);
+    store_four(out[2][c], p_v * x + g[0]);
+    store_four(out[3][c], 2 * p_uu);
+    store_four(out[4][c], p_uv * x + p_v);
+    store_four(out[5][c], 2 * (((h[3] * x + h[2]) * x + h[1]) * x + h[0]));
+  }
+}
+
 /// Four places, each in a cell of its own.
-CONDYLE_FMA_CLONE
-void evaluate(const double* const* cells, const double* x, const double* y, double (*out)[3][4]) {
+inline __attribute__((always_inline)) void evaluate_inline(const double* const* cells,
+                                                           const Four& x,
+                                                           const Four& y,
+                                                           double (*out)[3][4]) {
   Four at[4][6];
+  CONDYLE_UNROLL
   for (int k = 0; k < 4; ++k) horner(cells[k], x[k], y[k], at[k]);
+  CONDYLE_UNROLL
   for (int i = 0; i < 6; ++i) {
     const Four x_z = __builtin_shufflevector(at[0][i], at[1][i], 0, 4, 2, 6),
                y_0 = __builtin_shufflevector(at[0][i], at[1][i], 1, 5, 3, 7),
@@ -62,6 +99,59 @@ void evaluate(const double* const* cells, const double* x, const double* y, doub
     store_four(out[i][1], __builtin_shufflevector(y_0, Y_0, 0, 1, 4, 5));
     store_four(out[i][2], __builtin_shufflevector(x_z, X_Z, 2, 3, 6, 7));
   }
+}
+
+CONDYLE_FMA_CLONE
+void evaluate(const double* const* cells, const double* x, const double* y, double (*out)[3][4]) {
+  evaluate_inline(cells, load_four(x), load_four(y), out);
+}
+
+/// Knots as far from each other as 1/inverse_step.
+struct UniformKnots {
+  double min, max, inverse_step;
+  const double* breaks;
+  int spans;
+};
+
+using FourInts = int __attribute__((vector_size(16)));
+
+/// The spans of four parameters.
+inline __attribute__((always_inline)) FourInts spans_of(const UniformKnots& knots, const Four& t) {
+  const int last = knots.spans - 1;
+  const FourInts all = __builtin_convertvector((t - knots.min) * knots.inverse_step, FourInts),
+                 lasts = {last, last, last, last};
+  return all < lasts ? all : lasts;
+}
+
+inline __attribute__((always_inline)) Four within_spans(const UniformKnots& knots,
+                                                        const FourInts& spans,
+                                                        const Four& t) {
+  return t - Four{knots.breaks[spans[0]], knots.breaks[spans[1]], knots.breaks[spans[2]],
+                  knots.breaks[spans[3]]};
+}
+
+/// Four places; false where one lies beyond the box of parameters.
+CONDYLE_FMA_CLONE
+bool evaluate_uniform(const UniformKnots& knots_u,
+                      const UniformKnots& knots_v,
+                      const double* cells,
+                      const double* u,
+                      const double* v,
+                      double (*out)[3][4]) {
+  constexpr std::ptrdiff_t kNumbers = 64;  // of a cell
+  const Four at_u = load_four(u), at_v = load_four(v);
+  const auto inside =
+      (at_u >= knots_u.min) & (at_u <= knots_u.max) & (at_v >= knots_v.min) & (at_v <= knots_v.max);
+  if ((inside[0] & inside[1] & inside[2] & inside[3]) == 0) return false;
+  const FourInts i = spans_of(knots_u, at_u), j = spans_of(knots_v, at_v),
+                 index = i * knots_v.spans + j;
+  const double* const own[] = {cells + kNumbers * index[0], cells + kNumbers * index[1],
+                               cells + kNumbers * index[2], cells + kNumbers * index[3]};
+  if (index[0] == index[1] && index[0] == index[2] && index[0] == index[3])
+    evaluate_together(own[0], within_spans(knots_u, i, at_u), within_spans(knots_v, j, at_v), out);
+  else
+    evaluate_inline(own, within_spans(knots_u, i, at_u), within_spans(knots_v, j, at_v), out);
+  return true;
 }
 
 }  // namespace
@@ -111,6 +201,12 @@ inline int PatchCells::span(const Direction& direction, double t) {
   return static_cast<int>(above - direction.breaks.begin()) - 1;
 }
 
+std::array<int, 2> PatchCells::cell_of(double u, double v) const {
+  const bool inside = !cells_.empty() && u >= u_.min && u <= u_.max && v >= v_.min && v <= v_.max;
+  if (!inside) return {-1, -1};
+  return {span(u_, u), span(v_, v)};
+}
+
 void PatchCells::derivatives_of_patch(double u, double v, int place, FourDerivatives& out) const {
   const PatchDerivatives d = patch_.derivatives(u, v);
   const Eigen::Vector3d* all[] = {&d.c, &d.c_u, &d.c_v, &d.c_uu, &d.c_uv, &d.c_vv};
@@ -119,17 +215,20 @@ void PatchCells::derivatives_of_patch(double u, double v, int place, FourDerivat
 }
 
 void PatchCells::derivatives(const double* u, const double* v, FourDerivatives& out) const {
-  const auto is_inside = [&](int k) {
-    return u[k] >= u_.min && u[k] <= u_.max && v[k] >= v_.min && v[k] <= v_.max;
-  };
+  const auto [nu, nv] = counts();
+  if (u_.inverse_step > 0 && v_.inverse_step > 0 &&
+      evaluate_uniform({u_.min, u_.max, u_.inverse_step, u_.breaks.data(), nu},
+                       {v_.min, v_.max, v_.inverse_step, v_.breaks.data(), nv}, cells_[0].a[0][0],
+                       u, v, out.d))
+    return;
   const double* cells[4];
   double x[4], y[4];
   bool inside[4];
   for (int k = 0; k < 4; ++k) {
-    inside[k] = !cells_.empty() && is_inside(k);
+    const auto [i, j] = cell_of(u[k], v[k]);
+    inside[k] = i >= 0;
     if (cells_.empty()) continue;
-    const int i = inside[k] ? span(u_, u[k]) : 0, j = inside[k] ? span(v_, v[k]) : 0;
-    cells[k] = cells_[static_cast<std::size_t>(i) * (v_.breaks.size() - 1) + j].a[0][0];
+    cells[k] = cell(std::max(i, 0), std::max(j, 0)).a[0][0];
     x[k] = inside[k] ? u[k] - u_.breaks[i] : 0;
     y[k] = inside[k] ? v[k] - v_.breaks[j] : 0;
   }
