@@ -57,6 +57,24 @@ double distance(const Wrench& a, const Wrench& b) {
          (a.F1 - b.F1).norm() / b.F1.norm() + (a.M2 - b.M2).norm() / b.M2.norm();
 }
 
+// By what bounds a pose that is not found: much at first, little at a pose nearby, nothing at the same.
+TEST(LayerPackets, WhatIsLookedAtIsCounted) {
+  const Pressed pressed(1);
+  const LayerLattice lattice = layer_lattice(*pressed.pair.on_A, 3);
+  const LayerClosestPoints into(*pressed.pair.on_B);
+  LayerSide side(lattice, true, into);
+  EXPECT_EQ(side.looked_at(), 0);
+  ASSERT_GT(side.pressed(pressed.poses[1]), 20U);
+  const long at_first = side.looked_at();
+  EXPECT_GT(at_first, 20);
+  (void)side.pressed(pressed.poses[1]);
+  EXPECT_EQ(side.looked_at(), at_first);
+  (void)side.pressed(pressed.poses[2]);
+  const long nearby = side.looked_at() - at_first;
+  EXPECT_GT(nearby, 0);
+  EXPECT_LT(nearby, at_first / 2);
+}
+
 TEST(LayerPackets, NothingDependsOnThePosesBefore) {
   const LayerLaw law(kCartilage, kCartilage, PressureLaw::kLinear);
   for (unsigned seed = 1; seed <= 6; ++seed) {

@@ -93,6 +93,22 @@ TEST(WrappedPath, IsNotDrawnThroughASurface) {
   EXPECT_GT(ring.finding({50, 0, -40}, {50, 0, 40}).conjugate, 0);
 }
 
+// From one side of the hole of a ring to the other, mirrored, in one step.
+TEST(WrappedPath, StaysInTheRingThroughWhichItGoes) {
+  for (const double x : {6.0, 12.0, 33.0}) {
+    StringOver ring({WrapTorus{30, 8}}, {Vector3d(22, 0, 0)});
+    EXPECT_NEAR(ring.length({33, -7, 13}, {31, 6, -14}), 37.00453264661, 1e-10);
+    StringOver there({WrapTorus{30, 8}}, {Vector3d(-22, 0, 0)});
+    const Vector3d X(-x, -7, 13), Y(2 - x, 6, -14);
+    double expected = there.length(X, Y);
+    for (int k = 0; k < 3 && there.revise(X, Y); ++k) expected = there.length(X, Y);
+    (void)ring.length(X, Y);
+    for (int k = 0; k < 3 && ring.revise(X, Y); ++k) (void)ring.length(X, Y);
+    EXPECT_NEAR(ring.length(X, Y), expected, 1e-9) << x;
+    EXPECT_EQ(ring.finding(X, Y).outcome, WrappedPath::Outcome::kFound);
+  }
+}
+
 // Off a sphere it slips; about the end of what it passes it may go.
 TEST(WrappedPath, IsStraightWhereItSlipsOffOrGoesAround) {
   StringOver ball({WrapSphere{10}});

@@ -60,6 +60,10 @@ class ContactPotential {
     return add_to(X_BA, wrench);
   }
 
+  /// Points that it looked at since it was made, about, by the time that one takes a search
+  /// (ContactSearch::looked_at).
+  [[nodiscard]] virtual long looked_at() const { return 0; }
+
   /// U [N mm], 0 where nothing touches.
   virtual double energy(const RigidTransform& X_BA) = 0;
 

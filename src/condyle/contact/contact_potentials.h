@@ -28,6 +28,7 @@ class ContactPotentials {
   double add_to(const RigidTransform& X_BA, Wrench& wrench);
   double add_roughly_to(const RigidTransform& X_BA, Wrench& wrench);
   [[nodiscard]] double energy(const RigidTransform& X_BA);
+  [[nodiscard]] long looked_at() const;
 
  private:
   struct Entry {

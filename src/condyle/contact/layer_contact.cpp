@@ -118,6 +118,11 @@ class BothSides {
     for (LayerSide& side : sides_) points += side.pressed(X);
     return points;
   }
+  [[nodiscard]] long looked_at() const {
+    long points = 0;
+    for (const LayerSide& side : sides_) points += side.looked_at();
+    return points;
+  }
   [[nodiscard]] bool come_within(const RigidTransform& X, double margin) {
     return std::any_of(sides_.begin(), sides_.end(),
                        [&](LayerSide& side) { return side.comes_within(X, margin); });
@@ -215,6 +220,13 @@ class LayerContact final : public ContactPotential {
 
   double add_roughly_to(const RigidTransform& X_BA, Wrench& wrench) override {
     return sides().add_to(X_BA, law_, factor_, LayerCare::kRough, wrench);
+  }
+
+  [[nodiscard]] long looked_at() const override {
+    long points = 0;
+    for (const auto& sides : sides_)
+      if (sides) points += sides->looked_at();
+    return points;
   }
 
   double energy(const RigidTransform& X_BA) override {

@@ -19,6 +19,10 @@ constexpr double kFound = 1e-7;
 /// chosen [mm].
 constexpr double kMargin = 0.02;
 
+// Points of surfaces that four closest points count as, about, by the time that they take:
+constexpr long kFindAnew = 10;  // from places beside them
+constexpr long kFollow = 5;     // from where they were
+
 /// How far closest points are relied on.
 struct Reliance {
   double still;     ///< points that have moved by less are told from there [mm]
@@ -269,6 +273,7 @@ void LayerPackets::find_anew(std::uint32_t index,
                              const FourClosestPoints& near,
                              const RigidTransform& X) {
   LayerPacket& packet = packets_[index];
+  looked_at_ += kFindAnew;
   place_all(X, packet.x, packet.p);
   find_.find(packet.p, near, kFound, packet.closest);
   keep_bound(index, X);
@@ -334,13 +339,16 @@ void LayerPackets::press(std::uint32_t index, const RigidTransform& X, LayerCare
   const Reliance rely = reliance(care);
   LayerPacket& packet = packets_[index];
   Told told = tell(X, rely, packet);
+  ++looked_at_;
   if (told == Told::kUnknown) {
+    looked_at_ += kFollow;
     find_.find(packet.p, packet.closest, rely.followed, packet.closest,
                find_.finds_in_fours() ? 15 : not_clear(packet));
     keep_bound(index, X);
     told = tell(X, rely, packet);
   }
   if (told != Told::kPressed) return;
+  ++looked_at_;
   pressed_.push_back(index);
   points_pressed_ += static_cast<std::size_t>((packet.pressed[0] + packet.pressed[1]) +
                                               (packet.pressed[2] + packet.pressed[3]));

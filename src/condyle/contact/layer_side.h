@@ -95,6 +95,8 @@ class LayerSide {
   /// How many points are pressed.
   [[nodiscard]] std::size_t pressed(const RigidTransform& X_BA);
 
+  [[nodiscard]] long looked_at() const { return packets_.looked_at(); }
+
   /// Is any point within `margin` of the other surface, or in it [mm]?
   [[nodiscard]] bool comes_within(const RigidTransform& X_BA, double margin);
 

@@ -61,6 +61,8 @@ SurfaceCover::SurfaceCover(const Surface& surface, double spacing, std::vector<P
   leaf_.resize(cells_.size());
   std::iota(order_.begin(), order_.end(), 0);
   build(0, size(), -1);
+  points_.reserve(cells_.size());
+  for (const int i : order_) points_.push_back(sample(i).c);
   if (!even_) lay_columns();
 }
 
@@ -134,7 +136,7 @@ void SurfaceCover::find_nearest(int index, const Eigen::Vector3d& point, Candida
   const Cluster& cluster = clusters_[at(index)];
   if (cluster.child[0] < 0) {
     for (int k = cluster.first; k < cluster.last; ++k) {
-      const double square = (sample(in_order(k)).c - point).squaredNorm();
+      const double square = (points_[at(k)] - point).squaredNorm();
       if (square < nearest.square) nearest = {in_order(k), square};
     }
     return;

@@ -99,7 +99,8 @@ class SurfaceCover {
   std::vector<SurfaceCell> cells_;  ///< of the samples
   CellColumns columns_;
   std::vector<double> change_;
-  std::vector<int> order_, leaf_;  ///< leaf_: the cluster of each sample
+  std::vector<int> order_, leaf_;        ///< leaf_: the cluster of each sample
+  std::vector<Eigen::Vector3d> points_;  ///< of the samples, in order
   std::vector<Cluster> clusters_;
   double extent_ = 0;
 };

@@ -89,9 +89,8 @@ DescentReport Descent::solve(EquilibriumState& state,
   start(state.X);
   bool asked = false;
   // Attempts of Newton's method within count as well.
-  const int most_iterations = std::min(2 * options_.max_steps, most.iterations);
-  while (report.steps < options_.max_steps && report.iterations < most_iterations &&
-         looked_at() - before < most.points) {
+  while (report.steps < options_.max_steps && report.iterations < 2 * options_.max_steps &&
+         most.after({report.iterations, looked_at() - before}).any()) {
     const bool few = report.steps < kFewSteps && report.iterations < 2 * kFewSteps;
     if (!few && !std::exchange(asked, true) && !goes_on()) break;
     if (!iterate(accept, report)) break;
@@ -104,8 +103,10 @@ DescentReport Descent::solve(EquilibriumState& state,
   return report;
 }
 
-/// Points of surfaces that searches looked at.
-long Descent::looked_at() const { return points_looked_at(searches_); }
+/// Points of surfaces that searches and layers looked at.
+long Descent::looked_at() const {
+  return points_looked_at(searches_) + newton_.system().potentials().looked_at();
+}
 
 void Descent::start(const RigidTransform& X) {
   X_ = X;
@@ -207,7 +208,10 @@ void Descent::gather_within(double ahead,
     const ContactMode mode = model_.pairs[p].mode;
     if (mode == ContactMode::kOpen) continue;
     const bool held = mode == ContactMode::kClosed;
-    searches_[p].find(X, held ? kHeldWithin * L : ahead, minima_, kSameMinimum * L);
+    if (held)
+      searches_[p].find_nearest(X, kHeldWithin * L, minima_, kSameMinimum * L);
+    else
+      searches_[p].find(X, ahead, minima_, kSameMinimum * L);
     ++searches_made_;
     minima_.resize(std::min(minima_.size(), held ? 1 : kMostMinima));
     const std::size_t first = constraints.size();

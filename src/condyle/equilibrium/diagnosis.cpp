@@ -30,7 +30,10 @@ EquilibriumState with_all_contacts(const Model& model,
     if (pair.mode == ContactMode::kOpen) continue;
     const bool held = pair.mode == ContactMode::kClosed;
     const double L = model.length;
-    searches[p].find(state.X, held ? kAnywhere * L : kTouching * L, minima, kMerge * L);
+    if (held)
+      searches[p].find_nearest(state.X, kAnywhere * L, minima, kMerge * L);
+    else
+      searches[p].find(state.X, kTouching * L, minima, kMerge * L);
     for (const GapMinimum& minimum : minima) {
       // Deep inside a body the search keeps to its samples.
       ContactPlaces places = minimum.places;
@@ -111,6 +114,13 @@ struct Failure {
   const Attempt& attempt;
   std::string singular;          ///< why Newton's matrix was, where it was
   std::optional<Objection> why;  ///< what rigid contact cannot say about a contact there
+  mutable std::optional<EquilibriumState> all = {};
+
+  /// The state with all contacts, searched for once.
+  [[nodiscard]] const EquilibriumState& with_contacts() const {
+    if (!all) all = with_all_contacts(model, searches, state);
+    return *all;
+  }
 };
 
 std::string too_many_conditions(const Failure& f) {
@@ -208,7 +218,7 @@ std::string runs_away(const Failure& f) {
 /// the body does not fit.
 template <bool with_contact>
 std::string contradiction(const Failure& f) {
-  const EquilibriumState all = with_all_contacts(f.model, f.searches, f.state);
+  const EquilibriumState& all = f.with_contacts();
   f.system.assemble(all, f.drive);
   const Linearization at = linearization(f.system, all, f.drive);
   const Dependence dependence = find_dependence(at);
@@ -233,7 +243,7 @@ std::string no_set_of_contacts(const Failure& f) {
 /// how much; empty where it was not.
 std::string still_driven(const Failure& f) {
   constexpr double kDriven = 1e-3;  // of all forces
-  const EquilibriumState all = with_all_contacts(f.model, f.searches, f.state);
+  const EquilibriumState& all = f.with_contacts();
   if (!f.system.assemble(all, f.drive)) return {};
   const Motions free = admissible_motions(linearization(f.system, all, f.drive));
   const Motions driven =

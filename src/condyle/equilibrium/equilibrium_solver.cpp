@@ -230,6 +230,7 @@ bool EquilibriumSolver::settle(EquilibriumState& state, Attempt& attempt) {
   constexpr int kRounds = 8;  // of changes of contact; real knees take one or two
   attempt.first_solution.reset();
   for (int round = 0; round < kRounds; ++round) {
+    if (round > 0 && !left(attempt).any()) return false;
     attempt.newton = newton_.solve(state, drive_);
     attempt.spent.iterations += attempt.newton.iterations;
     if (attempt.newton.outcome == NewtonOutcome::kZeroLength)
@@ -257,7 +258,7 @@ void EquilibriumSolver::solve(const Drive& drive, PoseResult& result, Patience p
   drive_ = target_ = drive;
   Attempt attempt;
   attempt.points_before = looked_at();
-  attempt.most = options_.most.share(patience == Patience::kWay ? 3 : 1);
+  attempt.most = most(patience);
   from_elsewhere_ = false;
   bool solved = false, at_once = false;
   if (has_state_) {
@@ -269,7 +270,7 @@ void EquilibriumSolver::solve(const Drive& drive, PoseResult& result, Patience p
     solved = !at_once && solve_first(next_, target_, attempt);
   }
   std::optional<Failed> failed;
-  if (!solved && patience == Patience::kAll) {
+  if (!solved && patience >= Patience::kAll) {
     drive_ = target_;
     failed = {next_, attempt.newton, attempt.descent, {}, newton_.residuals()};
     if (attempt.newton.outcome == NewtonOutcome::kSingular)

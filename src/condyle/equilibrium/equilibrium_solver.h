@@ -35,16 +35,18 @@ struct EquilibriumOptions {
   NewtonOptions newton;
   DescentOptions descent;
   PoseDescriptionOptions description;
-  /// Spent on one pose by all ways together; a third of it on one that is only followed from the
-  /// pose before it.
-  Work most{450, 1000000};
+  /// Spent on one pose by all ways together, some 25 ms; a third of it on one that is only followed from
+  /// the pose before it.
+  Work most{450, 450000};
+  Work most_at_first{450, 1000000};  ///< on the first pose of a sweep, or on one alone
 };
 
 /// How much is tried where the step from the last pose does not settle.
 enum class Patience {
   kNone,  ///< the descent from there
   kWay,   ///< and the way from there in parts
-  kAll    ///< and other starts; a failure is explained
+  kAll,   ///< and other starts; a failure is explained
+  kFirst  ///< the same for longer: of a pose that is wanted for itself, or that leads to others
 };
 
 class EquilibriumSolver {
@@ -66,8 +68,8 @@ class EquilibriumSolver {
   /// is kept when the pose converges. Throws std::invalid_argument for a drive that is not one of
   /// the model.
   /// Allocates nothing once `result` and the solver have held a pose of this model.
-  void solve(const Drive& drive, PoseResult& result, Patience patience = Patience::kAll);
-  PoseResult solve(const Drive& drive, Patience patience = Patience::kAll);
+  void solve(const Drive& drive, PoseResult& result, Patience patience = Patience::kFirst);
+  PoseResult solve(const Drive& drive, Patience patience = Patience::kFirst);
   /// With the model's nominal drive.
   PoseResult solve() { return solve(drive_of(*model_)); }
 
@@ -121,6 +123,7 @@ class EquilibriumSolver {
   bool find_first(EquilibriumState& state, Attempt& attempt);
   bool solve_first(EquilibriumState& state, const Drive& target, Attempt& attempt);
   bool advance(EquilibriumState& state, const Drive& from, const Drive& to, Attempt& attempt);
+  [[nodiscard]] Work most(Patience patience) const;
   [[nodiscard]] long looked_at() const;
   [[nodiscard]] Work left(Attempt& attempt) const;
   bool descend(EquilibriumState& state, Attempt& attempt);

@@ -17,8 +17,15 @@ bool EquilibriumSolver::tried_from(const RigidTransform& X, const Attempt& attem
       [&](const RigidTransform& Y) { return distance(*model_, X, Y) < kPracticallySame; });
 }
 
-/// Points of surfaces that searches looked at.
-long EquilibriumSolver::looked_at() const { return points_looked_at(searches_); }
+Work EquilibriumSolver::most(Patience patience) const {
+  if (patience == Patience::kFirst) return options_.most_at_first;
+  return options_.most.share(patience == Patience::kWay ? 3 : 1);
+}
+
+/// Points of surfaces that searches and layers looked at.
+long EquilibriumSolver::looked_at() const {
+  return points_looked_at(searches_) + newton_.system().potentials().looked_at();
+}
 
 /// What may still be spent on the pose under way.
 Work EquilibriumSolver::left(Attempt& attempt) const {

@@ -83,7 +83,7 @@ void SweepWalk::compute(Stop& stop) {
     if (nearest != nullptr && can_restore(model(), nearest->pose))
       walker_.stand_at(nearest->pose.value, restore_state(model(), nearest->pose));
   }
-  walker_.step(stop.at.value, Patience::kAll, stop.at);
+  walker_.step(stop.at.value, stops_.size() == 1 ? Patience::kFirst : Patience::kAll, stop.at);
   stop.from_elsewhere = solver().from_elsewhere();
 }
 

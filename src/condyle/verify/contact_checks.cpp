@@ -48,10 +48,17 @@ Vector3d middle_of(const Scene& scene, const PoseResult& pose) {
 }
 
 void add_ligaments(const Scene& scene, const PoseResult& pose, Sums& sums) {
+  // Of a law so steep that the rounding of the length is felt no sum is better known than that.
+  constexpr double kFelt = 1e-13 / 2e-9;  // [mm], of what is allowed of the sums
   for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
+    const LigamentDescription& ligament = scene.ligaments[i];
     const Course course = course_of(scene, pose, i);
     const Vector3d way = course.on_B - course.on_A;
-    if (way.norm() > 0) sums.pull(course.on_A, pose.ligaments[i].force * way.normalized());
+    if (!(way.norm() > 0)) continue;
+    sums.pull(course.on_A, pose.ligaments[i].force * way.normalized());
+    const double felt = kFelt * std::abs(slope_at(ligament.law, course.length));
+    sums.forces += felt;
+    sums.moments += (course.on_A - sums.about).norm() * felt;
   }
 }
 
@@ -122,6 +129,16 @@ void check_point(const PairOfSides& pair,
         .name;
   };
   const double far = 1e-14 * (point.point_ground.norm() + X.p.norm() + point.point_moving.norm());
+  // An open gap may be least where surfaces go on beyond what is known of them, which no file holds.
+  const double beyond = -std::min(on_B.edge, on_A.edge);
+  if (!closed && beyond > 1e-6) {
+    ledger.warn(
+        "beyond " + element, beyond,
+        fmt::format("{} is open and nearest {:.2g} mm beyond the known part of its surfaces, "
+                    "where that is not checked",
+                    element, beyond));
+    return;
+  }
   const auto on_surface = [&](const ClosestPoint& closest, const Vector3d& p, int surface) {
     const double off = (p - closest.point).norm();
     ledger.note(

@@ -139,11 +139,10 @@ void check_path(const Scene& scene, const PoseResult& pose, std::size_t ligament
       if (w >= first && w <= last)
         note(depth, wraps[w], "a straight piece runs through it");
       else if (depth > kNoticed)
-        ledger.warn(
-            "order " + name + wraps[w].wrap->name, depth,
-            fmt::format("{}: ligament \"{}\" runs {:.1f} mm through \"{}\", but not where that "
-                        "comes in the order of its wraps",
-                        ledger.pose_name(), name, depth, wraps[w].wrap->name));
+        ledger.warn("order " + name + wraps[w].wrap->name, depth,
+                    fmt::format("ligament \"{}\" runs {:.1f} mm through \"{}\", but not where that "
+                                "comes in the order of its wraps",
+                                name, depth, wraps[w].wrap->name));
     }
     if (k > 0)
       note(bend(to - from, touches[k - 1].t_Q), wraps[touches[k - 1].wrap], "leaves it bent");

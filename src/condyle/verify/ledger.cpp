@@ -92,7 +92,7 @@ void Ledger::warn(const std::string& key, double weight, const std::string& text
   ++warning.count;
   if (warning.count > 1 && weight <= warning.weight) return;
   warning.weight = weight;
-  warning.text = pose_name_ + ": " + text;
+  warning.text = pose_name_.empty() ? text : pose_name_ + ": " + text;
 }
 
 void Ledger::close(Verification& result) const {

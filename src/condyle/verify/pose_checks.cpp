@@ -19,6 +19,7 @@ namespace {
 constexpr const char* kJointNames[] = {"flexion",       "adduction",       "internal rotation",
                                        "lateral shift", "anterior drawer", "distraction"};
 constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kSameString = 1e-6;  // lengths that differ by less [mm]
 
 std::string named(const char* kind, const std::string& name) {
   return fmt::format("{} \"{}\"", kind, name);
@@ -50,10 +51,9 @@ std::optional<double> wrapped_length_at(const Run& run,
   const std::optional<double> length = string.led_to(X_BA);
   if (!length) return std::nullopt;
   // Where the way back leads to another string than that of the pose, one has slipped on the way.
-  constexpr double kSame = 1e-6;  // [mm]
   const std::optional<double> back = string.led_to(nearest->X_BA);
   const double told = course_of(run.scene, *nearest, ligament).length;
-  if (!back || !(std::abs(*back - told) < kSame)) return std::nullopt;
+  if (!back || !(std::abs(*back - told) < kSameString)) return std::nullopt;
   return length;
 }
 
@@ -83,18 +83,30 @@ void check_slack_lengths(const Run& run, Ledger& ledger, std::vector<std::string
   for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
     const LigamentDescription& ligament = scene.ligaments[i];
     if (!ligament.reference_strain) continue;
-    const std::optional<double> length =
-        ligament.path.wraps.empty()
-            ? (in_ground(scene, ligament.ends[0], X) - in_ground(scene, ligament.ends[1], X)).norm()
-            : wrapped_length_at(run, i, X);
-    if (!length) {
-      not_checked.push_back("the slack length of " + named("ligament", ligament.name) +
+    const auto off = [&](double length) {
+      return std::abs(length / (1 + *ligament.reference_strain) - slack_of(ligament.law));
+    };
+    const std::string name = named("ligament", ligament.name);
+    if (ligament.path.wraps.empty()) {
+      const Vector3d ends[] = {in_ground(scene, ligament.ends[0], X),
+                               in_ground(scene, ligament.ends[1], X)};
+      ledger.note(Check::kSlack, off((ends[0] - ends[1]).norm()), name);
+      continue;
+    }
+    const std::optional<double> led = wrapped_length_at(run, i, X);
+    const std::optional<TautString> first = TautString::first(scene, X, i);
+    if (!led && !first) {
+      not_checked.push_back("the slack length of " + name +
                             ", whose path does not lead to the start pose");
       continue;
     }
-    const double slack = *length / (1 + *ligament.reference_strain);
-    ledger.note(Check::kSlack, std::abs(slack - slack_of(ligament.law)),
-                named("ligament", ligament.name));
+    const double by_first = first ? off(first->length()) : INFINITY;
+    ledger.note(Check::kSlack, std::min(led ? off(*led) : INFINITY, by_first), name);
+    if (led && first && std::abs(*led - first->length()) > kSameString)
+      ledger.warn("another string " + name, std::abs(*led - first->length()),
+                  fmt::format("{} led back to the start pose is {:.3g} mm long, at first it was "
+                              "{:.3g}: it has come to lie otherwise",
+                              name, *led, first->length()));
   }
 }
 

@@ -124,18 +124,17 @@ void TautString::set_rates(const Place& at, const std::vector<Ends>& ends) {
 
 /// Newton with rates that are kept while they do. Of the length the error goes as the square of the
 /// bends that are left.
-std::optional<double> TautString::pulled_to(const RigidTransform& X_BA) {
+bool TautString::tighten(const Place& at) {
   constexpr double kTaut = 1e-9, kLongest = 0.3;
   constexpr int kRounds = 40;
-  const Place at = place_at(X_BA);
   double before = INFINITY;
   for (int round = 0; round < kRounds && !arcs_.empty(); ++round) {
     const std::vector<Ends> ends = all_ends(at, arcs_);
     const Eigen::VectorXd bent = bends(at, arcs_, ends);
     const double now = bent.cwiseAbs().maxCoeff();
-    if (!std::isfinite(now)) return std::nullopt;
+    if (!std::isfinite(now)) return false;
     if (now < kTaut) break;
-    if (round + 1 == kRounds) return std::nullopt;
+    if (round + 1 == kRounds) return false;
     if (!rates_ || rates_->rows() != bent.size() || !(now < 0.1 * before)) set_rates(at, ends);
     before = now;
     Eigen::VectorXd step = -rates_->solve(bent);
@@ -144,13 +143,23 @@ std::optional<double> TautString::pulled_to(const RigidTransform& X_BA) {
       const double radius = least_radius(at.wraps[arcs_[i].wrap].wrap->shape);
       const double size = std::max({std::abs(step[row]) / radius, std::abs(step[row + 1]) / radius,
                                     std::abs(step[row + 2]), std::abs(step[row + 3]) / radius});
-      if (!std::isfinite(size)) return std::nullopt;
+      if (!std::isfinite(size)) return false;
       if (size > kLongest) step *= kLongest / size;
     }
     for (std::size_t i = 0; i < arcs_.size(); ++i)
       arcs_[i] = changed(at, arcs_[i], step.segment<4>(4 * static_cast<Eigen::Index>(i)));
   }
+  return true;
+}
+
+std::optional<double> TautString::pulled_to(const RigidTransform& X_BA) {
+  if (!tighten(place_at(X_BA))) return std::nullopt;
   X_BA_ = X_BA;
+  return length();
+}
+
+double TautString::length() const {
+  const Place at = place_at(X_BA_);
   double length = 0;
   Vector3d last = at.first.x;
   for (const Arc& arc : arcs_) {
@@ -161,6 +170,21 @@ std::optional<double> TautString::pulled_to(const RigidTransform& X_BA) {
   return length + (at.last.x - last).norm();
 }
 
+bool TautString::is_passed_over(const WrapAt& wrap) const {
+  return passed_over(scene_.ligaments[ligament_], wrap, X_BA_, scene_);
+}
+
+bool TautString::touches(std::size_t wrap) const {
+  return std::any_of(arcs_.begin(), arcs_.end(), [&](const Arc& arc) { return arc.wrap == wrap; });
+}
+
+TautString::Piece TautString::piece_at(const Place& at, std::size_t wrap) const {
+  std::size_t k = 0;
+  while (k < arcs_.size() && arcs_[k].wrap < wrap) ++k;
+  return {k, k == 0 ? at.first.x : ends_of(at, arcs_[k - 1]).Q,
+          k == arcs_.size() ? at.last.x : at.wraps[arcs_[k].wrap].X * arcs_[k].P};
+}
+
 /// An arc of negative length is left; a surface that a straight piece runs into is come to.
 bool TautString::changes_touch(const Place& at) {
   for (std::size_t i = 0; i < arcs_.size(); ++i) {
@@ -168,22 +192,17 @@ bool TautString::changes_touch(const Place& at) {
     arcs_.erase(arcs_.begin() + static_cast<std::ptrdiff_t>(i));
     return true;
   }
-  const std::vector<Ends> ends = all_ends(at, arcs_);
   for (std::size_t w = 0; w < at.wraps.size(); ++w) {
-    if (passed_over(scene_.ligaments[ligament_], at.wraps[w], X_BA_, scene_)) continue;
-    std::size_t k = 0;
-    while (k < arcs_.size() && arcs_[k].wrap < w) ++k;
-    if (k < arcs_.size() && arcs_[k].wrap == w) continue;
-    const Vector3d from = k == 0 ? at.first.x : ends[k - 1].Q;
-    const Vector3d to = k == arcs_.size() ? at.last.x : ends[k].P;
-    const Deepest deepest = runs_into(at.wraps[w], from, to);
+    if (touches(w) || is_passed_over(at.wraps[w])) continue;
+    const Piece piece = piece_at(at, w);
+    const Deepest deepest = runs_into(at.wraps[w], piece.from, piece.to);
     if (deepest.depth <= kTouch) continue;
     const WrapAt& wrap = at.wraps[w];
     Vector3d P = closest_on(wrap.wrap->shape, wrap.larger, wrap.own(deepest.x));
     if (at.first.wrap == static_cast<int>(w)) P = wrap.own(at.first.x);
     if (at.last.wrap == static_cast<int>(w)) P = wrap.own(at.last.x);
-    const Vector3d t = along(normal_of(wrap, P), wrap.X.R.transpose() * (to - from));
-    arcs_.insert(arcs_.begin() + static_cast<std::ptrdiff_t>(k), {w, P, t, 0});
+    const Vector3d t = along(normal_of(wrap, P), wrap.X.R.transpose() * (piece.to - piece.from));
+    arcs_.insert(arcs_.begin() + static_cast<std::ptrdiff_t>(piece.after), {w, P, t, 0});
     return true;
   }
   return false;
@@ -191,12 +210,11 @@ bool TautString::changes_touch(const Place& at) {
 
 /// An end lies inside a surface of the other body: no string goes on from there.
 bool TautString::ends_inside(const Place& at) const {
-  const LigamentDescription& ligament = scene_.ligaments[ligament_];
   return std::any_of(at.wraps.begin(), at.wraps.end(), [&](const WrapAt& wrap) {
     const bool of_first = wrap.wrap->body == scene_.fixed_body();
     const Vector3d& other = of_first ? at.last.x : at.first.x;
     return field_at(wrap.wrap->shape, wrap.larger, wrap.own(other)).f < -kTouch &&
-           !passed_over(ligament, wrap, X_BA_, scene_);
+           !is_passed_over(wrap);
   });
 }
 

@@ -17,6 +17,15 @@ class TautString {
   /// As the pose tells it; `scene` must outlive it.
   TautString(const Scene& scene, const PoseResult& told, std::size_t ligament);
 
+  /// As it is laid where nothing is known of it: on the surfaces that it runs through, the deepest first, over
+  /// the side on which it is nearest to leaving each. Nothing where a side is given or none is found.
+  [[nodiscard]] static std::optional<TautString> first(const Scene& scene,
+                                                       const RigidTransform& X_BA,
+                                                       std::size_t ligament);
+
+  /// [mm], where it lies.
+  [[nodiscard]] double length() const;
+
   /// [mm] at a pose near the last one, on the surfaces that are touched; nothing where it does not
   /// settle. It lies there then.
   [[nodiscard]] std::optional<double> pulled_to(const RigidTransform& X_BA);
@@ -41,6 +50,8 @@ class TautString {
     std::vector<WrapAt> wraps;
     BeginAt first, last;
   };
+  TautString(const Scene& scene, const RigidTransform& X_BA, std::size_t ligament)
+      : scene_(scene), ligament_(ligament), X_BA_(X_BA) {}
   [[nodiscard]] Place place_at(const RigidTransform& X_BA) const;
   [[nodiscard]] bool ends_inside(const Place& at) const;
   [[nodiscard]] std::vector<RigidTransform> way_to(const RigidTransform& X_BA) const;
@@ -50,6 +61,18 @@ class TautString {
   [[nodiscard]] static Eigen::VectorXd bends(const Place& at,
                                              const std::vector<Arc>& arcs,
                                              const std::vector<Ends>& ends);
+  [[nodiscard]] bool is_passed_over(const WrapAt& wrap) const;
+  /// The straight piece that passes a surface which is not touched.
+  struct Piece {
+    std::size_t after = 0;  ///< arcs before it
+    Eigen::Vector3d from, to;
+  };
+  [[nodiscard]] Piece piece_at(const Place& at, std::size_t wrap) const;
+  [[nodiscard]] bool touches(std::size_t wrap) const;
+  /// Newton at a place; false where it does not settle.
+  bool tighten(const Place& at);
+  bool lay_over(const Place& at, std::size_t wrap);
+  bool lay(const Place& at);
   void set_rates(const Place& at, const std::vector<Ends>& ends);
   bool changes_touch(const Place& at);
 

@@ -152,7 +152,7 @@ double off_surface(const WrapEllipsoid& ellipsoid, const Vector3d& x) {
   return x.cwiseQuotient(ellipsoid.semi_axes).squaredNorm() - 1;
 }
 double off_surface(const WrapTorus& torus, const Vector3d& x) {
-  return std::hypot(std::hypot(x.x(), x.y()) - torus.ring, x.z()) / torus.tube - 1;
+  return Eigen::Vector2d(x.head<2>().norm() - torus.ring, x.z()).norm() / torus.tube - 1;
 }
 
 /// A geodesic from a frame, with a and r, followed in steps that are halved where one loses the surface or

@@ -14,8 +14,21 @@ namespace {
 using Eigen::Vector3d;
 using Outcome = WrappedPath::Outcome;
 
-/// The path is straight past a surface that it does not touch: does it hang on it since the statuses were last
-/// revised? The chain goes over it then.
+/// The path goes over a surface at a place; false where it does not stay there.
+bool lay_on(const PathPose& pose, PathChain& chain, int wrap, const ArcPlace& place) {
+  PathChain laid = chain;
+  ChainLink link = link_of(pose, wrap);
+  link.P = place.P;
+  link.t = place.t;
+  link.arc = place.arc;
+  const int at = add_link(laid, link);
+  if (!solve(laid) || !(laid.links[at].arc > kTouch) || !(conjugate(laid) > 0)) return false;
+  chain = laid;
+  return true;
+}
+
+/// The path comes to lie on a surface on the straight way since the statuses were last revised, and does so still
+/// where it passes `height` over it now [mm]. The chain goes over it then.
 bool hangs_on(const PathPose& pose,
               PathChain& chain,
               int wrap,
@@ -26,16 +39,71 @@ bool hangs_on(const PathPose& pose,
   const StraightPiece now{line.U, line.V};
   if (!before || comes_clear(*before, now, height)) return false;
   const std::optional<ArcPlace> place = swept_onto(pose.surfaces[wrap].shape, *before, now);
-  if (!place) return false;
-  PathChain hung = chain;
-  ChainLink link = link_of(pose, wrap);
-  link.P = place->P;
-  link.t = place->t;
-  link.arc = place->arc;
-  const int at = add_link(hung, link);
-  if (!solve(hung) || !(hung.links[at].arc > kTouch) || !(conjugate(hung) > 0)) return false;
-  chain = hung;
+  return place && lay_on(pose, chain, wrap, *place);
+}
+
+/// How often a line with corners goes through the hole of a ring: it crosses the disc that the middle circle
+/// bounds, upwards counted as 1, downwards as -1.
+template <std::size_t n>
+int times_through(const WrapTorus& ring, const std::array<Vector3d, n>& corners) {
+  int times = 0;
+  for (std::size_t k = 0; k + 1 < n; ++k) {
+    const Vector3d &a = corners[k], &b = corners[k + 1];
+    if ((a.z() < 0) == (b.z() < 0)) continue;
+    const Vector3d x = a + a.z() / (a.z() - b.z()) * (b - a);
+    if (x.head<2>().norm() < ring.ring) times += a.z() < 0 ? 1 : -1;
+  }
+  return times;
+}
+
+/// The shortest of the paths over a ring, looked for in all directions, that go through its hole so many times.
+/// False where there is none; then the chain is as it was.
+bool lay_through(const PathPose& pose, PathChain& chain, int wrap, int times) {
+  constexpr int kWays = 16;
+  const auto& ring = std::get<WrapTorus>(pose.surfaces[wrap].shape);
+  const ChainLink link = link_of(pose, wrap);
+  const Passing line = passing(pose, chain, wrap);
+  const Vector3d d = (link.X_GS.R * (line.V - line.U)).normalized(), u = d.unitOrthogonal(),
+                 v = d.cross(u);
+  PathChain best = chain;
+  for (int k = 0; k < kWays; ++k) {
+    const double angle = 2 * M_PI * k / kWays;
+    const Vector3d side = std::cos(angle) * u + std::sin(angle) * v;
+    PathChain trial = chain;
+    if (!insert_link(trial, link, &side)) continue;
+    const ChainLink& laid = trial.links[link_on(trial, wrap)];
+    const RigidTransform X_SG = laid.X_GS.inverse();
+    const Geodesic half = shoot(*laid.shape, frame_at(*laid.shape, laid.P, laid.t), laid.arc / 2);
+    const bool stays =
+        laid.arc > kTouch && conjugate(trial) > 0 &&
+        times_through<5>(ring, {line.U, laid.P, half.to.x, X_SG * laid.g.to.x, line.V}) == times;
+    if (stays && (best.n == chain.n || length(trial) < length(best))) best = trial;
+  }
+  if (best.n == chain.n) return false;
+  chain = best;
   return true;
+}
+
+/// The path leaves a surface that it would have to pull at. Through a ring it goes as often as before, if it can.
+void leave(const PathPose& pose, PathChain& chain, int at, PathState& state) {
+  const ChainLink link = chain.links[at];
+  const Vector3d n = normal_at(*link.shape, link.P);
+  remove_link(chain, at);
+  if (!solve(chain)) {
+    state.leave(link.wrap, n);
+    return state.set(Outcome::kNotFound, link.wrap, 0);
+  }
+  const Passing line = passing(pose, chain, link.wrap);
+  state.leave(link.wrap, n, StraightPiece{line.U, line.V});
+  const auto* ring = std::get_if<WrapTorus>(link.shape);
+  if (ring == nullptr || link.starts_here || link.ends_here || ends_inside(*link.shape, line))
+    return;
+  const Geodesic half = shoot(*link.shape, frame_at(*link.shape, link.P, link.t), link.arc / 2);
+  const Vector3d Q = link.X_GS.inverse() * link.g.to.x;
+  const int times = times_through<5>(*ring, {line.U, link.P, half.to.x, Q, line.V});
+  const bool clear = clearance(*link.shape, line.U, line.V) > -kTouch;
+  if (clear && times_through<2>(*ring, {line.U, line.V}) == times) return;
+  if (lay_through(pose, chain, link.wrap, times)) keep(chain, state);
 }
 
 /// How high the path passes over a surface that it does not touch; less than 0 where it has to come to it.
@@ -55,6 +123,7 @@ double height(const PathPose& pose, PathChain& chain, int wrap, PathState& state
   double part = 0;
   const double g = clearance(surface.shape, line.U, line.V, &part);
   const bool told = first && surface.side;
+  if (g < -kTouch && hangs_on(pose, chain, wrap, state, line, g)) return g;
   if (g > kTouch && !told && !hangs_on(pose, chain, wrap, state, line, g))
     state.leave(wrap, normal_at(surface.shape, line.U + part * (line.V - line.U)),
                 StraightPiece{line.U, line.V});
@@ -106,10 +175,7 @@ bool change_one(const PathPose& pose, PathChain& chain, PathState& state, bool f
         (leaves < 0 || chain.links[i].arc < chain.links[leaves].arc))
       leaves = i;
   if (leaves >= 0) {
-    const ChainLink& link = chain.links[leaves];
-    state.leave(link.wrap, normal_at(*link.shape, link.P));
-    remove_link(chain, leaves);
-    if (!solve(chain)) state.set(Outcome::kNotFound, link.wrap, 0);
+    leave(pose, chain, leaves, state);
     return true;
   }
   int comes = -1;

@@ -21,7 +21,7 @@ Vector3d across_z(const Vector3d& x) { return {x.x(), x.y(), 0}; }
 
 /// Unit, along the part of x at right angles to z; any such direction where there is none.
 Vector3d radial(const Vector3d& x) {
-  const double rho = std::hypot(x.x(), x.y());
+  const double rho = x.head<2>().norm();
   return rho > 0 ? Vector3d(across_z(x) / rho) : Vector3d::UnitX();
 }
 
@@ -185,13 +185,13 @@ Vector3d closest_point(const WrapShape& shape, const Vector3d& x) {
 double signed_distance(const WrapShape& shape, const Vector3d& x) {
   return std::visit(
       Overloaded{[&](const WrapSphere& s) { return x.norm() - s.radius; },
-                 [&](const WrapCylinder& c) { return std::hypot(x.x(), x.y()) - c.radius; },
+                 [&](const WrapCylinder& c) { return x.head<2>().norm() - c.radius; },
                  [&](const WrapEllipsoid& e) {
                    const double distance = (x - closest_on_ellipsoid(e.semi_axes, x)).norm();
                    return x.cwiseQuotient(e.semi_axes).squaredNorm() < 1 ? -distance : distance;
                  },
                  [&](const WrapTorus& t) {
-                   return std::hypot(std::hypot(x.x(), x.y()) - t.ring, x.z()) - t.tube;
+                   return Eigen::Vector2d(x.head<2>().norm() - t.ring, x.z()).norm() - t.tube;
                  }},
       shape);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "condyle/wrapping/shape_geometry.h"
 
@@ -50,9 +51,18 @@ double clearance_of(
   }
   double low = std::max(0, best - 1) / static_cast<double>(kSamples);
   double high = std::min(kSamples, best + 1) / static_cast<double>(kSamples);
+  double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+  double at_left = height(left), at_right = height(right);
   for (int k = 0; k < 40; ++k) {
-    const double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
-    (height(left) < height(right) ? high : low) = height(left) < height(right) ? right : left;
+    if (at_left < at_right) {
+      high = std::exchange(right, left);
+      at_right = at_left;
+      at_left = height(left = high - kGolden * (high - low));
+    } else {
+      low = std::exchange(left, right);
+      at_left = at_right;
+      at_right = height(right = low + kGolden * (high - low));
+    }
   }
   const double at = 0.5 * (low + high), h = height(at);
   if (part != nullptr) *part = h < least ? at : static_cast<double>(best) / kSamples;

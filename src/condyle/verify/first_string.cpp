@@ -1,0 +1,114 @@
+/// A string where nothing is known of it: a surface that it runs through is moved aside until the straight line
+/// just touches it, and moved back in steps.
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <numbers>
+
+#include "condyle/verify/taut_string.h"
+#include "condyle/verify/wrap_field.h"
+
+namespace condyle::verification {
+namespace {
+
+using Eigen::Vector3d;
+
+/// How far the line has to be moved along w to come clear of the surface, and where it then touches that.
+struct WayOut {
+  double shift = INFINITY;  ///< [mm]
+  Vector3d w, touches;      ///< ground frame
+};
+
+/// As far as it still lies inside, until it is clear for the first time: of a ring perhaps in its hole.
+WayOut way_out(const WrapAt& wrap, const Vector3d& from, const Vector3d& to, const Vector3d& w) {
+  constexpr double kFine = 1e-4;  // [mm]
+  constexpr int kMost = 200;
+  WayOut way{0, w, from};
+  for (int k = 0; k < kMost; ++k) {
+    const Deepest deepest = runs_into(wrap, from + way.shift * w, to + way.shift * w);
+    if (deepest.depth > 0) way.touches = deepest.x;
+    if (deepest.depth < kFine) return way;
+    way.shift += deepest.depth;
+  }
+  way.shift = INFINITY;
+  return way;
+}
+
+/// Of a ring the way out of the tube where the line lies deepest comes first, if it leads across the line.
+WayOut nearest_way_out(const WrapAt& wrap, const Vector3d& from, const Vector3d& to) {
+  constexpr int kWays = 36;
+  const Vector3d d = (to - from).normalized(), u = d.unitOrthogonal(), v = d.cross(u);
+  if (std::holds_alternative<WrapTorus>(wrap.wrap->shape)) {
+    const Vector3d own = wrap.own(runs_into(wrap, from, to).x);
+    const Vector3d n =
+        wrap.X.R * field_at(wrap.wrap->shape, wrap.larger, own).gradient.normalized();
+    const Vector3d across = n - n.dot(d) * d;
+    if (across.norm() > 0.5) return way_out(wrap, from, to, across.normalized());
+  }
+  WayOut nearest;
+  for (int k = 0; k < kWays; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kWays;
+    const WayOut way = way_out(wrap, from, to, std::cos(angle) * u + std::sin(angle) * v);
+    if (way.shift < nearest.shift) nearest = way;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+bool TautString::lay_over(const Place& at, std::size_t wrap) {
+  constexpr int kSteps = 24;
+  const Piece piece = piece_at(at, wrap);
+  const WayOut way = nearest_way_out(at.wraps[wrap], piece.from, piece.to);
+  if (std::isinf(way.shift)) return false;
+  Place moved = at;
+  WrapAt& there = moved.wraps[wrap];
+  const Vector3d aside = -way.shift * way.w;
+  const Vector3d P = closest_on(there.wrap->shape, there.larger, there.own(way.touches));
+  const Vector3d n = field_at(there.wrap->shape, there.larger, P).gradient.normalized();
+  const Vector3d d = there.X.R.transpose() * (piece.to - piece.from);
+  arcs_.insert(arcs_.begin() + static_cast<std::ptrdiff_t>(piece.after),
+               {wrap, P, (d - n.dot(d) * n).normalized(), 0});
+  rates_.reset();
+  for (int step = 0; step <= kSteps; ++step) {
+    there.X.p = at.wraps[wrap].X.p + (1 - static_cast<double>(step) / kSteps) * aside;
+    if (!tighten(moved)) return false;
+  }
+  return true;
+}
+
+bool TautString::lay(const Place& at) {
+  constexpr int kMost = 8;
+  for (int change = 0; change < kMost; ++change) {
+    int deepest = -1;
+    double depth = 1e-8;
+    for (std::size_t w = 0; w < at.wraps.size(); ++w) {
+      if (touches(w) || is_passed_over(at.wraps[w])) continue;
+      const Piece piece = piece_at(at, w);
+      const double here = runs_into(at.wraps[w], piece.from, piece.to).depth;
+      if (here > depth) depth = here, deepest = static_cast<int>(w);
+    }
+    if (deepest < 0) return true;
+    if (at.first.wrap == deepest || at.last.wrap == deepest) return false;
+    if (!lay_over(at, static_cast<std::size_t>(deepest))) return false;
+    for (const Arc& arc : arcs_)
+      if (arc.length < 0) return false;
+  }
+  return false;
+}
+
+std::optional<TautString> TautString::first(const Scene& scene,
+                                            const RigidTransform& X_BA,
+                                            std::size_t ligament) {
+  const LigamentWraps& path = scene.ligaments[ligament].path;
+  if (!path.sides.empty()) return std::nullopt;
+  for (const int wrap : path.wraps)
+    if (scene.wraps[static_cast<std::size_t>(wrap)].fit) return std::nullopt;
+  TautString string(scene, X_BA, ligament);
+  const Place at = string.place_at(X_BA);
+  if (string.ends_inside(at) || !string.lay(at)) return std::nullopt;
+  return string;
+}
+
+}  // namespace condyle::verification
