@@ -95,7 +95,7 @@ Model knee_from_peg(const Model& knee) {
   for (LineElement& element : model.elements) {
     if (!element.path) continue;
     std::vector<Vector3d> corners;
-    element.path->add_points({}, {}, nullptr, corners);
+    element.path->add_points({}, {}, nullptr, {}, corners);
     const double before = (corners[0] - element.x_C).norm();
     element.law =
         CustomLaw{[law = element.law, before](double L) { return tension(law, L + before); }};

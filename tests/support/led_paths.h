@@ -25,6 +25,7 @@ class PegPath final : public LinePath {
   void add_points(const LineEnds&,
                   const RigidTransform&,
                   const double*,
+                  const std::vector<LineTouch>&,
                   std::vector<Eigen::Vector3d>& points) const override {
     points.push_back(peg_);
   }
@@ -79,6 +80,7 @@ class EdgePath final : public LinePath {
   void add_points(const LineEnds& ends,
                   const RigidTransform&,
                   const double* kept,
+                  const std::vector<LineTouch>&,
                   std::vector<Eigen::Vector3d>& points) const override {
     if (*kept == 0) return;
     const double r_C = across(ends.x_C).norm(), r_D = across(ends.x_D).norm();

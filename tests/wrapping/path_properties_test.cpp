@@ -246,6 +246,37 @@ TEST(WrappedPath, APullDoesNotShowWhereThePathCameFrom) {
   }
 }
 
+// Far from a solution a pull may stop a step before it is exact; the one after it has to go on from there.
+TEST(WrappedPath, ARoughPullIsNearAndTheNextOneExact) {
+  for (const bool on_A : {false, true}) {
+    const auto path = make_wrapped_path({{"e", kEllipsoid, {}, on_A, {}}}, kX, kY);
+    const auto ends = [](const Vector3d& Y) { return LineEnds{kX, Y, kY}; };
+    const auto moved = [](const Vector3d& Y) {
+      return RigidTransform{Matrix3d::Identity(), Y - kY};
+    };
+    auto fresh = unknown_path();
+    Wrench expected, unit;
+    const double L = path->pull(ends(kY), {}, fresh.data(), expected);
+    Random random(11);
+    double roughest = 0;
+    for (int k = 0; k < 300; ++k) {
+      const double way = std::pow(10, random.between(-5, 0.5));  // [mm]
+      const Vector3d from = kY + way * random.direction(), between = kY + 0.1 * (from - kY);
+      auto kept = unknown_path();
+      path->pull(ends(from), moved(from), kept.data(), unit);
+      path->pull_roughly(ends(between), moved(between), kept.data(), unit);
+      const double rough = path->pull_roughly(ends(kY), {}, kept.data(), unit);
+      EXPECT_NEAR(rough, L, 1e-6) << way;
+      EXPECT_LT(difference(unit, expected), 1e-3) << way;
+      roughest = std::max(roughest, (unit.f - expected.f).norm());
+      EXPECT_LT((unit.f - expected.f).norm(), 1e-6) << way;
+      EXPECT_NEAR(path->pull(ends(kY), {}, kept.data(), unit), L, 1e-12 * L) << way;
+      EXPECT_LT(difference(unit, expected), 2e-9) << way;
+    }
+    EXPECT_GT(roughest, 1e-12);  // else it would be an exact one
+  }
+}
+
 TEST(WrappedPath, PullLengthAndReviseAllocateNothing) {
   const RigidTransform there{exp_rotation(Vector3d(-M_PI / 2, 0, 0)), {40, 0, 8}};
   const auto path = make_wrapped_path(

@@ -40,9 +40,10 @@ void expect_right(const WrapShape& shape,
                   const Vector3d& Y) {
   const double L = string.length(X, Y);
   EXPECT_GE(L, (Y - X).norm() - 1e-9);
-  const auto touch = string.touches(X, Y).at(0);
+  const auto touches = string.touches(X, Y);
+  const LineTouch& touch = touches.at(0);
   std::vector<Vector3d> points = {X};
-  string.path()->add_points({X, Y, Y}, {}, string.kept(), points);
+  string.path()->add_points({X, Y, Y}, {}, string.kept(), touches, points);
   points.push_back(Y);
   double depth = 0;
   for (const Vector3d& x : points) depth = std::min(depth, signed_distance(shape, x));

@@ -57,11 +57,14 @@ void add_pull(const Tension& t, const Wrench& unit, Wrench& wrench) {
 LineElementState add_along_path(const LineElement& element,
                                 const RigidTransform& X_BA,
                                 double* kept,
-                                Wrench& wrench) {
+                                Wrench& wrench,
+                                bool roughly) {
   auto unknown = kept != nullptr ? std::array<double, kMostPathNumbers>() : unknown_path();
   Wrench unit;
-  const double L = element.path->pull(ends_of(element, X_BA), X_BA,
-                                      kept != nullptr ? kept : unknown.data(), unit);
+  double* numbers = kept != nullptr ? kept : unknown.data();
+  const LineEnds ends = ends_of(element, X_BA);
+  const double L = roughly ? element.path->pull_roughly(ends, X_BA, numbers, unit)
+                           : element.path->pull(ends, X_BA, numbers, unit);
   if (!(L > kLeastLength)) return {L, 0, 0};
   const Tension t = tension_of_element(element, L);
   if (t.force != 0 || t.slope != 0) add_pull(t, unit, wrench);
@@ -97,8 +100,9 @@ KeptPaths::KeptPaths(const std::vector<LineElement>& elements, std::vector<doubl
 LineElementState add_line_element(const LineElement& element,
                                   const RigidTransform& X_BA,
                                   Wrench& wrench,
-                                  double* kept) {
-  if (element.path) return add_along_path(element, X_BA, kept, wrench);
+                                  double* kept,
+                                  bool roughly) {
+  if (element.path) return add_along_path(element, X_BA, kept, wrench, roughly);
   const Eigen::Vector3d q = X_BA.R * element.s_D;
   const Eigen::Vector3d d = X_BA.p + q - element.x_C;
   const double L = d.norm();

@@ -34,11 +34,12 @@ struct LineElementState {
 inline constexpr double kLeastLength = 1e-12;
 
 /// Adds the element's wrench on A and its derivatives to `wrench`. Allocates nothing. `kept`: the
-/// numbers of its path, null where none are kept.
+/// numbers of its path, null where none are kept. `roughly`: its path may be (LinePath::pull_roughly).
 LineElementState add_line_element(const LineElement& element,
                                   const RigidTransform& X_BA,
                                   Wrench& wrench,
-                                  double* kept = nullptr);
+                                  double* kept = nullptr,
+                                  bool roughly = false);
 
 /// Length, force and energy only.
 [[nodiscard]] LineElementState line_element_state(const LineElement& element,

@@ -57,7 +57,7 @@ void LineElementBlock::set(const std::vector<LineElement>& elements) {
         straight_.resize(static_cast<std::size_t>(index));
         std::iota(straight_.begin(), straight_.end(), 0);
       }
-      curved_.push_back({&element, index, numbers});
+      curved_.push_back({&element, index, numbers, false});
       numbers += static_cast<std::size_t>(element.path->numbers());
       continue;
     }
@@ -148,6 +148,7 @@ void LineElementBlock::add_entries(const std::vector<Entry>& entries,
 
 void LineElementBlock::add_curved(const RigidTransform& X_BA,
                                   const std::vector<double>& kept,
+                                  bool roughly,
                                   Wrench& wrench,
                                   Summary& summary) {
   if (summary.zero_element >= 0)
@@ -156,10 +157,12 @@ void LineElementBlock::add_curved(const RigidTransform& X_BA,
     paths_ = kept;
   else
     std::fill(paths_.begin(), paths_.end(), std::numeric_limits<double>::quiet_NaN());
-  for (const Curved& curved : curved_) {
+  for (Curved& curved : curved_) {
     double* numbers = paths_.data() + curved.numbers;
-    if (is_surely_slack(*curved.element, X_BA, numbers)) continue;
-    const LineElementState state = add_line_element(*curved.element, X_BA, wrench, numbers);
+    curved.passed_over = is_surely_slack(*curved.element, X_BA, numbers);
+    if (curved.passed_over) continue;
+    const LineElementState state =
+        add_line_element(*curved.element, X_BA, wrench, numbers, roughly);
     summary.force_magnitudes += std::abs(state.force);
     if (!(state.length > kLeastLength)) summary.zero_element = curved.index;
   }
@@ -170,7 +173,7 @@ bool LineElementBlock::revise_paths(const RigidTransform& X_BA) {
   for (const Curved& curved : curved_) {
     double* numbers = paths_.data() + curved.numbers;
     // One that was passed over here is followed now: how it lies is told, and it may have slipped.
-    if (is_surely_slack(*curved.element, X_BA, numbers)) {
+    if (curved.passed_over) {
       const LineElementState state = line_element_state(*curved.element, X_BA, numbers);
       changed |= !(state.length > kLeastLength) || state.force != 0;
     }
@@ -181,7 +184,8 @@ bool LineElementBlock::revise_paths(const RigidTransform& X_BA) {
 
 LineElementBlock::Summary LineElementBlock::add_to(const RigidTransform& X_BA,
                                                    const std::vector<double>& kept,
-                                                   Wrench& wrench) {
+                                                   Wrench& wrench,
+                                                   bool roughly) {
   Sums sums;
   add_entries(entries_, X_BA, sums);
   const Eigen::Matrix3d qx = matrix_of(sums.qx);
@@ -201,7 +205,7 @@ LineElementBlock::Summary LineElementBlock::add_to(const RigidTransform& X_BA,
   wrench.M2 += qx - matrix_of(sums.uu);
   wrench.M2.diagonal().array() -= qx.trace();
   Summary summary{sums.magnitudes, sums.zero_element};
-  if (has_paths()) add_curved(X_BA, kept, wrench, summary);
+  if (has_paths()) add_curved(X_BA, kept, roughly, wrench, summary);
   return summary;
 }
 

@@ -23,12 +23,17 @@ class LineElementBlock {
   };
   /// Adds the wrench of all elements on A and its derivatives. Allocates nothing. The paths start
   /// from the numbers `kept` where those are as many as path_numbers(elements), else from unknown
-  /// ones; paths() are the numbers at this pose.
-  Summary add_to(const RigidTransform& X_BA, const std::vector<double>& kept, Wrench& wrench);
+  /// ones; paths() are the numbers at this pose, of paths that are found `roughly` (LinePath::pull_roughly)
+  /// nearly.
+  Summary add_to(const RigidTransform& X_BA,
+                 const std::vector<double>& kept,
+                 Wrench& wrench,
+                 bool roughly = false);
 
   [[nodiscard]] bool has_paths() const { return !curved_.empty(); }
   [[nodiscard]] const std::vector<double>& paths() const { return paths_; }
-  /// At a pose that has been solved: does any path change what it holds (LinePath::revise)?
+  /// At a pose that has been solved, that of the last add_to: does any path change what it holds
+  /// (LinePath::revise)?
   bool revise_paths(const RigidTransform& X_BA);
 
  private:
@@ -42,6 +47,7 @@ class LineElementBlock {
     const LineElement* element;
     int index;
     std::size_t numbers;
+    bool passed_over = false;  ///< the last add_to knew that it is slack, and did not follow it
   };
   struct Sums;
   static void add_entries(const std::vector<Entry>& entries,
@@ -49,6 +55,7 @@ class LineElementBlock {
                           Sums& sums);
   void add_curved(const RigidTransform& X_BA,
                   const std::vector<double>& kept,
+                  bool roughly,
                   Wrench& wrench,
                   Summary& summary);
 

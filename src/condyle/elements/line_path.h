@@ -54,6 +54,15 @@ class LinePath {
                       double* kept,
                       Wrench& unit) const = 0;
 
+  /// The same while a pose is far from solved: where that costs less, of a path that is off by about 1e-8
+  /// of its size. length() at that very pose is then the same.
+  virtual double pull_roughly(const LineEnds& ends,
+                              const RigidTransform& X_BA,
+                              double* kept,
+                              Wrench& unit) const {
+    return pull(ends, X_BA, kept, unit);
+  }
+
   /// L [mm] alone.
   [[nodiscard]] virtual double length(const LineEnds& ends,
                                       const RigidTransform& X_BA,
@@ -71,6 +80,11 @@ class LinePath {
     return std::numeric_limits<double>::infinity();
   }
 
+  /// L where `kept` was last followed, at this pose or another [mm]; infinite where that is not known.
+  [[nodiscard]] virtual double last_length(const double*) const {
+    return std::numeric_limits<double>::infinity();
+  }
+
   /// How length and pull follow the ends on their own bodies (end_rates.h), for sensitivities by
   /// insertions. `kept`: the numbers of the path at this pose. False where it does not know: a path
   /// that was not found. Allocates nothing.
@@ -81,12 +95,6 @@ class LinePath {
   /// At a pose that has been solved: changes in `kept` what is held while one is solved (a surface
   /// that it has come to or left), and says whether it did: then the pose is solved on.
   virtual bool revise(const LineEnds&, const RigidTransform&, double*) const { return false; }
-
-  /// Corners of the path between the ends, from C to D, ground frame [mm]: for those who draw it.
-  virtual void add_points(const LineEnds&,
-                          const RigidTransform&,
-                          const double*,
-                          std::vector<Eigen::Vector3d>&) const {}
 
   /// One for each surface that the path may touch, in order from C to D.
   virtual void add_touches(const LineEnds&,
@@ -99,11 +107,26 @@ class LinePath {
                     const RigidTransform&,
                     double*) const {}
 
+  /// Corners of the path between the ends, from C to D, ground frame [mm]: for those who draw it.
+  /// `touches`: what add_touches told of it.
+  virtual void add_points(const LineEnds&,
+                          const RigidTransform&,
+                          const double*,
+                          const std::vector<LineTouch>&,
+                          std::vector<Eigen::Vector3d>&) const {}
+
   /// What speaks against calling a pose converged whose path this is, or says why the path could not
   /// be found: half a sentence; empty where nothing does.
   [[nodiscard]] virtual std::string objection(const LineEnds&,
                                               const RigidTransform&,
                                               const double*) const {
+    return {};
+  }
+
+  /// What is worth knowing of a path against which nothing speaks: half a sentence; empty where nothing is.
+  [[nodiscard]] virtual std::string remark(const LineEnds&,
+                                           const RigidTransform&,
+                                           const double*) const {
     return {};
   }
 };

@@ -14,7 +14,6 @@
 #include "condyle/equilibrium/motion_name.h"
 #include "condyle/equilibrium/second_equilibrium.h"
 #include "condyle/equilibrium/stability.h"
-#include "condyle/wrapping/wrapped_path.h"
 
 namespace condyle {
 namespace {
@@ -146,21 +145,6 @@ void describe_open(const ContactPair& pair,
   contact.closed = pair.law && lowest.gap < 0;
 }
 
-/// Of a path that is hardly the shortest any more: its stiffness sideways goes as 1/B.
-std::string near_conjugate_point(const LinePath& path,
-                                 const LineEnds& ends,
-                                 const RigidTransform& X_BA,
-                                 const double* numbers) {
-  constexpr double kNear = 0.05;  // of L
-  const auto* wrapped = dynamic_cast<const WrappedPath*>(&path);
-  if (wrapped == nullptr) return {};
-  const WrappedPath::Finding found = wrapped->finding(ends, X_BA, numbers);
-  if (found.outcome != WrappedPath::Outcome::kFound || found.conjugate >= kNear) return {};
-  return fmt::format(
-      "its path is close to a conjugate point, past which it is not the shortest: B/L = {:.2g}",
-      found.conjugate);
-}
-
 /// A path of which something speaks against it lowers the status.
 void judge_paths(const Linearization& at, PoseResult& result) {
   const std::vector<LineElement>& elements = at.system.parameters().elements;
@@ -176,7 +160,7 @@ void judge_paths(const Linearization& at, PoseResult& result) {
     };
     const std::string words = elements[i].path->objection(ends, at.state.X, numbers);
     if (!words.empty()) set_status(result, {PoseStatus::kNoPath, of_ligament(words)});
-    const std::string remark = near_conjugate_point(*elements[i].path, ends, at.state.X, numbers);
+    const std::string remark = elements[i].path->remark(ends, at.state.X, numbers);
     if (!remark.empty()) add_remark(result, of_ligament(remark));
   }
 }

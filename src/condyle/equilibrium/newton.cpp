@@ -15,7 +15,8 @@
 namespace condyle {
 namespace {
 
-constexpr double kRoughly = 1e-5;  // steps longer than this ask for no more of contact laws, of L
+// Steps longer than these ask for no more of contact laws and of paths, of L.
+constexpr double kRoughly = 1e-5, kRoughPaths = 1e-3;
 constexpr double kFreeStep =
     1e-3;  // longest step along a motion that nothing resists, in units of L
 
@@ -56,12 +57,15 @@ void NewtonSystem::set_parameters(const Parameters& parameters) {
   elements_.set(parameters_.elements);
 }
 
-bool NewtonSystem::assemble(const EquilibriumState& state, const Drive& drive, bool roughly) {
+bool NewtonSystem::assemble(const EquilibriumState& state,
+                            const Drive& drive,
+                            const Roughly& roughly) {
   check_state(state, model_);
   check_drive(drive, model_);
   X_ = state.X;
   wrench_ = Wrench();
-  const LineElementBlock::Summary summary = elements_.add_to(state.X, state.paths, wrench_);
+  const LineElementBlock::Summary summary =
+      elements_.add_to(state.X, state.paths, wrench_, roughly.paths);
   force_scale_ = summary.force_magnitudes;
   zero_element_ = summary.zero_element;
   const Eigen::Vector3d f_elements = wrench_.f, m_elements = wrench_.m;
@@ -70,8 +74,8 @@ bool NewtonSystem::assemble(const EquilibriumState& state, const Drive& drive, b
   force_scale_ += (wrench_.f - f_elements).norm() + (wrench_.m - m_elements).norm() / model_.length;
   pull_ = force_scale_;
   if (!potentials_.empty())
-    force_scale_ += roughly ? potentials_.add_roughly_to(state.X, wrench_)
-                            : potentials_.add_to(state.X, wrench_);
+    force_scale_ += roughly.laws ? potentials_.add_roughly_to(state.X, wrench_)
+                                 : potentials_.add_to(state.X, wrench_);
 
   contacts_.clear();
   for (const ClosedContact& contact : state.contacts) {
@@ -208,9 +212,10 @@ NewtonReport Newton::iterate(EquilibriumState& state, const Drive& drive) {
     report.outcome = NewtonOutcome::kSingular;
     return report;
   }
-  bool roughly = !system_.potentials().empty();
+  NewtonSystem::Roughly roughly{!system_.potentials().empty(), system_.has_paths()};
   for (;; ++report.iterations) {
-    roughly &= last_step > kRoughly * L;
+    roughly.laws &= last_step > kRoughly * L;
+    roughly.paths &= last_step > kRoughPaths * L;
     const bool has_directions = system_.assemble(state, drive, roughly);
     report.residual = system_.out_of_balance();
     report.gap = system_.largest_gap();
@@ -231,8 +236,8 @@ NewtonReport Newton::iterate(EquilibriumState& state, const Drive& drive) {
     const double slack = last_step < 1e-12 * L ? 1e3 : 1;
     if (report.residual <= slack * options_.tolerance * report.force_scale &&
         distance <= slack * options_.tolerance * L) {
-      if (roughly) {  // looked at more closely
-        roughly = false;
+      if (roughly.laws || roughly.paths) {  // looked at more closely
+        roughly = {false, false};
         --report.iterations;
         continue;
       }

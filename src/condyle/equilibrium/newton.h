@@ -83,10 +83,13 @@ class NewtonSystem {
   /// False where an element has no length (zero_element()). Throws std::invalid_argument for a
   /// state or a drive that is not one of the model.
   bool assemble(const EquilibriumState& state, const Drive& drive) {
-    return assemble(state, drive, false);
+    return assemble(state, drive, {false, false});
   }
-  /// The same; `roughly`: contact laws are told well enough for a step, where that costs less.
-  bool assemble(const EquilibriumState& state, const Drive& drive, bool roughly);
+  /// What is told well enough for a step alone, where that costs less.
+  struct Roughly {
+    bool laws, paths;  ///< contact laws, paths of line elements
+  };
+  bool assemble(const EquilibriumState& state, const Drive& drive, const Roughly& roughly);
   [[nodiscard]] bool is_assembled_at(const EquilibriumState& state) const;
 
   /// What contact laws hold while poses near X_BA are solved is chosen there.
@@ -94,6 +97,7 @@ class NewtonSystem {
   /// At a state that was assembled and is solved: does a contact law or a path change what it holds
   /// while a pose is solved? Then it has to be solved on.
   [[nodiscard]] bool revise(EquilibriumState& state);
+  [[nodiscard]] bool has_paths() const { return elements_.has_paths(); }
   /// Contact laws know nothing of what was asked before.
   void reset() { potentials_.reset(); }
 

@@ -26,16 +26,21 @@ void tell_with_paths(const PoseFacts& facts, PoseResult& result) {
     LigamentPath& path = result.paths[i];
     path.points.clear();
     path.touches.clear();
-    auto kept = unknown_path();
-    if (element.path && known) {
+    if (!element.path) {
+      result.ligaments.push_back(told(element, facts.X_BA, nullptr));
+      continue;
+    }
+    std::array<double, kMostPathNumbers> kept;
+    if (known) {
       std::copy_n(paths, element.path->numbers(), kept.begin());
       paths += element.path->numbers();
+    } else {
+      kept = unknown_path();
     }
     result.ligaments.push_back(told(element, facts.X_BA, kept.data()));
-    if (!element.path) continue;
     const LineEnds ends = ends_of(element, facts.X_BA);
-    element.path->add_points(ends, facts.X_BA, kept.data(), path.points);
     element.path->add_touches(ends, facts.X_BA, kept.data(), path.touches);
+    element.path->add_points(ends, facts.X_BA, kept.data(), path.touches, path.points);
   }
 }
 

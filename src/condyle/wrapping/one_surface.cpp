@@ -20,7 +20,8 @@ OneSurfacePath over(const WrapSphere& sphere,
                     const Vector3d& Y,
                     bool anchored,
                     ArcPlace& place,
-                    std::optional<ArcEnd>&) {
+                    std::optional<ArcEnd>&,
+                    double) {
   OneSurfacePath path;
   const double R = sphere.radius, xx = X.squaredNorm(), yy = Y.squaredNorm();
   if (!(anchored || xx > R * R) || !(yy > R * R)) return path;
@@ -63,7 +64,8 @@ OneSurfacePath over(const WrapCylinder& cylinder,
                     const Vector3d& Y,
                     bool anchored,
                     ArcPlace& place,
-                    std::optional<ArcEnd>&) {
+                    std::optional<ArcEnd>&,
+                    double) {
   OneSurfacePath path;
   const double R = cylinder.radius;
   const double xx = X.x() * X.x() + X.y() * X.y(), yy = Y.x() * Y.x() + Y.y() * Y.y();
@@ -141,8 +143,11 @@ OneSurfacePath over(const Solid&,
                     const Vector3d& Y,
                     bool anchored,
                     ArcPlace& place,
-                    std::optional<ArcEnd>& end) {
-  constexpr double kLongest = 0.3, kSmall = 1e-8, kSame = 1e-11;
+                    std::optional<ArcEnd>& end,
+                    double small) {
+  constexpr double kLongest = 0.3, kSame = 1e-11;
+  const double same =
+      small > kSmallStep ? small : kSame;  // of a first step that follows no geodesic
   constexpr int kMostSteps = 60;
   OneSurfacePath path;
   for (int iteration = 0; iteration < kMostSteps; ++iteration) {
@@ -176,10 +181,12 @@ OneSurfacePath over(const Solid&,
     if (!anchored) place.P = onto_surface(shape, at_P.x);
     place.t = at_P.t;
     place.arc += slide - ahead;
-    if (size > (known ? kSame : kSmall)) continue;
+    if (size > (known ? same : small) || (known && end->size > small)) continue;
     const SurfaceFrame at_Q =
         moved(f_Q, slide, g.a * aside + g.r * turn, g.da * aside + g.dr * turn);
+    const double inexact = known ? std::max(size, end->size) : size;
     end = end_of(g, at_Q, ahead, slide);
+    end->size = inexact;
     path.l1 = anchored ? 0 : (place.P - X).norm();
     path.l2 = (Y - at_Q.x).norm();
     path.A = end->a + path.l2 * end->da;
@@ -207,9 +214,11 @@ OneSurfacePath path_over(const WrapShape& shape,
                          const Vector3d& Y,
                          bool anchored,
                          ArcPlace& place,
-                         std::optional<ArcEnd>& end) {
+                         std::optional<ArcEnd>& end,
+                         double small) {
   return std::visit(
-      [&](const auto& solid) { return over(solid, shape, X, Y, anchored, place, end); }, shape);
+      [&](const auto& solid) { return over(solid, shape, X, Y, anchored, place, end, small); },
+      shape);
 }
 
 }  // namespace condyle

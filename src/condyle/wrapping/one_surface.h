@@ -21,7 +21,13 @@ struct ArcPlace {
 struct ArcEnd {
   Eigen::Vector3d Q, t;
   double a, da, r, dr;
+  double size =
+      0;  ///< of the step that was taken since the geodesic was followed; the error is of its square
 };
+
+/// Of the last step on a path, in angles and parts of the least radius: below it the path is as good as
+/// double precision, or as what is wanted far from a solution.
+inline constexpr double kSmallStep = 1e-8, kRoughStep = 1e-4;
 
 struct OneSurfacePath {
   double length = 0;
@@ -52,12 +58,14 @@ struct OneSurfacePath {
 /// From the place as it is: of a sphere only its plane is looked at where the ends leave it open, of a
 /// cylinder the sense and the nearest angle. The place is that of the path afterwards. `end`, if any,
 /// belongs to the place, before and after; of sphere and cylinder there is none. `anchored`: X is on
-/// the surface and the path begins there; then l1 = 0, and ∂²L/∂X² is not to be asked for.
+/// the surface and the path begins there; then l1 = 0, and ∂²L/∂X² is not to be asked for. `small`: the last
+/// step.
 [[nodiscard]] OneSurfacePath path_over(const WrapShape& shape,
                                        const Eigen::Vector3d& X,
                                        const Eigen::Vector3d& Y,
                                        bool anchored,
                                        ArcPlace& place,
-                                       std::optional<ArcEnd>& end);
+                                       std::optional<ArcEnd>& end,
+                                       double small = kSmallStep);
 
 }  // namespace condyle

@@ -40,7 +40,7 @@ PathChain without_links(const PathPose& pose) {
   return chain;
 }
 
-PathChain kept_chain(const PathPose& pose, const PathState& state) {
+PathChain kept_chain(const PathPose& pose, const PathNumbers& state) {
   PathChain chain = without_links(pose);
   for (int i = 0; i < count(pose); ++i) {
     if (!state.touches(i)) continue;

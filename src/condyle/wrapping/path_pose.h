@@ -33,7 +33,7 @@ struct PathPose {
 [[nodiscard]] PathChain without_links(const PathPose& pose);
 
 /// The links that are touched, as they were kept.
-[[nodiscard]] PathChain kept_chain(const PathPose& pose, const PathState& state);
+[[nodiscard]] PathChain kept_chain(const PathPose& pose, const PathNumbers& state);
 
 void keep(const PathChain& chain, PathState& state);
 

@@ -207,7 +207,7 @@ bool has_lone_convex(const PathPose& pose) {
 }
 
 /// A lone convex surface that the path, straight from end to end, passes; no end is anchored on it.
-std::optional<Passing> passes_lone_convex(const PathPose& pose, const PathState& state) {
+std::optional<Passing> passes_lone_convex(const PathPose& pose, const PathNumbers& state) {
   if (!has_lone_convex(pose) || state.touches(0)) return std::nullopt;
   if (pose.ends.end[0].wrap >= 0 || pose.ends.end[1].wrap >= 0) return std::nullopt;
   const PathSurface& surface = pose.surfaces[0];
@@ -227,7 +227,8 @@ bool stays_off(const PathPose& pose, const Passing& line, PathState& state) {
   const StraightPiece now{line.U, line.V};
   if (height > kTouch) {
     const std::optional<StraightPiece> before = state.line(0);
-    if (before && !comes_clear(*before, now, height)) return false;
+    if (before && !comes_clear(*before, now, height) && swept_onto(shape, *before, now))
+      return false;
     state.leave(0, normal_at(shape, line.U + part * (line.V - line.U)), now);
   }
   return height >= -kTouch;
@@ -264,7 +265,7 @@ bool settle(const PathPose& pose, PathChain& chain, PathState& state, bool first
 
 }  // namespace
 
-int surface_run_through(const PathPose& pose, const PathState& state) {
+int surface_run_through(const PathPose& pose, const PathNumbers& state) {
   constexpr double kDeep = -1e-7;                            // [mm]
   if (has_lone_convex(pose) && state.touches(0)) return -1;  // lines that touch it do not run in
   if (const std::optional<Passing> line = passes_lone_convex(pose, state)) {

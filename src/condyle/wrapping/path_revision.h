@@ -11,7 +11,7 @@ bool revise_path(const PathPose& pose, PathState state);
 
 /// A surface that a straight piece of a path that was found runs through where it should pass it; -1 where
 /// none is.
-[[nodiscard]] int surface_run_through(const PathPose& pose, const PathState& state);
+[[nodiscard]] int surface_run_through(const PathPose& pose, const PathNumbers& state);
 
 /// Statuses and path anew; `state` may hold the sides passed. The outcome in it says whether one was found.
 PathChain start_path(const PathPose& pose, PathState& state);

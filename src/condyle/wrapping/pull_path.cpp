@@ -28,7 +28,7 @@ double straight(const PathPose& pose, Wrench* unit, LastPiece& last) {
 }
 
 /// The wrap that alone is touched; -1 where there is none.
-int only_one(const PathPose& pose, const PathState& state, int& touched) {
+int only_one(const PathPose& pose, const PathNumbers& state, int& touched) {
   int one = -1;
   touched = 0;
   for (int i = 0; i < count(pose); ++i) {
@@ -48,7 +48,7 @@ void reverse(const WrapShape& shape, ArcPlace& place, std::optional<ArcEnd>& end
   }
   const ArcPlace forwards = place;
   place = {end->Q, -end->t, forwards.arc};
-  end = {forwards.P, -forwards.t, end->dr, end->da, end->r, end->a};
+  end = {forwards.P, -forwards.t, end->dr, end->da, end->r, end->a, end->size};
 }
 
 /// Where the insertion was moved on its body the geodesic ends elsewhere than it did.
@@ -64,7 +64,7 @@ bool has_closed_form(const WrapShape& shape) {
 /// Its end D, on A, is anchored on the surface: seen from there it is anchored where it begins. 0 as
 /// of pull_over_one.
 double pull_from_anchor(
-    const PathPose& pose, int wrap, PathState& state, Wrench* unit, LastPiece& last) {
+    const PathPose& pose, int wrap, PathState& state, Wrench* unit, LastPiece& last, double small) {
   const PathSurface& surface = pose.surfaces[wrap];
   const RigidTransform& X_BA = pose.X_BA;
   const Vector3d& C = pose.ends.end[0].at;
@@ -74,7 +74,7 @@ double pull_from_anchor(
   std::optional<ArcEnd> end = state.end(wrap);
   reverse(surface.shape, place, end);
   anchor_at(X, place, end);
-  const OneSurfacePath path = path_over(surface.shape, X, Y, true, place, end);
+  const OneSurfacePath path = path_over(surface.shape, X, Y, true, place, end, small);
   if (!path.found || !path.shortest) return 0;
   if (has_closed_form(surface.shape)) end.reset();
   reverse(surface.shape, place, end);
@@ -92,7 +92,7 @@ double pull_from_anchor(
 
 /// In the frame of the surface; 0 where the path was not found or is not the shortest.
 double pull_over_one(
-    const PathPose& pose, int wrap, PathState& state, Wrench* unit, LastPiece& last) {
+    const PathPose& pose, int wrap, PathState& state, Wrench* unit, LastPiece& last, double small) {
   const PathSurface& surface = pose.surfaces[wrap];
   const RigidTransform& X_BA = pose.X_BA;
   const Vector3d &C = pose.ends.end[0].at, &D = pose.ends.end[1].at;
@@ -104,7 +104,7 @@ double pull_over_one(
   const Vector3d Y = surface.X_SW * (surface.on_A ? D : x_D);
   std::optional<ArcEnd> end = state.end(wrap);
   if (anchored) anchor_at(pose.ends.end[0].anchor, place, end);
-  const OneSurfacePath path = path_over(surface.shape, X, Y, anchored, place, end);
+  const OneSurfacePath path = path_over(surface.shape, X, Y, anchored, place, end, small);
   if (!path.found || !path.shortest) return 0;
   state.touch(wrap, place);
   if (end) state.set_end(wrap, *end);
@@ -162,7 +162,8 @@ double pull_chain(const PathPose& pose, PathState& state, Wrench* unit) {
 
 }  // namespace
 
-double pull_path(const PathPose& pose, PathState state, Wrench* unit, LastPiece& last) {
+double pull_path(
+    const PathPose& pose, PathState state, Wrench* unit, LastPiece& last, double small) {
   if (!state.known() || state.finding().outcome == Outcome::kNotFound) {
     start_path(pose, state);
     if (state.finding().outcome == Outcome::kNotFound) return 0;
@@ -178,8 +179,8 @@ double pull_path(const PathPose& pose, PathState state, Wrench* unit, LastPiece&
   }
   if (one >= 0) {
     const bool from_anchor = pose.ends.end[1].wrap == one;
-    const double L = from_anchor ? pull_from_anchor(pose, one, state, unit, last)
-                                 : pull_over_one(pose, one, state, unit, last);
+    const double L = from_anchor ? pull_from_anchor(pose, one, state, unit, last, small)
+                                 : pull_over_one(pose, one, state, unit, last, small);
     if (L > 0) return L;
   }
   return pull_chain(pose, state, unit);

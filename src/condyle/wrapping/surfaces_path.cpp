@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include <fmt/format.h>
+
 #include <limits>
 #include <stdexcept>
 
@@ -36,6 +38,12 @@ class SurfacesPath final : public WrappedPath {
               Wrench& unit) const override {
     return at(ends, X_BA, kept, &unit);
   }
+  double pull_roughly(const LineEnds& ends,
+                      const RigidTransform& X_BA,
+                      double* kept,
+                      Wrench& unit) const override {
+    return at(ends, X_BA, kept, &unit, kRoughStep);
+  }
   [[nodiscard]] double length(const LineEnds& ends,
                               const RigidTransform& X_BA,
                               double* kept) const override {
@@ -48,10 +56,14 @@ class SurfacesPath final : public WrappedPath {
     if (!are_given(ends, X_BA)) return std::numeric_limits<double>::infinity();
     return length_at_most(lead_, ends, X_BA, noted(kept));
   }
+  [[nodiscard]] double last_length(const double* kept) const override {
+    return is_noted(noted(kept)) ? noted(kept)[0] : std::numeric_limits<double>::infinity();
+  }
   bool revise(const LineEnds& ends, const RigidTransform& X_BA, double* kept) const override;
   void add_points(const LineEnds& ends,
                   const RigidTransform& X_BA,
                   const double* kept,
+                  const std::vector<LineTouch>& touches,
                   std::vector<Vector3d>& points) const override;
   bool end_rates(const LineEnds& ends,
                  const RigidTransform& X_BA,
@@ -70,11 +82,14 @@ class SurfacesPath final : public WrappedPath {
   [[nodiscard]] std::string objection(const LineEnds& ends,
                                       const RigidTransform& X_BA,
                                       const double* kept) const override;
+  [[nodiscard]] std::string remark(const LineEnds& ends,
+                                   const RigidTransform& X_BA,
+                                   const double* kept) const override;
   [[nodiscard]] Finding finding(const LineEnds& ends,
                                 const RigidTransform& X_BA,
                                 const double* kept) const override {
     Numbers copy;
-    return PathState(known(ends, X_BA, kept, copy), wraps_.size()).finding();
+    return known(ends, X_BA, kept, copy).finding();
   }
 
  private:
@@ -83,12 +98,10 @@ class SurfacesPath final : public WrappedPath {
   /// Last of all a look at the path that was found.
   [[nodiscard]] std::string run_through(const LineEnds& ends,
                                         const RigidTransform& X_BA,
-                                        const double* kept) const {
-    Numbers copy;
-    double* numbers = known(ends, X_BA, kept, copy);
+                                        const PathNumbers& state) const {
     PathEnds other;
     const PathEnds& at = ends_at(ends, X_BA, other);
-    const int wrap = surface_run_through({surfaces_, at, X_BA}, PathState(numbers, wraps_.size()));
+    const int wrap = surface_run_through({surfaces_, at, X_BA}, state);
     if (wrap < 0) return {};
     return "a straight piece of it runs through \"" + wraps_[static_cast<std::size_t>(wrap)].name +
            "\"";
@@ -114,7 +127,7 @@ class SurfacesPath final : public WrappedPath {
   }
 
   [[nodiscard]] const double* noted(const double* kept) const {
-    return PathState::noted(kept, wraps_.size());
+    return PathNumbers::noted(kept, wraps_.size());
   }
   /// The last pull was at this pose, and nothing has changed since.
   [[nodiscard]] bool is_followed(const LineEnds& ends,
@@ -130,22 +143,28 @@ class SurfacesPath final : public WrappedPath {
            are_given(ends, X_BA);
   }
 
-  /// Numbers of the path at this pose: a copy of `kept`, followed from there if it was elsewhere.
-  [[nodiscard]] double* known(const LineEnds& ends,
-                              const RigidTransform& X_BA,
-                              const double* kept,
-                              Numbers& copy) const {
+  /// Numbers of the path at this pose: `kept`, or `copy`, followed from there if it was elsewhere.
+  [[nodiscard]] PathNumbers known(const LineEnds& ends,
+                                  const RigidTransform& X_BA,
+                                  const double* kept,
+                                  Numbers& copy) const {
+    const PathNumbers as_kept(kept, wraps_.size());
+    if (as_kept.known() && !is_elsewhere(ends, X_BA, kept)) return as_kept;
     std::copy(kept, kept + numbers(), copy.begin());
-    if (std::isnan(copy[0]) || is_elsewhere(ends, X_BA, kept)) at(ends, X_BA, copy.data(), nullptr);
-    return copy.data();
+    at(ends, X_BA, copy.data(), nullptr);
+    return {copy.data(), wraps_.size()};
   }
 
-  double at(const LineEnds& ends, const RigidTransform& X_BA, double* kept, Wrench* unit) const {
+  double at(const LineEnds& ends,
+            const RigidTransform& X_BA,
+            double* kept,
+            Wrench* unit,
+            double small = kSmallStep) const {
     PathEnds other;
     const PathEnds& found = ends_at(ends, X_BA, other);
     PathState state(kept, wraps_.size());
     LastPiece last;
-    const double L = pull_path({surfaces_, found, X_BA}, state, unit, last);
+    const double L = pull_path({surfaces_, found, X_BA}, state, unit, last, small);
     if (last.rest == 0) last.begin = ends_.end[lead_.all_on_A ? 1 : 0].at;
     const bool found_here = &found == &ends_ && state.finding().outcome == Outcome::kFound;
     if (found_here && L > 0)
@@ -180,10 +199,9 @@ bool SurfacesPath::end_rates(const LineEnds& ends,
                              const double* kept,
                              LineRates& rates) const {
   Numbers copy;
-  double* numbers = known(ends, X_BA, kept, copy);
+  const PathNumbers state = known(ends, X_BA, kept, copy);
   PathEnds other;
   const PathEnds& at = ends_at(ends, X_BA, other);
-  const PathState state(numbers, wraps_.size());
   if (state.finding().outcome != Outcome::kFound) return false;
   PathChain chain = kept_chain({surfaces_, at, X_BA}, state);
   if (chain.n > 0 && !solve(chain)) return false;
@@ -207,12 +225,12 @@ bool SurfacesPath::revise(const LineEnds& ends, const RigidTransform& X_BA, doub
   PathEnds other;
   const PathEnds& found = ends_at(ends, X_BA, other);
   PathState state(kept, wraps_.size());
-  std::array<double, PathState::kNoted> noted;
+  std::array<double, PathNumbers::kNoted> noted;
   const bool has_length = state.noted() != nullptr;
-  if (has_length) std::copy_n(state.noted(), PathState::kNoted, noted.begin());
+  if (has_length) std::copy_n(state.noted(), PathNumbers::kNoted, noted.begin());
   if (revise_path({surfaces_, found, X_BA}, state)) return true;
   const bool stands = has_length && state.finding().outcome == Outcome::kFound;
-  if (stands) std::copy_n(noted.begin(), PathState::kNoted, state.noted());
+  if (stands) std::copy_n(noted.begin(), PathNumbers::kNoted, state.noted());
   return false;
 }
 
@@ -239,7 +257,7 @@ void SurfacesPath::add_touches(const LineEnds& ends,
                                const double* kept,
                                std::vector<LineTouch>& touches) const {
   Numbers copy;
-  const PathState state(known(ends, X_BA, kept, copy), wraps_.size());
+  const PathNumbers state = known(ends, X_BA, kept, copy);
   for (std::size_t i = 0; i < wraps_.size(); ++i) {
     LineTouch& touch = touches.emplace_back();
     touch.on_moving = wraps_[i].on_moving;
@@ -291,49 +309,68 @@ void SurfacesPath::keep(const std::vector<LineTouch>& touches,
 std::string SurfacesPath::objection(const LineEnds& ends,
                                     const RigidTransform& X_BA,
                                     const double* kept) const {
-  const Finding found = finding(ends, X_BA, kept);
+  Numbers copy;
+  const PathNumbers state = known(ends, X_BA, kept, copy);
+  const Finding found = state.finding();
+  if (found.outcome == Outcome::kFound) return run_through(ends, X_BA, state);
   const std::string name = found.wrap < 0
                                ? "its wraps"
                                : "\"" + wraps_[static_cast<std::size_t>(found.wrap)].name + "\"";
   switch (found.outcome) {
-    case Outcome::kFound:
-      return run_through(ends, X_BA, kept);
     case Outcome::kNotShortest:
       return "its path over " + name + " is not the shortest: it goes past a conjugate point";
     case Outcome::kEndInside:
       return "an end of it lies inside " + name;
+    case Outcome::kFound:
     case Outcome::kNotFound:
       break;
   }
   return "no shortest path over " + name + " was found";
 }
 
+/// Of a path that is hardly the shortest any more: its stiffness sideways goes as 1/B.
+std::string SurfacesPath::remark(const LineEnds& ends,
+                                 const RigidTransform& X_BA,
+                                 const double* kept) const {
+  constexpr double kNear = 0.05;  // of L
+  const Finding found = finding(ends, X_BA, kept);
+  if (found.outcome != Outcome::kFound || found.conjugate >= kNear) return {};
+  return fmt::format(
+      "its path is close to a conjugate point, past which it is not the shortest: B/L = {:.2g}",
+      found.conjugate);
+}
+
 /// Anchors, and geodesics as chords that turn by 0.1 rad at most.
 void SurfacesPath::add_points(const LineEnds& ends,
                               const RigidTransform& X_BA,
-                              const double* kept,
+                              const double*,
+                              const std::vector<LineTouch>& touches,
                               std::vector<Vector3d>& points) const {
   constexpr double kChord = 0.1;
-  Numbers copy;
-  const PathState state(known(ends, X_BA, kept, copy), wraps_.size());
   PathEnds other;
   const PathEnds& found = ends_at(ends, X_BA, other);
   const auto anchored = [&](int end) {
-    return found.end[end].wrap >= 0 && !state.touches(found.end[end].wrap);
+    const int wrap = found.end[end].wrap;
+    return wrap >= 0 && !touches[static_cast<std::size_t>(wrap)].touching;
+  };
+  const auto in_ground = [&](const LineTouch& touch, const Vector3d& x) {
+    return touch.on_moving ? X_BA * x : x;
   };
   if (anchored(0)) points.push_back(found.end[0].at);
   for (std::size_t i = 0; i < wraps_.size(); ++i) {
-    if (!state.touches(static_cast<int>(i))) continue;
-    const ArcPlace place = state.place(static_cast<int>(i));
-    const WrapShape& shape = wraps_[i].shape;
-    const RigidTransform X = wraps_[i].on_moving ? X_BA * wraps_[i].placement : wraps_[i].placement;
-    const SurfaceFrame from = frame_at(shape, place.P, place.t);
-    const PathDirections to = directions_at_end(shape, place, state.end(static_cast<int>(i)));
-    const int chords = static_cast<int>(std::ceil(angle_between(from.t, to.t) / kChord));
-    points.push_back(X * from.x);
-    if (chords > 1)
-      add_points_along(shape, from, place.arc * (chords - 1) / chords, chords - 1, X, points);
-    if (chords > 0) points.push_back(X * to.x);
+    const LineTouch& touch = touches[i];
+    if (!touch.touching) continue;
+    const int chords = static_cast<int>(std::ceil(touch.turn / kChord));
+    points.push_back(in_ground(touch, touch.P));
+    if (chords > 1) {
+      const PathSurface& surface = surfaces_[i];
+      const SurfaceFrame from =
+          frame_at(surface.shape, surface.X_SW * touch.P, surface.X_SW.R * touch.t_P);
+      const RigidTransform X = surface.on_A ? X_BA * surface.X_WS : surface.X_WS;
+      add_points_along(surface.shape, from, touch.arc * (chords - 1) / chords, chords - 1, X,
+                       points);
+    }
+    if (chords > 0) points.push_back(in_ground(touch, touch.Q));
   }
   if (anchored(1)) points.push_back(X_BA * found.end[1].at);
 }
