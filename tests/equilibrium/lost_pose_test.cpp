@@ -11,6 +11,7 @@
 #include "condyle/equilibrium/passed_through.h"
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/surface/exact_surfaces.h"
+#include "support/counted_model.h"
 #include "support/known_part.h"
 #include "support/quadric_knee.h"
 #include "support/truss.h"
@@ -248,6 +249,21 @@ TEST(PassedThrough, WhatStandsHalfBehindAnEdgeIsBehind) {
   const Eigen::Matrix3d upright = exp_rotation({0, 1.3, 0});
   ASSERT_TRUE(passed.depth({upright, {60, 0, 0}}).has_value());
   EXPECT_FALSE(passed.depth({upright, {60, 0, 30}}).has_value()) << "all of it in front";
+}
+
+// Where a surface is large beside the model, as many samples of it tell as of others.
+TEST(PassedThrough, ALargeSurfaceIsNotSampledAsFinelyAsASmallModelIs) {
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), origin = Eigen::Vector3d::Zero();
+  test::Asked asked;
+  ContactPair pair;
+  pair.on_B = std::make_shared<test::CountedSurface>(make_plane(origin, up, 160), asked);
+  pair.on_A = make_plane(origin, -up, 8);
+  const PassedThrough passed(pair, 8);
+  asked = {};
+  const std::optional<double> depth = passed.depth({exp_rotation({0.05, -0.1, 0.3}), {3, 0, -7}});
+  ASSERT_TRUE(depth.has_value());
+  EXPECT_NEAR(*depth, 7.5, 0.5);
+  EXPECT_LT(asked.surfaces, 5000);
 }
 
 // A ball beside a ring is in the ring's solid, although most of what faces it is the ring's far side, from the front.

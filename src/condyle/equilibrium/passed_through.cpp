@@ -8,10 +8,11 @@
 namespace condyle {
 namespace {
 
-constexpr double kSpacing = 0.2;   // of the samples [L]
-constexpr double kFinest = 0.25;   // of them on a small surface [its radius]
-constexpr double kOpposed = -0.5;  // cosine between normals that face each other
-constexpr std::size_t kFew = 3;    // fewer samples tell nothing
+constexpr double kSpacing = 0.2;    // of the samples [L]
+constexpr double kFinest = 0.25;    // of them on a small surface [its radius]
+constexpr double kDensest = 0.125;  // of them on one that is large beside the model [its radius]
+constexpr double kOpposed = -0.5;   // cosine between normals that face each other
+constexpr std::size_t kFew = 3;     // fewer samples tell nothing
 
 /// Signed distances of samples from the other surface [mm].
 struct Gaps {
@@ -73,7 +74,8 @@ PassedThrough::PassedThrough(const ContactPair& pair, double L, double seen)
   if (pair.mode != ContactMode::kAuto || !(has_edge(*on_B_) || has_edge(*on_A_))) return;
   const auto sample = [L](const Surface& surface) {
     std::vector<Sample> samples;
-    const double spacing = std::min(kSpacing * L, kFinest * surface.extent().radius);
+    const double radius = surface.extent().radius;
+    const double spacing = std::max(std::min(kSpacing * L, kFinest * radius), kDensest * radius);
     for (const Place& place : surface.samples(spacing)) {
       if (surface.edge_distance(place) < 0) continue;
       const SurfacePoint at = surface.evaluate_frame(place);
