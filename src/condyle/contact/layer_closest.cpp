@@ -16,7 +16,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kLongest = 2;  // step that is followed [mm]
+constexpr double kLongest = 5;  // step that is followed [mm]
 
 /// Places that are followed, and what the last step to each says: not 0 where it is well, the squared
 /// distance being convex enough for Newton and the step short.
