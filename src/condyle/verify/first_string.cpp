@@ -22,13 +22,19 @@ struct WayOut {
 
 /// As far as it still lies inside, until it is clear for the first time: of a ring perhaps in its hole.
 WayOut way_out(const WrapAt& wrap, const Vector3d& from, const Vector3d& to, const Vector3d& w) {
-  constexpr double kFine = 1e-4;  // [mm]
+  constexpr double kFine = 1e-4;       // [mm]
+  constexpr double kBesideEnd = 0.05;  // of the line
   constexpr int kMost = 200;
   WayOut way{0, w, from};
   for (int k = 0; k < kMost; ++k) {
     const Deepest deepest = runs_into(wrap, from + way.shift * w, to + way.shift * w);
     if (deepest.depth > 0) way.touches = deepest.x;
-    if (deepest.depth < kFine) return way;
+    if (deepest.depth < kFine) {
+      // Beside an end the line may come clear without touching along it.
+      const double part = (way.touches - from).dot(to - from) / (to - from).squaredNorm();
+      if (!(part > kBesideEnd && part < 1 - kBesideEnd)) way.shift = INFINITY;
+      return way;
+    }
     way.shift += deepest.depth;
   }
   way.shift = INFINITY;
@@ -92,8 +98,15 @@ bool TautString::lay(const Place& at) {
     if (deepest < 0) return true;
     if (at.first.wrap == deepest || at.last.wrap == deepest) return false;
     if (!lay_over(at, static_cast<std::size_t>(deepest))) return false;
-    for (const Arc& arc : arcs_)
-      if (arc.length < 0) return false;
+    // Bends are none, too, where a piece runs backwards.
+    Vector3d from = at.first.x;
+    for (std::size_t i = 0; i < arcs_.size(); ++i) {
+      const Ends ends = ends_of(at, arcs_[i]);
+      const Vector3d to = i + 1 < arcs_.size() ? ends_of(at, arcs_[i + 1]).P : at.last.x;
+      const bool ahead = (ends.P - from).dot(ends.t_P) > 0 && (to - ends.Q).dot(ends.t_Q) > 0;
+      if (arcs_[i].length < 0 || !ahead) return false;
+      from = ends.Q;
+    }
   }
   return false;
 }
