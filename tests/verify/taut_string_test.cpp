@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "condyle/scene/ligament_path.h"
 #include "condyle/scene/start_pose.h"
+#include "condyle/verify/coordinates.h"
 #include "condyle/verify/verify.h"
 #include "verify/computed_run.h"
 
@@ -98,6 +100,41 @@ TEST(TautString, TheFirstStringIsThatOfTheSlackLength) {
   for (const char* file : {"threaded_string.toml", "far_origins.toml"})
     look_at(test::computed_run(test::kSource / "tests/data" / file));
   EXPECT_GE(laid, 5);
+}
+
+// Where a line nearly halves a sphere the short way and the long way about it are told apart. In closed form: with
+// the angle θ between the ends as the centre sees them, l the tangents, L = l_C + l_D + R (θ - acos(R/c) - acos(R/d)).
+TEST(TautString, TheFirstStringGoesTheShortWayAboutASphere) {
+  constexpr double kRadius = 8;
+  for (const double beside : {0.05, 0.3, 0.7, 0.95}) {
+    Scene scene = wrapped_run().scene;
+    const RigidTransform X = start_pose(scene);
+    const auto with_one_wrap = std::find_if(
+        scene.ligaments.begin(), scene.ligaments.end(),
+        [](const LigamentDescription& ligament) { return ligament.path.wraps.size() == 1; });
+    ASSERT_NE(with_one_wrap, scene.ligaments.end());
+    with_one_wrap->path.sides.clear();
+    with_one_wrap->path.thickness = 0;
+    const Eigen::Vector3d C = in_ground(scene, with_one_wrap->ends[0], X),
+                          D = in_ground(scene, with_one_wrap->ends[1], X);
+    const Eigen::Vector3d u = (D - C).unitOrthogonal(),
+                          center = 0.5 * (C + D) - beside * kRadius * u;
+    WrapDescription& wrap = scene.wraps.at(static_cast<std::size_t>(with_one_wrap->path.wraps[0]));
+    wrap.fit.reset();
+    wrap.shape = WrapSphere{kRadius};
+    wrap.placement = {Eigen::Matrix3d::Identity(),
+                      wrap.body == scene.moving_body() ? X.inverse() * center : center};
+    const double c = (C - center).norm(), d = (D - center).norm();
+    ASSERT_GT(std::min(c, d), 1.2 * kRadius);
+    const double angle = std::acos((C - center).dot(D - center) / (c * d));
+    const double length = std::sqrt(c * c - kRadius * kRadius) +
+                          std::sqrt(d * d - kRadius * kRadius) +
+                          kRadius * (angle - std::acos(kRadius / c) - std::acos(kRadius / d));
+    const auto first = TautString::first(
+        scene, X, static_cast<std::size_t>(with_one_wrap - scene.ligaments.begin()));
+    ASSERT_TRUE(first) << beside;
+    EXPECT_NEAR(first->length(), length, 1e-8) << beside;
+  }
 }
 
 TEST(TautString, PushesAreTriedOnLigamentsThatWrap) {

@@ -145,7 +145,7 @@ class EventSearch {
 
   /// The pose at a value, from another one; nothing where it has no equilibrium.
   std::optional<SolvedPose> pose_at(double value, const SolvedPose& from) {
-    if (!options_.most_wasted.after(wasted_).any()) return std::nullopt;
+    if (wasted_.reaches(options_.most_wasted)) return std::nullopt;
     walker_.stand_at(from);
     SolvedPose pose;
     if (walker_.step(value, Patience::kNone, pose)) return pose;

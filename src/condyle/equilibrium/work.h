@@ -20,6 +20,10 @@ struct Work {
     return {iterations - spent.iterations,
             points - spent.points - kPointsOfAnIteration * spent.iterations};
   }
+  /// As much as `most` of either, each counted for itself.
+  [[nodiscard]] bool reaches(const Work& most) const {
+    return iterations >= most.iterations || points >= most.points;
+  }
   [[nodiscard]] Work share(int parts) const { return {iterations / parts, points / parts}; }
   [[nodiscard]] bool any() const { return iterations > 0 && points > 0; }
 };

@@ -20,24 +20,30 @@ struct WayOut {
   Vector3d w, touches;      ///< ground frame
 };
 
-/// As far as it still lies inside, until it is clear for the first time: of a ring perhaps in its hole.
+/// The least one: in steps of at most a quarter of the least radius, then by halves between the last one that is
+/// not clear and the first that is. Depths near a surface's middle are told too large. Of a ring it may end in its
+/// hole.
 WayOut way_out(const WrapAt& wrap, const Vector3d& from, const Vector3d& to, const Vector3d& w) {
-  constexpr double kFine = 1e-4;       // [mm]
-  constexpr double kBesideEnd = 0.05;  // of the line
-  constexpr int kMost = 200;
+  constexpr double kFine = 1e-4;  // [mm]
+  constexpr int kMost = 400, kHalves = 30;
+  const double longest = 0.25 * least_radius(wrap.wrap->shape);
   WayOut way{0, w, from};
-  for (int k = 0; k < kMost; ++k) {
-    const Deepest deepest = runs_into(wrap, from + way.shift * w, to + way.shift * w);
-    if (deepest.depth > 0) way.touches = deepest.x;
-    if (deepest.depth < kFine) {
-      // Beside an end the line may come clear without touching along it.
-      const double part = (way.touches - from).dot(to - from) / (to - from).squaredNorm();
-      if (!(part > kBesideEnd && part < 1 - kBesideEnd)) way.shift = INFINITY;
-      return way;
-    }
-    way.shift += deepest.depth;
+  double inside = 0;
+  const auto is_clear = [&](double shift) {
+    const Deepest deepest = runs_into(wrap, from + shift * w, to + shift * w);
+    if (deepest.depth < kFine) return true;
+    way.touches = deepest.x;
+    inside = shift;
+    return false;
+  };
+  for (int k = 0; !is_clear(way.shift); ++k) {
+    if (k == kMost) return {INFINITY, w, from};
+    way.shift += longest;
   }
-  way.shift = INFINITY;
+  for (int k = 0; k < kHalves && way.shift - inside > kFine; ++k) {
+    const double middle = 0.5 * (inside + way.shift);
+    if (is_clear(middle)) way.shift = middle;
+  }
   return way;
 }
 
