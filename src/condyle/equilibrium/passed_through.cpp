@@ -1,6 +1,7 @@
 #include "condyle/equilibrium/passed_through.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "condyle/surface/has_edge.h"
@@ -66,12 +67,27 @@ double low(std::vector<double>& values) {
   return *third;
 }
 
+/// Closed about nothing, the solid all around it: by the sign of its volume, ∮ c.n dA. What lies in that solid as
+/// a whole comes near no point of the surface.
+bool is_hollow(const Surface& surface) {
+  constexpr double kCoarse = 0.25;  // spacing of samples [radius]
+  const Extent extent = surface.extent();
+  if (has_edge(surface) || !std::isfinite(extent.radius)) return false;
+  double volume = 0;
+  for (const Place& place : surface.samples(kCoarse * extent.radius)) {
+    const SurfacePoint at = surface.evaluate_frame(place);
+    volume += at.n.dot(at.c - extent.center);
+  }
+  return volume < 0;
+}
+
 }  // namespace
 
 PassedThrough::PassedThrough(const ContactPair& pair, double L, double seen)
     : on_B_(pair.on_B.get()), on_A_(pair.on_A.get()), L_(L), seen_(std::min(kDeep * L, seen)) {
-  // Closed surfaces are searched to any depth.
-  if (pair.mode != ContactMode::kAuto || !(has_edge(*on_B_) || has_edge(*on_A_))) return;
+  // Closed surfaces about solids are searched to any depth.
+  const auto ends = [](const Surface& surface) { return has_edge(surface) || is_hollow(surface); };
+  if (pair.mode != ContactMode::kAuto || !(ends(*on_B_) || ends(*on_A_))) return;
   const auto sample = [L](const Surface& surface) {
     std::vector<Sample> samples;
     const double radius = surface.extent().radius;
