@@ -213,7 +213,8 @@ TEST(PassedThrough, AStartOnTheWrongSideIsOverlapAtOnce) {
   EquilibriumSolver wrong(model);
   const PoseResult pose = wrong.solve();
   EXPECT_EQ(pose.status, PoseStatus::kOverlap) << pose.reason;
-  EXPECT_NE(pose.reason.find("the surfaces have passed through each other"), std::string::npos)
+  EXPECT_NE(pose.reason.find("contact \"lateral\": the surfaces have passed through each other"),
+            std::string::npos)
       << pose.reason;
   EXPECT_EQ(pose.iterations, 0);
 }

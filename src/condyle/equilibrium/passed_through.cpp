@@ -86,8 +86,8 @@ bool is_hollow(const Surface& surface) {
 PassedThrough::PassedThrough(const ContactPair& pair, double L, double seen)
     : on_B_(pair.on_B.get()), on_A_(pair.on_A.get()), L_(L), seen_(std::min(kDeep * L, seen)) {
   // Closed surfaces about solids are searched to any depth.
-  const auto ends = [](const Surface& surface) { return has_edge(surface) || is_hollow(surface); };
-  if (pair.mode != ContactMode::kAuto || !(ends(*on_B_) || ends(*on_A_))) return;
+  ends_ = has_edge(*on_B_) || has_edge(*on_A_);
+  if (pair.mode != ContactMode::kAuto || !(ends_ || is_hollow(*on_B_) || is_hollow(*on_A_))) return;
   const auto sample = [L](const Surface& surface) {
     std::vector<Sample> samples;
     const double radius = surface.extent().radius;
@@ -113,7 +113,7 @@ bool PassedThrough::may_be_deep(const RigidTransform& X_BA, double deep) const {
 }
 
 std::optional<double> PassedThrough::depth(const RigidTransform& X_BA) const {
-  return depth_beyond(X_BA, kDeep * L_);
+  return ends_ ? depth_beyond(X_BA, kDeep * L_) : std::nullopt;
 }
 
 std::optional<double> PassedThrough::depth_beyond(const RigidTransform& X_BA, double deep) const {

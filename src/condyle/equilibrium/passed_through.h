@@ -21,7 +21,8 @@ class PassedThrough {
   /// How deep one surface lies behind the other [mm], where some of what faces the other's known part
   /// does so by more than `kDeep` L; where next to nothing faces it (a joint that slid off its edge
   /// and went on behind), some of all of both surfaces. Nothing where they are on their right
-  /// sides: in a joint nothing that faces lies behind.
+  /// sides: in a joint nothing that faces lies behind. Nothing, too, of closed surfaces: from within the
+  /// solid around a hollow one a descent may come back.
   [[nodiscard]] std::optional<double> depth(const RigidTransform& X_BA) const;
 
   /// The same for a pose at which the search found no overlap, of what lies deeper than it sees; sought only
@@ -48,6 +49,7 @@ class PassedThrough {
   const Surface* on_B_;
   const Surface* on_A_;
   double L_, seen_;
+  bool ends_ = false;  ///< one of them has an edge
   std::vector<Sample> samples_B_, samples_A_;
   std::optional<RigidTransform> trusted_;
 };
