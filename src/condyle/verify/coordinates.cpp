@@ -107,51 +107,107 @@ double difference(const ConditionDescription& condition, double a, double b) {
 
 namespace {
 
-/// How far the angles are from where they have no derivative: the length of the node, 1 at best.
-double node_length(const Scene& scene,
-                   const ConditionDescription& condition,
-                   const RigidTransform& X_BA) {
-  if (condition.kind == ConditionKind::kRotation) return std::hypot(X_BA.R(2, 0), X_BA.R(2, 2));
-  if (condition.kind == ConditionKind::kTranslation) return 1;
-  return directions(scene, scene.joint->tibia, X_BA)
-      .col(2)
-      .cross(directions(scene, scene.joint->femur, X_BA).col(0))
-      .norm();
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// θ.w of each angle of a rotation about three axes, one after the other: the body turns by
+/// θ = Σ dqᵢ eᵢ, so w are the vectors reciprocal to the axes.
+std::array<Vector3d, 3> reciprocal(const Vector3d& e1, const Vector3d& e2, const Vector3d& e3) {
+  const double volume = e1.dot(e2.cross(e3));
+  return {e2.cross(e3) / volume, e3.cross(e1) / volume, e1.cross(e2) / volume};
+}
+
+/// Of R = Rz Rx' Ry'': by z of the ground, the node, and y of the body.
+Vector3d cardan_gradient(int axis, const Matrix3d& R) {
+  const Vector3d z = Vector3d::UnitZ(), y = R.col(1), node = y.cross(z).normalized();
+  const auto [by_z, by_x, by_y] = reciprocal(z, node, y);
+  return axis == 0 ? by_x : axis == 1 ? by_y : by_z;
+}
+
+/// A point and vectors that go with the body or stay, under a small motion da, θ about a point.
+struct Motion {
+  Vector3d about;
+  /// Of a.x, x a point of the body.
+  [[nodiscard]] Vector6 of_point(const Vector3d& a, const Vector3d& x) const {
+    Vector6 out;
+    out << a, (x - about).cross(a);
+    return out;
+  }
+  /// Of a.v, v a vector of the body.
+  [[nodiscard]] static Vector6 of_vector(const Vector3d& a, const Vector3d& v) {
+    Vector6 out;
+    out << Vector3d::Zero(), v.cross(a);
+    return out;
+  }
+};
+
+/// Flexion is about I of the femur, against the sense of the coordinate; adduction about the
+/// floating axis; internal rotation about k of the tibia. Lengths are those of H = o_T - o_F along
+/// the same axes.
+Vector6 grood_suntay_gradient(const Scene& scene,
+                              ConditionKind kind,
+                              const RigidTransform& X_BA,
+                              const Vector3d& about) {
+  const AnatomicalFrame &femur = scene.joint->femur, &tibia = scene.joint->tibia;
+  const bool femur_moves = femur.body == scene.moving_body();
+  const Vector3d I = directions(scene, femur, X_BA).col(0),
+                 k = directions(scene, tibia, X_BA).col(2);
+  const Vector3d o_F = origin(scene, femur, X_BA), o_T = origin(scene, tibia, X_BA), H = o_T - o_F;
+  const double node = k.cross(I).norm(), side = right_or_left(scene);
+  const Vector3d floating = k.cross(I) / node;
+  const Motion motion{about};
+  // H.a with an axis a that stays: one of both origins moves.
+  const auto along = [&](const Vector3d& a) {
+    return femur_moves ? Vector6(-motion.of_point(a, o_F)) : motion.of_point(a, o_T);
+  };
+  const auto angle = [&](double sign, int axis) {
+    Vector6 out;
+    out << Vector3d::Zero(),
+        (femur_moves ? -sign : sign) * reciprocal(I, floating, k)[static_cast<std::size_t>(axis)];
+    return out;
+  };
+  switch (kind) {
+    case ConditionKind::kFlexion:
+      return angle(-1, 0);
+    case ConditionKind::kAdduction:
+      return angle(side, 1);
+    case ConditionKind::kInternalRotation:
+      return angle(side, 2);
+    case ConditionKind::kLateralShift:
+      return side * (along(I) + (femur_moves ? Motion::of_vector(H, I) : Vector6::Zero()));
+    case ConditionKind::kAnteriorDrawer: {
+      // The floating axis turns with k or with I, but for what is along it.
+      const Vector3d w = (H - floating * floating.dot(H)) / node;
+      return along(floating) +
+             (femur_moves ? Motion::of_vector(w.cross(k), I) : Motion::of_vector(I.cross(w), k));
+    }
+    default:  // distraction
+      return -(along(k) + (femur_moves ? Vector6::Zero() : Motion::of_vector(H, k)));
+  }
 }
 
 }  // namespace
 
-/// Central differences of the sixth order: exact to round-off with these steps.
-Eigen::Matrix<double, 6, 1> gradient(const Scene& scene,
-                                     const ConditionDescription& condition,
-                                     const RigidTransform& X_BA,
-                                     const Vector3d& about) {
-  if (condition.kind == ConditionKind::kDistance) {  // may be too short for steps
-    const bool first = condition.ends[0].body == scene.moving_body();
-    const Vector3d on_A = in_ground(scene, condition.ends[first ? 0 : 1], X_BA),
-                   e = (on_A - condition.ends[first ? 1 : 0].at).normalized();
-    Eigen::Matrix<double, 6, 1> out;
-    out << e, (on_A - about).cross(e);
-    return out;
+Vector6 gradient(const Scene& scene,
+                 const ConditionDescription& condition,
+                 const RigidTransform& X_BA,
+                 const Vector3d& about) {
+  const Motion motion{about};
+  switch (condition.kind) {
+    case ConditionKind::kTranslation:
+      return motion.of_point(condition.axis, X_BA.p);
+    case ConditionKind::kRotation: {
+      Vector6 out;
+      out << Vector3d::Zero(), cardan_gradient(condition.cardan_axis, X_BA.R);
+      return out;
+    }
+    case ConditionKind::kDistance: {
+      const bool first = condition.ends[0].body == scene.moving_body();
+      const Vector3d on_A = in_ground(scene, condition.ends[first ? 0 : 1], X_BA);
+      return motion.of_point((on_A - condition.ends[first ? 1 : 0].at).normalized(), on_A);
+    }
+    default:
+      return grood_suntay_gradient(scene, condition.kind, X_BA, about);
   }
-  constexpr double kWeights[] = {45.0 / 60, -9.0 / 60, 1.0 / 60};
-  constexpr double kLength = 0.1;  // [mm]
-  const double angle_step =
-      std::max(1e-6, 4e-3 * std::min(1.0, 4 * node_length(scene, condition, X_BA)));  // [rad]
-  Eigen::Matrix<double, 6, 1> out;
-  for (int i = 0; i < 6; ++i) {
-    const double h = i < 3 ? kLength : angle_step;
-    const auto at = [&](double step) {
-      const Vector3d way = step * Vector3d::Unit(i % 3), none = Vector3d::Zero();
-      return coordinate(scene, condition,
-                        i < 3 ? moved(X_BA, way, none, about) : moved(X_BA, none, way, about));
-    };
-    double sum = 0;
-    for (int k = 1; k <= 3; ++k)
-      sum += kWeights[k - 1] * difference(condition, at(k * h), at(-k * h));
-    out[i] = sum / h;
-  }
-  return out;
 }
 
 }  // namespace condyle::verification

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Joint coordinates and prescribed coordinates of a pose from the definition of Grood and Suntay,
-/// and how they change with the pose, by differences.
+/// and how they change with the pose.
 
 #include <Eigen/Core>
 
@@ -40,7 +40,7 @@ namespace condyle::verification {
 [[nodiscard]] double difference(const ConditionDescription& condition, double a, double b);
 
 /// Of a coordinate against translations of the body (first three) and rotations about the point
-/// `about` of the ground frame.
+/// `about` of the ground frame; exact. Angles have none where their first and last axes are parallel.
 [[nodiscard]] Eigen::Matrix<double, 6, 1> gradient(const Scene& scene,
                                                    const ConditionDescription& condition,
                                                    const RigidTransform& X_BA,
