@@ -113,6 +113,23 @@ TEST(GapProbe, TellsADeepOverlapThatIsAsDeepEverywhereWithoutDividingAllCells) {
   EXPECT_LT(outer.asked, 50000);
 }
 
+// Balls in sockets that are larger by a hundred-thousandth to a thousandth: neither curvature says anything of the
+// gap between them, which is 2 δ on the far side.
+TEST(GapProbe, TellsSurfacesApartThatNearlyConform) {
+  constexpr double kRadius = 20;
+  for (const double larger : {2e-4, 2e-3, 2e-2})
+    for (const double sink : {0.0, 1e-4}) {
+      SurfaceDescription socket = described(SurfaceKind::kSphere);
+      socket.radius = kRadius + larger;
+      socket.solid_inside = false;
+      const Counted around(make_exact_side(socket));
+      const RigidTransform X{exp_rotation({0.3, -0.2, 0.4}),
+                             (larger + sink) * Vector3d(1, 2, -2) / 3};
+      EXPECT_NEAR(GapProbe(*ball_of(kRadius), around).lowest(X).gap, -sink, 1e-9) << larger;
+      EXPECT_LT(around.asked, 120000) << larger;
+    }
+}
+
 TEST(GapProbe, LooksAtWhatIsLargeAsAtWhatIsSmall) {
   for (const double scale : {1e-3, 1.0, 1e3, 1e6}) {
     const Counted ground(floor_of(30 * scale));

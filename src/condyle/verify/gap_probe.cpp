@@ -1,5 +1,6 @@
 #include "condyle/verify/gap_probe.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -15,6 +16,8 @@ constexpr double kOfDepth = 0.01;   ///< and that of an overlap: how deep is tol
 constexpr std::size_t kGroup = 24;  ///< cells
 constexpr double kBeside =
     1;  ///< so near to each other two points have closest points that do too [mm]
+constexpr double kBent =
+    2;  ///< radius of a cell that is worth six points to tell how the gap bends [mm]
 constexpr double kLeaf = 0.15;  ///< [mm]
 
 void keep(const LowestGap& found, LowestGap& best) {
@@ -68,36 +71,79 @@ GapProbe::Reading GapProbe::read(
   return {closest.distance, known, at.p, {n.dot(at.p_u), n.dot(at.p_v)}, slope, closest};
 }
 
+/// By differences of gradients over kStep [1/mm].
+Eigen::Matrix2d GapProbe::hessian(
+    const RigidTransform& X, int chart, double u, double v, const Reading& at) const {
+  constexpr double kStep = 1e-4;  // [mm]
+  const Eigen::Vector2d scale = scales(chart, u, v), g = at.gradient.cwiseProduct(scale);
+  Eigen::Matrix2d H;
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::Vector2d step = kStep * scale.cwiseProduct(Eigen::Vector2d::Unit(i));
+    const Reading beside = read(X, chart, u + step.x(), v + step.y(), &at.closest);
+    H.col(i) = (beside.gradient.cwiseProduct(scale) - g) / kStep;
+  }
+  return (H + H.transpose()) / 2;
+}
+
+/// Parameter per mm along u and along v.
+Eigen::Vector2d GapProbe::scales(int chart, double u, double v) const {
+  const ChartPoint at = sampled_.at(chart, u, v);
+  return {1 / at.p_u.norm(), 1 / at.p_v.norm()};
+}
+
 LowestGap GapProbe::refine(
     const RigidTransform& X, int chart, double u, double v, const ClosestPoint* near) const {
   Reading now = read(X, chart, u, v, near);
   LowestGap lowest;
   if (!now.known) return lowest;
-  const ChartPoint at = sampled_.at(chart, u, v);
-  const double U = 1 / at.p_u.norm(), V = 1 / at.p_v.norm();  // parameter per mm
+  const Eigen::Vector2d scale = scales(chart, u, v);
   for (int i = 0; i < 25; ++i) {
-    constexpr double kStep = 1e-4, kLongest = 0.5;  // [mm]
-    const Eigen::Vector2d g(now.gradient.x() * U, now.gradient.y() * V);
-    const Reading du = read(X, chart, u + kStep * U, v, &now.closest),
-                  dv = read(X, chart, u, v + kStep * V, &now.closest);
-    Eigen::Matrix2d H;
-    H << du.gradient.x() * U - g.x(), dv.gradient.x() * U - g.x(), du.gradient.y() * V - g.y(),
-        dv.gradient.y() * V - g.y();
-    H = (H + H.transpose()).eval() / (2 * kStep);
+    constexpr double kLongest = 0.5;  // [mm]
+    const Eigen::Vector2d g = now.gradient.cwiseProduct(scale);
+    const Eigen::Matrix2d H = hessian(X, chart, u, v, now);
     Eigen::Vector2d step = -g / std::max(g.norm(), 1e-300) * std::min(kLongest, leaf_);
     if (H.determinant() > 1e-12 && H.trace() > 0) step = -H.inverse() * g;
     if (step.norm() > kLongest) step *= kLongest / step.norm();
     bool moved = false;
     for (int half = 0; half < 12 && !moved; ++half, step /= 2) {
-      const Reading next = read(X, chart, u + step.x() * U, v + step.y() * V, &now.closest);
+      const Eigen::Vector2d to = Eigen::Vector2d(u, v) + step.cwiseProduct(scale);
+      const Reading next = read(X, chart, to.x(), to.y(), &now.closest);
       if (!next.known || !(next.gap < now.gap)) continue;
       moved = true;
-      u += step.x() * U, v += step.y() * V, now = next;
+      u = to.x(), v = to.y(), now = next;
       if (step.norm() < 1e-9) i = 25;
     }
     if (!moved) break;
   }
   return {now.gap, now.point};
+}
+
+/// No lower than by the quadratic of the gap at the cell's middle, each principal direction at its
+/// worst, less what the gradient at the corners departs from it on the way: surfaces that nearly conform are
+/// told apart by that alone, as the curvatures of either say nothing of their difference.
+double GapProbe::bound_by_bending(const Node& node, const Reading& at, Search& search) const {
+  search.left -= 6;
+  const Cell& c = node.cell;
+  const double u = (c.u0 + c.u1) / 2, v = (c.v0 + c.v1) / 2;
+  const Eigen::Vector2d scale = scales(c.chart, u, v), g = at.gradient.cwiseProduct(scale);
+  const Eigen::Matrix2d H = hessian(search.X, c.chart, u, v, at);
+  double departs = 0, r = 0;
+  for (const double a : {c.u0, c.u1})
+    for (const double b : {c.v0, c.v1}) {
+      const Eigen::Vector2d way = Eigen::Vector2d(a - u, b - v).cwiseQuotient(scale);
+      const Reading corner = read(search.X, c.chart, a, b, &at.closest);
+      departs = std::max(departs, (corner.gradient.cwiseProduct(scale) - g - H * way).norm());
+      r = std::max(r, way.norm());
+    }
+  if (!H.allFinite() || !std::isfinite(departs)) return -INFINITY;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(H);
+  double bound = at.gap - departs * r;
+  for (int i = 0; i < 2; ++i) {
+    const double slope = std::abs(principal.eigenvectors().col(i).dot(g)),
+                 bend = principal.eigenvalues()[i];
+    bound -= bend * r > slope ? slope * slope / (2 * bend) : slope * r - bend * r * r / 2;
+  }
+  return bound;
 }
 
 /// The middle of a leaf, or a corner where that is not known.
@@ -134,6 +180,7 @@ void GapProbe::look_into(const Node& node, const Reading& at, Search& search) co
     bound = std::max(
         bound, at.gap - at.slope * r - (node.curvature + 2 * at.closest.curvature) * r * r / 2);
   if (bound > wanted) return;
+  if (r < kBent && bound_by_bending(node, at, search) > wanted) return;
   if (!(r > leaf_)) return look_closely(node, &at.closest, search);
   const double du = (c.u1 - c.u0) / 2, dv = (c.v1 - c.v0) / 2;
   for (const double a : {c.u0, c.u0 + du})

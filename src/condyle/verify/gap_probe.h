@@ -58,6 +58,10 @@ class GapProbe {
                              double u,
                              double v,
                              const ClosestPoint* near = nullptr) const;
+  [[nodiscard]] Eigen::Vector2d scales(int chart, double u, double v) const;
+  /// Of the gap over the chart, its parameters in mm [1/mm].
+  [[nodiscard]] Eigen::Matrix2d hessian(
+      const RigidTransform& X, int chart, double u, double v, const Reading& at) const;
   /// What is looked for at one pose.
   struct Search {
     const RigidTransform& X;
@@ -67,6 +71,7 @@ class GapProbe {
   };
   void look(const Node& node, const ClosestPoint* near, Search& search) const;
   void look_into(const Node& node, const Reading& at, Search& search) const;
+  [[nodiscard]] double bound_by_bending(const Node& node, const Reading& at, Search& search) const;
   void look_closely(const Node& node, const ClosestPoint* near, Search& search) const;
   /// The local minimum that a place leads to; infinite where it is not known.
   [[nodiscard]] LowestGap refine(

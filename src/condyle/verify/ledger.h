@@ -27,6 +27,10 @@ class Ledger {
             const std::string& words = "",
             double allowed = 0);
 
+  [[nodiscard]] double allowed(Check check) const {
+    return checks_[static_cast<std::size_t>(check)].allowed;
+  }
+
   /// A warning; of many with the same key only the one with the greatest weight stays.
   void warn(const std::string& key, double weight, const std::string& text);
 

@@ -16,11 +16,11 @@
 namespace condyle::verification {
 namespace {
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-constexpr double kPush = 0.02;     ///< [mm], rotations at an arm of kArm
-constexpr double kArm = 30;        ///< [mm]
-constexpr double kFarthest = 0.5;  ///< [mm] that no push makes a ligament longer by
-constexpr int kDirections = 16;    ///< a pose
+constexpr double kPush = 0.02;       ///< [mm], rotations at an arm of kArm
+constexpr double kLeastPush = 1e-4;  ///< and of one that is tried where such a push is not small
+constexpr double kArm = 30;          ///< [mm]
+constexpr double kFarthest = 0.5;    ///< [mm] that no push makes a ligament longer by
+constexpr int kDirections = 16;      ///< a pose
 constexpr int kCorrections = 6;
 
 double straight_length(const Scene& scene,
@@ -146,45 +146,60 @@ void PushCheck::not_tried(Ledger& ledger) {
                           ledger.pose_name()));
 }
 
-void PushCheck::check(const PoseResult& pose, Ledger& ledger) const {
-  if (pose.stability != 1) return;
-  for (const ContactResult& contact : pose.contacts)
-    if (contact.closed && contact.shape != ContactShape::kPoint) return;
+/// The step that is nearest to the wanted one and meets the constraints, corrected until it does;
+/// `length` of it as it was taken first.
+RigidTransform PushCheck::pushed(const PoseResult& pose, Vector6 step, double& length) const {
   Vector6 scale;
   scale << 1, 1, 1, 1 / kArm, 1 / kArm, 1 / kArm;
+  RigidTransform X = pose.X_BA;
+  for (int i = 0; i <= kCorrections; ++i) {
+    const std::vector<Constraint> list = constraints(pose, X);
+    Eigen::MatrixXd G(list.size(), 6);
+    Eigen::VectorXd value(list.size());
+    for (std::size_t c = 0; c < list.size(); ++c) {
+      G.row(static_cast<Eigen::Index>(c)) = list[c].gradient.cwiseProduct(scale).transpose();
+      value[static_cast<Eigen::Index>(c)] = list[c].value;
+    }
+    Vector6 taken = step;
+    if (!list.empty()) taken -= G.completeOrthogonalDecomposition().solve(G * step + value);
+    if (i == 0) length = taken.norm();
+    taken = taken.cwiseProduct(scale);
+    X = moved(X, taken.head<3>(), taken.tail<3>(), X.p);
+    step.setZero();
+  }
+  return X;
+}
+
+/// The most that a push of that size lowers the energy by [N/mm]; NaN where it cannot be told.
+double PushCheck::lowers(const PoseResult& pose, std::vector<Line>& lines, double size) const {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
-  std::vector<Line> lines = this->lines(pose);
   double worst = 0;
   for (int k = 0; k < kDirections; ++k) {
     Vector6 push;
     for (double& x : push) x = normal(random);
-    push = (push.normalized() * kPush).cwiseProduct(scale);
+    push = push.normalized() * size;
     double gained = 0, length = 0;
-    for (const double sign : {1.0, -1.0}) {
-      RigidTransform X = pose.X_BA;
-      Vector6 step = sign * push;
-      for (int i = 0; i <= kCorrections; ++i) {
-        // The step that is nearest to the wanted one and meets the constraints.
-        const std::vector<Constraint> list = constraints(pose, X);
-        Eigen::MatrixXd G(list.size(), 6);
-        Eigen::VectorXd value(list.size());
-        for (std::size_t c = 0; c < list.size(); ++c) {
-          G.row(static_cast<Eigen::Index>(c)) = list[c].gradient.cwiseProduct(scale).transpose();
-          value[static_cast<Eigen::Index>(c)] = list[c].value;
-        }
-        const Vector6 free = step.cwiseQuotient(scale);
-        Vector6 taken = free;
-        if (!list.empty()) taken -= G.completeOrthogonalDecomposition().solve(G * free + value);
-        if (i == 0) length = taken.norm();
-        taken = taken.cwiseProduct(scale);
-        X = moved(X, taken.head<3>(), taken.tail<3>(), X.p);
-        step.setZero();
-      }
-      gained += work(pose, lines, X);
-    }
-    if (std::isnan(gained)) return not_tried(ledger);
-    if (length > 1e-3 * kPush) worst = std::max(worst, -gained / (length * length));
+    for (const double sign : {1.0, -1.0})
+      gained += work(pose, lines, pushed(pose, sign * push, length));
+    if (std::isnan(gained)) return gained;
+    if (length > 1e-3 * size) worst = std::max(worst, -gained / (length * length));
+  }
+  return worst;
+}
+
+void PushCheck::check(const PoseResult& pose, Ledger& ledger) const {
+  if (pose.stability != 1) return;
+  for (const ContactResult& contact : pose.contacts)
+    if (contact.closed && contact.shape != ContactShape::kPoint) return;
+  std::vector<Line> lines = this->lines(pose);
+  // Where surfaces nearly conform a push is small only if it is smaller than what their radii differ by.
+  double worst = INFINITY;
+  for (double size = kPush; size >= kLeastPush && worst > ledger.allowed(Check::kStability);
+       size /= 10) {
+    const double found = lowers(pose, lines, size);
+    if (std::isnan(found)) return not_tried(ledger);
+    worst = std::min(worst, found);
   }
   ledger.note(
       Check::kStability, worst, "",

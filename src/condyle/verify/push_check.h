@@ -21,9 +21,10 @@ class PushCheck {
   void check(const PoseResult& pose, Ledger& ledger) const;
 
  private:
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
   struct Constraint {
-    double value = 0;                      ///< to be brought back to zero [mm] or [rad]
-    Eigen::Matrix<double, 6, 1> gradient;  ///< against (da, dπ about the middle)
+    double value = 0;  ///< to be brought back to zero [mm] or [rad]
+    Vector6 gradient;  ///< against (da, dπ about the middle)
   };
   [[nodiscard]] std::vector<Constraint> constraints(const PoseResult& pose,
                                                     const RigidTransform& X) const;
@@ -36,6 +37,9 @@ class PushCheck {
   [[nodiscard]] double work(const PoseResult& pose,
                             std::vector<Line>& lines,
                             const RigidTransform& to) const;
+
+  [[nodiscard]] RigidTransform pushed(const PoseResult& pose, Vector6 step, double& length) const;
+  [[nodiscard]] double lowers(const PoseResult& pose, std::vector<Line>& lines, double size) const;
 
   static void not_tried(Ledger& ledger);
 
