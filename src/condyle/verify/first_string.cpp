@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -47,11 +48,23 @@ WayOut way_out(const WrapAt& wrap, const Vector3d& from, const Vector3d& to, con
   return way;
 }
 
-/// Of a ring the way out of the tube where the line lies deepest comes first, if it leads across the line.
-WayOut nearest_way_out(const WrapAt& wrap, const Vector3d& from, const Vector3d& to) {
-  constexpr int kWays = 36;
+constexpr int kWays = 36;  // that are tried across a line
+
+bool is_ring(const WrapAt& wrap) { return std::holds_alternative<WrapTorus>(wrap.wrap->shape); }
+
+/// Of a ring the way out of the tube where the line lies deepest comes first, if it leads across the line; or
+/// that of number `across`.
+WayOut nearest_way_out(const WrapAt& wrap,
+                       const Vector3d& from,
+                       const Vector3d& to,
+                       std::optional<int> across_ring) {
   const Vector3d d = (to - from).normalized(), u = d.unitOrthogonal(), v = d.cross(u);
-  if (std::holds_alternative<WrapTorus>(wrap.wrap->shape)) {
+  const auto way_at = [&](int k) {
+    const double angle = 2 * std::numbers::pi * k / kWays;
+    return way_out(wrap, from, to, std::cos(angle) * u + std::sin(angle) * v);
+  };
+  if (is_ring(wrap)) {
+    if (across_ring) return way_at(*across_ring);
     const Vector3d own = wrap.own(runs_into(wrap, from, to).x);
     const Vector3d n =
         wrap.X.R * field_at(wrap.wrap->shape, wrap.larger, own).gradient.normalized();
@@ -60,8 +73,7 @@ WayOut nearest_way_out(const WrapAt& wrap, const Vector3d& from, const Vector3d&
   }
   WayOut nearest;
   for (int k = 0; k < kWays; ++k) {
-    const double angle = 2 * std::numbers::pi * k / kWays;
-    const WayOut way = way_out(wrap, from, to, std::cos(angle) * u + std::sin(angle) * v);
+    const WayOut way = way_at(k);
     if (way.shift < nearest.shift) nearest = way;
   }
   return nearest;
@@ -69,10 +81,10 @@ WayOut nearest_way_out(const WrapAt& wrap, const Vector3d& from, const Vector3d&
 
 }  // namespace
 
-bool TautString::lay_over(const Place& at, std::size_t wrap) {
+bool TautString::lay_over(const Place& at, std::size_t wrap, std::optional<int> across_rings) {
   constexpr int kSteps = 24;
   const Piece piece = piece_at(at, wrap);
-  const WayOut way = nearest_way_out(at.wraps[wrap], piece.from, piece.to);
+  const WayOut way = nearest_way_out(at.wraps[wrap], piece.from, piece.to, across_rings);
   if (std::isinf(way.shift)) return false;
   Place moved = at;
   WrapAt& there = moved.wraps[wrap];
@@ -90,7 +102,7 @@ bool TautString::lay_over(const Place& at, std::size_t wrap) {
   return true;
 }
 
-bool TautString::lay(const Place& at) {
+bool TautString::lay(const Place& at, std::optional<int> across_rings) {
   constexpr int kMost = 8;
   for (int change = 0; change < kMost; ++change) {
     int deepest = -1;
@@ -103,7 +115,7 @@ bool TautString::lay(const Place& at) {
     }
     if (deepest < 0) return true;
     if (at.first.wrap == deepest || at.last.wrap == deepest) return false;
-    if (!lay_over(at, static_cast<std::size_t>(deepest))) return false;
+    if (!lay_over(at, static_cast<std::size_t>(deepest), across_rings)) return false;
     // Bends are none, too, where a piece runs backwards.
     Vector3d from = at.first.x;
     for (std::size_t i = 0; i < arcs_.size(); ++i) {
@@ -117,17 +129,44 @@ bool TautString::lay(const Place& at) {
   return false;
 }
 
-std::optional<TautString> TautString::first(const Scene& scene,
-                                            const RigidTransform& X_BA,
-                                            std::size_t ligament) {
+std::optional<TautString> TautString::laid(const Scene& scene,
+                                           const RigidTransform& X_BA,
+                                           std::size_t ligament,
+                                           std::optional<int> across_rings) {
   const LigamentWraps& path = scene.ligaments[ligament].path;
   if (!path.sides.empty()) return std::nullopt;
   for (const int wrap : path.wraps)
     if (scene.wraps[static_cast<std::size_t>(wrap)].fit) return std::nullopt;
   TautString string(scene, X_BA, ligament);
   const Place at = string.place_at(X_BA);
-  if (string.ends_inside(at) || !string.lay(at)) return std::nullopt;
+  if (string.ends_inside(at) || !string.lay(at, across_rings)) return std::nullopt;
   return string;
+}
+
+std::optional<TautString> TautString::first(const Scene& scene,
+                                            const RigidTransform& X_BA,
+                                            std::size_t ligament) {
+  return laid(scene, X_BA, ligament, std::nullopt);
+}
+
+std::vector<TautString> TautString::about_rings(const Scene& scene,
+                                                const RigidTransform& X_BA,
+                                                std::size_t ligament) {
+  constexpr double kSame = 1e-9;  // [mm]
+  std::vector<TautString> strings;
+  const std::vector<int>& wraps = scene.ligaments[ligament].path.wraps;
+  const bool rings = std::any_of(wraps.begin(), wraps.end(), [&](int wrap) {
+    return std::holds_alternative<WrapTorus>(scene.wraps[static_cast<std::size_t>(wrap)].shape);
+  });
+  for (int k = 0; rings && k < kWays; ++k) {
+    std::optional<TautString> string = laid(scene, X_BA, ligament, k);
+    const auto is_known = [&](const TautString& other) {
+      return std::abs(other.length() - string->length()) < kSame;
+    };
+    if (string && std::none_of(strings.begin(), strings.end(), is_known))
+      strings.push_back(std::move(*string));
+  }
+  return strings;
 }
 
 }  // namespace condyle::verification

@@ -23,6 +23,12 @@ class TautString {
                                                        const RigidTransform& X_BA,
                                                        std::size_t ligament);
 
+  /// Over tori several taut strings exist at a place, through the hole and round the outside; which of them is
+  /// the first is the program's choice. All that are found, each once.
+  [[nodiscard]] static std::vector<TautString> about_rings(const Scene& scene,
+                                                           const RigidTransform& X_BA,
+                                                           std::size_t ligament);
+
   /// [mm], where it lies.
   [[nodiscard]] double length() const;
 
@@ -71,8 +77,12 @@ class TautString {
   [[nodiscard]] bool touches(std::size_t wrap) const;
   /// Newton at a place; false where it does not settle.
   bool tighten(const Place& at);
-  bool lay_over(const Place& at, std::size_t wrap);
-  bool lay(const Place& at);
+  [[nodiscard]] static std::optional<TautString> laid(const Scene& scene,
+                                                      const RigidTransform& X_BA,
+                                                      std::size_t ligament,
+                                                      std::optional<int> across_rings);
+  bool lay_over(const Place& at, std::size_t wrap, std::optional<int> across_rings);
+  bool lay(const Place& at, std::optional<int> across_rings);
   void set_rates(const Place& at, const std::vector<Ends>& ends);
   bool changes_touch(const Place& at);
 
