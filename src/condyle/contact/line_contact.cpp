@@ -82,10 +82,19 @@ bool find_within(const Line& line, double spacing, double& t) {
   return false;
 }
 
+/// `start`, or where that is an end itself and the line goes on in this direction, some t farther in.
+double off_the_end(const Line& line, double start, double sign, double spacing) {
+  if (line.within(start) > kFound) return start;
+  for (double step = 1e-8; step < spacing; step *= 4)
+    if (line.within(start + sign * step) > kFound) return start + sign * step;
+  return start;
+}
+
 /// The last t within both surfaces in one direction, by the Illinois rule.
 bool find_end(const Line& line, double start, double sign, double spacing, double& end) {
   double way = spacing;
-  double in = start;
+  double in = off_the_end(line, start, sign, spacing);
+  start = in;
   while (line.within(start + sign * way) > 0) {
     in = start + sign * way;
     if ((way *= 2) > kLongest * spacing) return false;

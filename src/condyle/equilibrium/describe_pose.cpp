@@ -47,6 +47,7 @@ void carry_by_ends(const ContactPair& pair,
   const double force = contact.force;
   const std::array<GapMinimum, 2>& ends = touch.ends;
   const Eigen::Vector3d way = ends[1].point_B - ends[0].point_B;
+  if (!(way.squaredNorm() > 0)) return;  // no longer than a point
   const double share = way.dot(contact.resultant_ground - ends[0].point_B) / way.squaredNorm();
   contact.points.clear();
   for (const std::size_t k : {0, 1}) {
@@ -201,6 +202,8 @@ void describe_pose(const Linearization& at,
     for (std::size_t k = 0; k < at.contacts().size(); ++k)
       add_remark(result, nearly_conforming(at.pair(k), at.contacts()[k], at.state.X.R));
   }
+  if (result.converged() && !has_finite_numbers(result))
+    set_status(result, {PoseStatus::kDiverged, "a number of the solved pose is not finite"});
   to_file_frames(model.origins, result);
 }
 

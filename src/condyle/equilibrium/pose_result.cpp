@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "condyle/elements/line_element.h"
@@ -106,6 +107,24 @@ void add_closed_point(const ContactPointResult& point, ContactResult& contact) {
 void set_nearest_point(const ContactPointResult& point, ContactResult& contact) {
   contact.points.push_back(point);
   contact.resultant_ground = point.point_ground;
+}
+
+bool has_finite_numbers(const PoseResult& pose) {
+  // A sum is finite where its terms are, but for those near the greatest of all numbers.
+  const JointCoordinates& q = pose.joint;
+  double sum = pose.X_BA.p.sum() + pose.X_BA.R.sum() + q.flexion + q.adduction +
+               q.internal_rotation + q.lateral_shift + q.anterior_drawer + q.distraction;
+  for (const ContactResult& contact : pose.contacts) {
+    sum += contact.force;
+    if (contact.closed) sum += contact.resultant_ground.sum();
+    for (const ContactPointResult& point : contact.points)
+      sum += point.force + point.gap + point.point_ground.sum();
+  }
+  for (const LigamentResult& ligament : pose.ligaments)
+    sum += ligament.length + ligament.strain + ligament.force;
+  for (const ConditionResult& condition : pose.conditions)
+    sum += condition.value + condition.multiplier;
+  return std::isfinite(sum);
 }
 
 void to_file_frames(const BodyOrigins& origins, PoseResult& pose) {

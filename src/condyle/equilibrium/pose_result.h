@@ -99,6 +99,10 @@ void add_closed_point(const ContactPointResult& point, ContactResult& contact);
 /// The nearest point of a contact that is open.
 void set_nearest_point(const ContactPointResult& point, ContactResult& contact);
 
+/// Are all numbers told of pose, joint, contacts, ligaments and conditions finite? A contact that is not closed
+/// may have no place.
+[[nodiscard]] bool has_finite_numbers(const PoseResult& pose);
+
 /// At last, from the frames of a model to those of the files: X_BA and all points.
 void to_file_frames(const BodyOrigins& origins, PoseResult& pose);
 
