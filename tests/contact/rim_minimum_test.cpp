@@ -93,5 +93,23 @@ TEST(RimMinimum, AnEdgeWithinABallIsFoundBetweenSamples) {
   }
 }
 
+// However steeply it goes in: a disc that stands on its edge, within the ball by 0.5 mm.
+TEST(RimMinimum, AnEdgeThatGoesInSteeplyIsFound) {
+  constexpr double kBall = 30, kOverlap = 0.5;
+  for (const double tilt : {0.2, 1.2, M_PI / 2, 1.8}) {
+    ContactPair pair;
+    pair.on_B = make_sphere({0, 0, -kBall}, kBall, true);
+    pair.on_A = make_plane(kOrigin, -kUp, kRadius);
+    // The edge's lowest point is at (kRadius, 0, 0) of the disc.
+    const Eigen::Matrix3d R = exp_rotation({0, tilt, 0});
+    const RigidTransform X{R, Vector3d(0, 0, -kOverlap) - R * Vector3d(kRadius, 0, 0)};
+    ContactSearch search(pair);
+    std::vector<GapMinimum> minima;
+    search.find(X, 0, minima);
+    ASSERT_FALSE(minima.empty()) << tilt;
+    EXPECT_NEAR(minima.front().gap, -kOverlap, 0.01) << tilt;
+  }
+}
+
 }  // namespace
 }  // namespace condyle

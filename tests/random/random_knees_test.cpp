@@ -27,6 +27,16 @@ TEST(RandomKnees, NoConvergedPoseOfExactRigidSurfacesIsFalse) {
   EXPECT_GT(converged, 50);
 }
 
+/// Numbers of knees that poses were called converged of, wrongly, or that the verifier could not judge.
+TEST(RandomKnees, KneesOnceFalseAreRight) {
+  for (const std::uint64_t k : {1312, 1915, 5171, 5280, 5313, 6089, 6333, 6346, 7703, 7781, 7908,
+                                8155, 9215, 10202, 10897, 11483, 11549, 13561}) {
+    const SweepOutcome outcome = sweep_and_judge(random_knee(1, k), {true, false});
+    EXPECT_EQ(outcome.exception, "") << "knee " << k;
+    EXPECT_TRUE(outcome.faults.empty()) << "knee " << k << ": " << outcome.faults.front();
+  }
+}
+
 TEST(RandomKnees, AKneeIsAFunctionOfSeedAndNumber) {
   EXPECT_EQ(random_knee(1, 7).text, random_knee(1, 7).text);
   EXPECT_NE(random_knee(1, 7).text, random_knee(1, 8).text);

@@ -13,13 +13,14 @@ struct GapMinimum {
   Eigen::Vector3d point_B, n;  ///< point and normal on B, ground frame
   bool refined = false;  ///< normals parallel, an isolated minimum (relative curvature positive)
   double edge = 0;       ///< smaller of the two edge distances [mm]
+  double cosine = -1;    ///< between both normals; above 0 the surfaces do not face each other there
 };
 
 /// What is told of two places linearised at a pose; nothing is said of whether they are a minimum.
 [[nodiscard]] inline GapMinimum minimum_at(const SurfacePair& surfaces,
                                            const ContactPlaces& places,
                                            const ContactLinearization& at) {
-  return {places, at.gap(), at.B.c, at.B.n, false, edge_distance(surfaces, places)};
+  return {places, at.gap(), at.B.c, at.B.n, false, edge_distance(surfaces, places), at.B.n.dot(at.m)};
 }
 
 }  // namespace condyle

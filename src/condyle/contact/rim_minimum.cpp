@@ -15,7 +15,6 @@ using Eigen::Vector3d;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 // Of the change from the lowest look to the next: no parabola dips lower between them than by 1/4.
 constexpr double kBetween = 0.5;
-constexpr double kFacing = -0.3;  // cosine between normals of what faces each other, at most
 
 /// Places on the edge by their way along it from a start.
 class Rim {
@@ -106,7 +105,6 @@ std::optional<RimMinimum> rim_minimum(const Surface& rim,
     const Place there = facing.closest(p, lowest ? lowest->facing : facing_start);
     if (facing.edge_distance(there) < 0) return gap;
     const SurfacePoint at = facing.evaluate_frame(there);
-    if (at.n.dot(X.R * own.n) > kFacing) return gap;
     gap = at.n.dot(p - at.c);
     if (lowest && gap >= lowest->gap) return gap;
     lowest = RimMinimum{*place, there, gap};

@@ -18,13 +18,22 @@ const ContactPair& pair_of(const Model& model, const ClosedContact& contact) {
   return model.pairs[static_cast<std::size_t>(contact.pair)];
 }
 
+/// Is it the only contact of a pair that is held closed?
+bool is_held(const Linearization& at, std::size_t k) {
+  const std::vector<ClosedContact>& contacts = at.state.contacts;
+  return at.pair(k).mode == ContactMode::kClosed &&
+         std::count_if(contacts.begin(), contacts.end(), [&](const ClosedContact& contact) {
+           return contact.pair == contacts[k].pair;
+         }) == 1;
+}
+
 /// The contact that pulls most, beyond round-off; -1 where none does.
 int most_pulling(const Linearization& at) {
   int worst = -1;
   double lowest = -kPull * at.force_scale();
   for (std::size_t k = 0; k < at.state.contacts.size(); ++k) {
     const double p = at.state.contacts[k].p;
-    if (at.pair(k).mode == ContactMode::kClosed || p >= lowest) continue;
+    if (p >= lowest || is_held(at, k)) continue;
     worst = static_cast<int>(k);
     lowest = p;
   }
@@ -34,10 +43,8 @@ int most_pulling(const Linearization& at) {
 /// The contact that Newton has led to a place where the solids interpenetrate beside it; -1 where
 /// none is.
 int off_minimum(const Linearization& at) {
-  for (std::size_t k = 0; k < at.contacts().size(); ++k) {
-    const bool automatic = at.pair(k).mode == ContactMode::kAuto;
-    if (automatic && at.contacts()[k].relative_curvature[0] < -kFlat) return static_cast<int>(k);
-  }
+  for (std::size_t k = 0; k < at.contacts().size(); ++k)
+    if (at.contacts()[k].relative_curvature[0] < -kFlat) return static_cast<int>(k);
   return -1;
 }
 
@@ -77,6 +84,9 @@ OpenPair look_at_open_pair(const ContactPair& pair,
                            std::vector<GapMinimum>& nearest) {
   search.find_nearest(X_BA, kAnywhere * L, nearest, kMerge * L);
   if (nearest.empty()) return OpenPair::kApart;
+  // The back of one surface before the other: its solid lies where that one's does.
+  if (!nearest.front().refined && nearest.front().gap > 0 && nearest.front().cosine > 0)
+    return OpenPair::kApart;
   const double overlap = pair.law ? kUnseen : kAllowedOverlap;
   return nearest.front().gap < -overlap * L ? OpenPair::kBuried : OpenPair::kClear;
 }
@@ -133,7 +143,7 @@ void ContactRules::find_overlaps(const Linearization& at) {
   Overlaps inner{changes_.closes}, rims{rims_};
   const double overlap = kAllowedOverlap * model_.length;
   for (std::size_t p = 0; p < searches_.size(); ++p) {
-    if (model_.pairs[p].mode != ContactMode::kAuto) continue;
+    if (model_.pairs[p].mode == ContactMode::kOpen) continue;
     const int pair = static_cast<int>(p);
     set_known(pair, at);
     searches_[p].find(state.X, 0.0, minima_, kMerge * model_.length, known_);

@@ -213,12 +213,12 @@ void Descent::gather_within(double ahead,
     else
       searches_[p].find(X, ahead, minima_, kSameMinimum * L);
     ++searches_made_;
-    minima_.resize(std::min(minima_.size(), held ? 1 : kMostMinima));
+    minima_.resize(std::min(minima_.size(), kMostMinima));
     const std::size_t first = constraints.size();
-    for (const GapMinimum& minimum : minima_) {
+    for (const GapMinimum& minimum : minima_) {  // the lowest first
       constraints.push_back(constrain(p, minimum.places, X));
       constraints.back().refined = minimum.refined;
-      constraints.back().bilateral = held;
+      constraints.back().bilateral = held && constraints.size() == first + 1;
     }
     if (!held) add_memory(p, first, X, constraints);
   }
