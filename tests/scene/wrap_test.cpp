@@ -119,6 +119,11 @@ const WrapMistake kMistakes[] = {
      "49: [[ligament]] \"aACL\": thickness = 2, expected wraps beside it"},
     {kSphere, kOn + "\nthickness = -1",
      "50: [[ligament]] \"aACL\": thickness = -1, expected a thickness >= 0"},
+    {"body = \"tibia\"\nkind = \"torus\"\ncenter = [9, 0, 0]\naxis = [0, 0, 1]\nmajor = 2\nminor = "
+     "1.5",
+     kOn + "\nthickness = 1",
+     "52: [[ligament]] \"aACL\": thickness = 1, expected less than 1, with which wrap \"rim\" has "
+     "no hole left"},
     {"body = \"tibia\"\nkind = \"sphere\"\ncenter = [3, -10, 0]\nradius = 7", kOn,
      "48: [[ligament]] \"aACL\": ends = [{ body = \"femur\", at = [0, 20, 0] }, { body = "
      "\"tibia\", at "

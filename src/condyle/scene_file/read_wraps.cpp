@@ -122,6 +122,20 @@ void read_sides(const Section& section, const Scene& scene, LigamentWraps& path)
   for (Eigen::Vector3d& side : path.sides) side *= scene.length_to_mm;
 }
 
+/// Half of it is added to the radii of what it wraps on: a ring keeps a hole.
+void read_thickness(const Section& section, const Scene& scene, LigamentWraps& path) {
+  path.thickness =
+      scene.length_to_mm * section.number("thickness", "a thickness", Range::kNotNegative);
+  for (const int index : path.wraps) {
+    const WrapDescription& wrap = scene.wraps[static_cast<std::size_t>(index)];
+    const auto* torus = std::get_if<WrapTorus>(&wrap.shape);
+    if (wrap.fit || torus == nullptr || torus->tube + path.thickness / 2 < torus->ring) continue;
+    section.fail("thickness",
+                 fmt::format("less than {:.6g}, with which wrap \"{}\" has no hole left",
+                             2 * (torus->ring - torus->tube) / scene.length_to_mm, wrap.name));
+  }
+}
+
 std::vector<int> ligaments_on(const Scene& scene, int wrap) {
   std::vector<int> ligaments;
   for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
@@ -172,9 +186,7 @@ void read_path(const Section& section, const Scene& scene, LigamentDescription& 
   if (section.has("side")) read_sides(section, scene, path);
   static const Choices<bool> rules = {{"anchor", true}, {"straight", false}};
   if (section.has("inside")) path.anchors_inside = section.choice("inside", rules);
-  if (section.has("thickness"))
-    path.thickness =
-        scene.length_to_mm * section.number("thickness", "a thickness", Range::kNotNegative);
+  if (section.has("thickness")) read_thickness(section, scene, path);
 }
 
 double start_length_of(const Section& section,

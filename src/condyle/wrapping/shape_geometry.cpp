@@ -204,4 +204,10 @@ double least_radius(const WrapShape& shape) {
                     shape);
 }
 
+bool has_size(const WrapShape& shape) {
+  if (const auto* torus = std::get_if<WrapTorus>(&shape))
+    return torus->tube > 0 && torus->ring > torus->tube;
+  return least_radius(shape) > 0;
+}
+
 }  // namespace condyle

@@ -43,4 +43,7 @@ struct SurfaceFrame {
 /// Half the width of the solid where it is narrowest: a radius, the least semi-axis, the tube.
 [[nodiscard]] double least_radius(const WrapShape& shape);
 
+/// Are all sizes positive, and has a torus a hole?
+[[nodiscard]] bool has_size(const WrapShape& shape);
+
 }  // namespace condyle

@@ -375,12 +375,6 @@ void SurfacesPath::add_points(const LineEnds& ends,
   if (anchored(1)) points.push_back(X_BA * found.end[1].at);
 }
 
-bool has_size(const WrapShape& shape) {
-  if (const auto* torus = std::get_if<WrapTorus>(&shape))
-    return torus->tube > 0 && torus->ring > torus->tube;
-  return least_radius(shape) > 0;
-}
-
 }  // namespace
 
 std::shared_ptr<const WrappedPath> make_wrapped_path(std::vector<PathWrap> wraps,
