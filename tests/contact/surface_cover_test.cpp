@@ -21,14 +21,15 @@ TEST(SurfaceCover, FindsTheNearestSampleAndKeepsItWhereItIsNotNear) {
   const auto patch = bumpy_patch(0.03, 0.02, Roughness(random, 0.1), 1.6, false);
   const SurfaceCover cover(*patch, 1.2);
   int from = -1, beyond = 0;
+  long looked_at = 0;
   for (int k = 0; k < 500; ++k) {
     const Eigen::Vector3d p(random.between(-20, 20), random.between(-18, 18),
                             random.between(-3, 3));
     int anywhere = -1;
-    const int found = cover.nearest(p, anywhere);
+    const int found = cover.nearest(p, anywhere, looked_at);
     EXPECT_EQ(anywhere, nearest_of_all(cover, p));
     EXPECT_TRUE(found == anywhere || found == -1);
-    EXPECT_EQ(cover.nearest(p, from) < 0, found < 0);
+    EXPECT_EQ(cover.nearest(p, from, looked_at) < 0, found < 0);
     if (found >= 0) continue;
     ++beyond;
     EXPECT_EQ(from, anywhere);

@@ -108,7 +108,7 @@ TEST(PoseTrace, IterationsTakeOfThePointsThatMayBeLookedAt) {
   const Work left = Work{450, 450000}.after({100, 50000});
   EXPECT_EQ(left.iterations, 350);
   EXPECT_EQ(left.points, 400000 - 100 * Work::kPointsOfAnIteration);
-  EXPECT_FALSE((Work{450, 450000}.after({440, 300000}).any()));
+  EXPECT_FALSE((Work{450, 450000}.after({440, 320000}).any()));
 }
 
 // Of a contact that is held closed only the nearest place is looked for: once all of both surfaces was.

@@ -23,7 +23,8 @@ struct SweepOutcome {
   std::string exception;  ///< anything else that was thrown: a defect
   std::vector<PoseOutcome> poses;
   std::vector<std::string> faults;  ///< of the verifier, and what the second look found
-  double seconds = 0;               ///< of processor time: the sweep
+  double set_up_seconds = 0;        ///< of processor time: model and covers
+  double seconds = 0;               ///< these and the sweep
   double checked_seconds = 0;       ///< and its checks
 };
 

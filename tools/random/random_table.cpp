@@ -15,6 +15,14 @@ constexpr PoseStatus kStatuses[] = {PoseStatus::kConverged,     PoseStatus::kLef
                                     PoseStatus::kNoPath,        PoseStatus::kIterationLimit,
                                     PoseStatus::kDiverged,      PoseStatus::kNotComputed};
 
+/// [ms]
+double quantile(std::vector<float> seconds, double q) {
+  if (seconds.empty()) return 0;
+  std::sort(seconds.begin(), seconds.end());
+  const double last = static_cast<double>(seconds.size() - 1);
+  return 1e3 * static_cast<double>(seconds[static_cast<std::size_t>(q * last)]);
+}
+
 }  // namespace
 
 void RandomTable::add(std::uint64_t k, const SweepOutcome& outcome) {
@@ -44,6 +52,7 @@ void RandomTable::add(std::uint64_t k, const SweepOutcome& outcome) {
       slowest_words_ = fmt::format("{}, {}", outcome.kind, name(pose.status));
     }
   }
+  if (outcome.seconds > 0) set_up_.push_back(static_cast<float>(outcome.set_up_seconds));
   sweeping_ += outcome.seconds;
   checked_ += outcome.checked_seconds;
   for (const std::string& fault : outcome.faults) wrongs_.push_back(fmt::format("{} {}", k, fault));
@@ -72,19 +81,15 @@ std::string RandomTable::text() const {
   };
   for (const auto& [kind, row] : rows_) add_row(kind, row);
   add_row("all", all_);
-  std::vector<float> seconds = seconds_;
-  std::sort(seconds.begin(), seconds.end());
-  const auto quantile = [&](double q) {
-    if (seconds.empty()) return 0.0;
-    const double last = static_cast<double>(seconds.size() - 1);
-    return 1e3 * static_cast<double>(seconds[static_cast<std::size_t>(q * last)]);
-  };
   text += fmt::format(
       "\nA pose takes {:.2f} ms (median), 99 % less than {:.1f} ms, 99.9 % less than {:.1f} ms; "
-      "{} of {} poses more than 50 ms; the\nslowest {:.1f} ms (knee {}: {}). Sweeps took {:.0f} s "
+      "{} of {} poses more than 50 ms; the\nslowest {:.1f} ms (knee {}: {}). Model and samples of "
+      "a sweep take "
+      "{:.1f} ms (median), 99 % less than {:.1f} ms. Sweeps took {:.0f} s "
       "of processor time, with their checks {:.0f} s. Exceptions: {}.\n",
-      quantile(0.5), quantile(0.99), quantile(0.999), slow_, seconds.size(), 1e3 * slowest_,
-      slowest_knee_, slowest_words_, sweeping_, checked_, exceptions_);
+      quantile(seconds_, 0.5), quantile(seconds_, 0.99), quantile(seconds_, 0.999), slow_,
+      seconds_.size(), 1e3 * slowest_, slowest_knee_, slowest_words_, quantile(set_up_, 0.5),
+      quantile(set_up_, 0.99), sweeping_, checked_, exceptions_);
   return text;
 }
 

@@ -31,7 +31,7 @@ class RandomTable {
   std::map<std::string, Row> rows_;
   Row all_;
   std::vector<std::string> wrongs_;
-  std::vector<float> seconds_;  ///< of each pose
+  std::vector<float> seconds_, set_up_;  ///< of each pose; of each sweep
   long false_poses_ = 0, exceptions_ = 0, slow_ = 0;
   double slowest_ = 0, sweeping_ = 0, checked_ = 0;
   std::uint64_t slowest_knee_ = 0;

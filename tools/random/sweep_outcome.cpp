@@ -4,6 +4,7 @@
 
 #include <exception>
 
+#include "condyle/equilibrium/build_model.h"
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/input_error.h"
 #include "condyle/scene_file/read_scene.h"
@@ -44,10 +45,13 @@ struct PoseClock {
 
 void sweep_knee(Run& run, const std::vector<FittedSurface>& surfaces, SweepOutcome& outcome) {
   const double begin = thread_seconds();
-  PoseClock clock;
   SweepOptions options;
+  EquilibriumSolver solver(build_model(run.scene, surfaces),
+                           equilibrium_options(run.scene, options));
+  outcome.set_up_seconds = thread_seconds() - begin;
+  PoseClock clock;
   options.on_computed = [&](const KnownPose&) { clock.tell(); };
-  run.sweep = sweep(run.scene, surfaces, options);
+  run.sweep = sweep(solver, *run.scene.sweep, options);
   for (const PoseResult& pose : run.sweep.poses) outcome.poses.push_back({pose.status});
   clock.share_out(run.sweep.poses, outcome.poses);
   outcome.seconds = thread_seconds() - begin;

@@ -58,12 +58,10 @@ double ContactPotentials::add_roughly_to(const RigidTransform& X_BA, Wrench& wre
   return magnitudes;
 }
 
-/// A pose with laws that look at fields of points may take so many times as long as one of rigid points.
 long ContactPotentials::looked_at() const {
-  constexpr long kLonger = 20;
   long points = 0;
   for (const Entry& entry : entries_) points += entry.potential->looked_at();
-  return points / kLonger;
+  return points;
 }
 
 double ContactPotentials::energy(const RigidTransform& X_BA) {

@@ -31,7 +31,8 @@ constexpr double kRefineReach = 4;  // from a sample to the minimum that it lead
 constexpr double kModel = 0.01;     // what the paraboloid of the gap may be wrong by in its reach
 
 // Points of surfaces that are looked at, about, by the time that it takes:
-constexpr long kRefinement = 20;  // to a minimum of the gap
+constexpr long kPrediction = 3;   // where the paraboloid of the gap at a sample leads to
+constexpr long kRefinement = 40;  // to a minimum of the gap
 constexpr long kRim = 100;        // for the lowest point of an edge
 
 /// The spacing that is wanted, or a wider one where that would take too many samples: a small model
@@ -339,6 +340,7 @@ void ContactSearch::find(const RigidTransform& X_BA,
   for (const int sample : near_) {
     if (seen(sample).lower > 0) continue;
     measure(sample, X);
+    looked_at_ += kPrediction;
     if (nearly_faces_known_part(sample) && leads_elsewhere(sample, X_BA, cutoff))
       add_minimum(sample, X_BA, cutoff, /*lowest=*/false, minima);
   }

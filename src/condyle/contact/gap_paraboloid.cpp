@@ -28,6 +28,7 @@ std::optional<PredictedMinimum> predict_minimum(const Eigen::Vector3d& p,
   H << e0.dot(K0), e0.dot(K1), e0.dot(K1), e1.dot(K1);
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal;
   principal.computeDirect(H);
+  if (!(principal.eigenvalues()[1] > 0)) return std::nullopt;
   const Eigen::Vector2d gradient(e0.dot(slope), e1.dot(slope));
 
   PredictedMinimum minimum{p, gap};

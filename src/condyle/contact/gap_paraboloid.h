@@ -20,8 +20,8 @@ struct PredictedMinimum {
 /// Of a surface point p with outward normal n and curvature tensor K (in the other body's frame, mm
 /// and 1/mm) over the other surface's quadric at `opposite`; `gap` is that of p itself. Nothing where
 /// the minimum lies farther than `reach` [mm] along a principal direction, since it belongs to
-/// another sample, or where the gap is flat along one. Along a direction in which the gap bends
-/// downwards `reach`/2 is gone.
+/// another sample, or where the gap is flat along one, or bends downwards along both: on a hill lies
+/// no valley. Along one direction in which it does so `reach`/2 is gone.
 [[nodiscard]] std::optional<PredictedMinimum> predict_minimum(const Eigen::Vector3d& p,
                                                               const Eigen::Vector3d& n,
                                                               const Eigen::Matrix3d& K,

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -17,6 +18,11 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kLongest = 5;  // step that is followed [mm]
+
+// Points of surfaces that are looked at in the same time, about:
+constexpr long kOfFour = 8;      // of four that are followed
+constexpr long kBySurface = 20;  // of one that a patch finds for itself
+constexpr long kExactly = 3;     // of one that an exact surface finds
 
 /// Places that are followed, and what the last step to each says: not 0 where it is well, the squared
 /// distance being convex enough for Newton and the step short.
@@ -177,6 +183,8 @@ unsigned LayerClosestPoints::follow(const FourPoints& p,
   return kAll & ~(found & ~lost);
 }
 
+long LayerClosestPoints::one_by_surface() const { return finds_in_fours() ? kBySurface : kExactly; }
+
 void LayerClosestPoints::find_by_surface(const FourPoints& p,
                                          int k,
                                          const Place& start,
@@ -197,7 +205,7 @@ void LayerClosestPoints::find_by_surface(const FourPoints& p,
   }
 }
 
-void LayerClosestPoints::find(const FourPoints& p,
+long LayerClosestPoints::find(const FourPoints& p,
                               const FourClosestPoints& from,
                               double step,
                               FourClosestPoints& closest,
@@ -205,16 +213,20 @@ void LayerClosestPoints::find(const FourPoints& p,
   FourPoints starts;
   std::memcpy(starts, from.place, sizeof starts);
   unsigned lost = asked;
+  long looked_at = 0;
   if (finds_in_fours()) {
+    looked_at = kOfFour;
     lost = follow(p, from, step, closest);
     std::memcpy(closest.at, p, sizeof closest.at);
   }
   for (int k = 0; k < 4 && lost != 0; ++k)
     if ((lost >> k & 1U) != 0) find_by_surface(p, k, {one_of(starts, k)}, closest);
+  return looked_at + one_by_surface() * std::popcount(lost);
 }
 
-void LayerClosestPoints::find_anew(const FourPoints& p, FourClosestPoints& closest) const {
+long LayerClosestPoints::find_anew(const FourPoints& p, FourClosestPoints& closest) const {
   for (int k = 0; k < 4; ++k) find_by_surface(p, k, surface_.seed(one_of(p, k)), closest);
+  return 2 * 4 * one_by_surface();
 }
 
 }  // namespace condyle

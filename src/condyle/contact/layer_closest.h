@@ -54,8 +54,8 @@ class LayerClosestPoints {
   /// `closest` itself. `step`: of the last iteration at most [mm]; φ is then good to its cube, n to
   /// its square. Of a point outside that is known to be, φ may be told too small by a step of 0.2 mm
   /// at most. Of points whose bits are not in `asked` `closest` stays as it is,
-  /// unless they are found in fours.
-  void find(const FourPoints& p,
+  /// unless they are found in fours. Returns how many points of surfaces are looked at in the same time, about.
+  long find(const FourPoints& p,
             const FourClosestPoints& from,
             double step,
             FourClosestPoints& closest,
@@ -66,8 +66,8 @@ class LayerClosestPoints {
     return bends_ ? bends_->about(closest.place[0][k], closest.place[1][k]) : BendBound();
   }
 
-  /// From anywhere.
-  void find_anew(const FourPoints& p, FourClosestPoints& closest) const;
+  /// The same from anywhere.
+  long find_anew(const FourPoints& p, FourClosestPoints& closest) const;
 
  private:
   /// Bits of those that were not found.
@@ -75,6 +75,7 @@ class LayerClosestPoints {
                   const FourClosestPoints& from,
                   double step,
                   FourClosestPoints& closest) const;
+  [[nodiscard]] long one_by_surface() const;
   void find_by_surface(const FourPoints& p,
                        int k,
                        const Place& start,

@@ -19,9 +19,10 @@ constexpr double kFound = 1e-7;
 /// chosen [mm].
 constexpr double kMargin = 0.02;
 
-// Points of surfaces that four closest points count as, about, by the time that they take:
-constexpr long kFindAnew = 10;  // from places beside them
-constexpr long kFollow = 5;     // from where they were
+/// A closest point is followed so far [mm], else begun from that of a point beside it.
+constexpr double kFollowed = 2;
+
+constexpr long kMade = 8;  // points of surfaces that are looked at while a packet is made, about
 
 /// How far closest points are relied on.
 struct Reliance {
@@ -145,7 +146,9 @@ Near near_from(const FourPoints& center,
   }
   const Four r = load_four(radius) + margin, phi = load_four(closest.phi), rest = phi - r;
   const auto clear = (rest > 0) & (way < rest * rest);
-  const auto surely = (phi + sqrt_four(way) <= r) | (phi + along < kSurely * r);
+  // Of what is near closest points are followed, so those are to be of a place not far away.
+  const auto surely =
+      ((phi + sqrt_four(way) <= r) | (phi + along < kSurely * r)) & (way < kFollowed * kFollowed);
   Near all{0, 0};
   CONDYLE_UNROLL
   for (int k = 0; k < 4; ++k) {
@@ -167,6 +170,7 @@ void place_all(const RigidTransform& X, const FourPoints& x, FourPoints& out) {
 
 LayerPackets::LayerPackets(const LayerLattice& points, const LayerClosestPoints& find)
     : find_(find) {
+  packets_.reserve(points.x.size() / 4 + points.blocks.size());
   for (std::size_t b = 0; b < points.blocks.size(); ++b) {
     const LayerBlock& block = points.blocks[b];
     const auto first = static_cast<std::uint32_t>(packets_.size());
@@ -198,6 +202,7 @@ LayerPackets::LayerPackets(const LayerLattice& points, const LayerClosestPoints&
       bound.radius = std::max(bound.radius, (point_of(packet.x, k) - bound.center).norm());
     bounds_.push_back(bound);
   }
+  looked_at_ = kMade * static_cast<long>(packets_.size());
   pressed_.reserve(packets_.size());
   candidates_.reserve(packets_.size());
   for (const Vector3d& x : points.x) center_ += x / static_cast<double>(points.x.size());
@@ -214,16 +219,16 @@ void LayerPackets::reset() {
 }
 
 /// Bits of the blocks that may hold points nearer than `margin`.
-unsigned LayerPackets::near(BlockPacket& blocks, const RigidTransform& X, double margin) const {
+unsigned LayerPackets::near(BlockPacket& blocks, const RigidTransform& X, double margin) {
   alignas(32) FourPoints center;
   place_all(X, blocks.center, center);
   Near found{0, 15};
   if (blocks.closest.known()) {
     found = near_from(center, blocks.radius, margin, blocks.closest);
     if (found.unknown == 0) return found.near;
-    find_.find(center, blocks.closest, kFound, blocks.closest, found.unknown);
+    looked_at_ += find_.find(center, blocks.closest, kFound, blocks.closest, found.unknown);
   } else {
-    find_.find_anew(center, blocks.closest);
+    looked_at_ += find_.find_anew(center, blocks.closest);
   }
   unsigned near = found.near;
   for (int k = 0; k < 4; ++k)
@@ -252,8 +257,12 @@ bool LayerPackets::any_near(const RigidTransform& X, double margin, const Each& 
 void LayerPackets::choose_candidates(const RigidTransform& X) {
   candidates_.clear();
   any_near(X, kMargin, [&](std::uint32_t i, const auto& closest) {
-    if (!bounds_[i].known) find_anew(i, closest(), X);
-    if (!is_clear(i, X, kMargin)) candidates_.push_back(i);
+    if (bounds_[i].known && is_clear(i, X, kMargin)) return false;
+    // Its block was looked for at this pose; it itself perhaps at one long ago.
+    const bool fresh = bounds_[i].known && (X * bounds_[i].center - bounds_[i].at).squaredNorm() <
+                                               kFollowed * kFollowed;
+    if (!fresh) find_anew(i, closest(), X);
+    if (fresh || !is_clear(i, X, kMargin)) candidates_.push_back(i);
     return false;
   });
   X_candidates_ = X;
@@ -273,9 +282,8 @@ void LayerPackets::find_anew(std::uint32_t index,
                              const FourClosestPoints& near,
                              const RigidTransform& X) {
   LayerPacket& packet = packets_[index];
-  looked_at_ += kFindAnew;
   place_all(X, packet.x, packet.p);
-  find_.find(packet.p, near, kFound, packet.closest);
+  looked_at_ += find_.find(packet.p, near, kFound, packet.closest);
   keep_bound(index, X);
 }
 
@@ -341,9 +349,8 @@ void LayerPackets::press(std::uint32_t index, const RigidTransform& X, LayerCare
   Told told = tell(X, rely, packet);
   ++looked_at_;
   if (told == Told::kUnknown) {
-    looked_at_ += kFollow;
-    find_.find(packet.p, packet.closest, rely.followed, packet.closest,
-               find_.finds_in_fours() ? 15 : not_clear(packet));
+    looked_at_ += find_.find(packet.p, packet.closest, rely.followed, packet.closest,
+                             find_.finds_in_fours() ? 15 : not_clear(packet));
     keep_bound(index, X);
     told = tell(X, rely, packet);
   }

@@ -70,7 +70,7 @@ class LayerPackets {
     std::uint32_t first[4], end[4];  ///< packets of each
     FourClosestPoints closest;
   };
-  [[nodiscard]] unsigned near(BlockPacket& blocks, const RigidTransform& X, double margin) const;
+  [[nodiscard]] unsigned near(BlockPacket& blocks, const RigidTransform& X, double margin);
   /// No point of a packet is nearer than φ less the way w that it went, which is that of the centre
   /// and what the body has turned since by the radius. Nor is a point outside nearer than
   /// φ + n·w - h w²/2, where h bounds ∂²φ below: closest points go by w/(1 - φ k) at most on a surface

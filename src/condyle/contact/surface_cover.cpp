@@ -21,7 +21,8 @@ constexpr double kBetween = 1.3;   // what lies between neighbours, beyond what 
 constexpr double kNeighbours = 3;  // how far these are looked for, in spacings
 constexpr double kLost = 2.5;      // beside a sample farther than this, in spacings: beyond
 constexpr double kWithin = 0.7;    // of the radius of a cell: well within
-constexpr double kAtEdge = 1.5;    // nearer to an edge than this a sample stands for all up to it
+constexpr long kAmongAll = 7;   // points that a search among all samples takes the time of, about
+constexpr double kAtEdge = 1.5;  // nearer to an edge than this a sample stands for all up to it
 
 }  // namespace
 
@@ -152,7 +153,7 @@ void SurfaceCover::find_nearest(int index, const Eigen::Vector3d& point, Candida
 }
 
 CONDYLE_FMA_CLONE
-int SurfaceCover::nearest(const Eigen::Vector3d& point, int& from) const {
+int SurfaceCover::nearest(const Eigen::Vector3d& point, int& from, long& looked_at) const {
   if (cells_.empty()) return -1;
   const auto beside = [&](int i) {
     return off_normal(point - sample(i).c, sample(i).n).squaredNorm();
@@ -179,6 +180,7 @@ int SurfaceCover::nearest(const Eigen::Vector3d& point, int& from) const {
     }
     if (near(best)) return from = best;
   }
+  looked_at += kAmongAll;
   find_nearest(0, point, nearest);
   from = nearest.sample;
   return near(from) ? from : -1;

@@ -66,8 +66,8 @@ class SurfaceCover {
 
   /// The sample nearest to a point, or one of which the point lies well within the cell; -1 where
   /// none is near it beside its normal: beyond the samples. Walks from the sample `from` (-1: from any), which
-  /// becomes the one that was found, near or not.
-  [[nodiscard]] int nearest(const Eigen::Vector3d& point, int& from) const;
+  /// becomes the one that was found, near or not. Adds to `looked_at` what a search among all of them takes.
+  [[nodiscard]] int nearest(const Eigen::Vector3d& point, int& from, long& looked_at) const;
 
   /// Of two samples the nearer one; the other where one is -1.
   [[nodiscard]] int nearer(const Eigen::Vector3d& point, int one, int another) const {

@@ -40,11 +40,12 @@ int most_pulling(const Linearization& at) {
   return worst;
 }
 
-/// The contact that Newton has led to a place where the solids interpenetrate beside it; -1 where
-/// none is.
-int off_minimum(const Linearization& at) {
+/// The contact of such a pair that Newton has led to a place where the solids interpenetrate beside
+/// it; -1 where none is.
+int off_minimum(const Linearization& at, ContactMode mode) {
   for (std::size_t k = 0; k < at.contacts().size(); ++k)
-    if (at.contacts()[k].relative_curvature[0] < -kFlat) return static_cast<int>(k);
+    if (at.pair(k).mode == mode && at.contacts()[k].relative_curvature[0] < -kFlat)
+      return static_cast<int>(k);
   return -1;
 }
 
@@ -111,7 +112,7 @@ const ContactChanges& ContactRules::changes(const Linearization& at) {
   changes_.deepest = 0;
   changes_.rims = changes_.too_many = false;
   changes_.searches = 0;
-  const int off = off_minimum(at);
+  const int off = off_minimum(at, ContactMode::kAuto);
   changes_.off_minimum = off >= 0;
   changes_.gives_way = -1;
   changes_.opens = most_pulling(at);
@@ -142,6 +143,8 @@ void ContactRules::find_overlaps(const Linearization& at) {
   const EquilibriumState& state = at.state;
   Overlaps inner{changes_.closes}, rims{rims_};
   const double overlap = kAllowedOverlap * model_.length;
+  // One that is held gives way to nothing: whoever tells of the pose objects to it.
+  if (off_minimum(at, ContactMode::kClosed) >= 0) return;
   for (std::size_t p = 0; p < searches_.size(); ++p) {
     if (model_.pairs[p].mode == ContactMode::kOpen) continue;
     const int pair = static_cast<int>(p);

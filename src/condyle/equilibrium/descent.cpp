@@ -85,6 +85,7 @@ DescentReport Descent::solve(EquilibriumState& state,
   DescentReport report;
   const Eigen::Vector3d origin = state.X.p;
   paths_ = paths_from_ = paths_to_ = state.paths;
+  const auto looked_at = [&] { return points_until_now(searches_, newton_.system().potentials()); };
   const long before = looked_at();
   start(state.X);
   bool asked = false;
@@ -101,11 +102,6 @@ DescentReport Descent::solve(EquilibriumState& state,
   state.X = X_;
   if (report.converged) state = result_;
   return report;
-}
-
-/// Points of surfaces that searches and layers looked at.
-long Descent::looked_at() const {
-  return points_looked_at(searches_) + newton_.system().potentials().looked_at();
 }
 
 void Descent::start(const RigidTransform& X) {
@@ -216,6 +212,7 @@ void Descent::gather_within(double ahead,
     minima_.resize(std::min(minima_.size(), kMostMinima));
     const std::size_t first = constraints.size();
     for (const GapMinimum& minimum : minima_) {  // the lowest first
+      if (held && constraints.size() > first && !minimum.refined) continue;
       constraints.push_back(constrain(p, minimum.places, X));
       constraints.back().refined = minimum.refined;
       constraints.back().bilateral = held && constraints.size() == first + 1;

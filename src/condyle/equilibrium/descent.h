@@ -84,7 +84,6 @@ class Descent {
     double largest = 0;  ///< [N]
   };
 
-  [[nodiscard]] long looked_at() const;
   void start(const RigidTransform& X);
   bool start_anew();
   bool iterate(const Accept& accept, DescentReport& report);

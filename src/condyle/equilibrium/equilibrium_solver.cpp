@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <tuple>
 
@@ -259,6 +260,7 @@ void EquilibriumSolver::solve(const Drive& drive, PoseResult& result, Patience p
   Attempt attempt;
   attempt.points_before = looked_at();
   attempt.most = most(patience);
+  newton_.bound_laws(newton_.system().potentials().looked_at() + attempt.most.points);
   from_elsewhere_ = false;
   bool solved = false, at_once = false;
   if (has_state_) {
@@ -278,11 +280,10 @@ void EquilibriumSolver::solve(const Drive& drive, PoseResult& result, Patience p
     if (!at_once) solved = solve_from_elsewhere(next_, attempt) || solve_from_edge(next_, attempt);
   }
   drive_ = target_;
+  newton_.bound_laws(std::numeric_limits<long>::max());
   const bool off_surfaces = !solved && take_off_surfaces(next_, attempt);
   clear(result);
   result.iterations = attempt.spent.iterations;
-  attempt.spent.points = looked_at() - attempt.points_before;
-  spent_ = attempt.spent;
   result.residual = attempt.newton.residual;
   if (!solved && !off_surfaces) attempt.begin(PoseRoute::kNone, PoseOrigin::kNone);
   if (!solved && !off_surfaces && failed) attempt.trace.residuals = failed->residuals;
@@ -297,6 +298,7 @@ void EquilibriumSolver::solve(const Drive& drive, PoseResult& result, Patience p
   } else {
     result.status = PoseStatus::kIterationLimit;
   }
+  spent_ = {attempt.spent.iterations, looked_at() - attempt.points_before};
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 

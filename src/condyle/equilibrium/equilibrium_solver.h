@@ -38,7 +38,7 @@ struct EquilibriumOptions {
   /// Spent on one pose by all ways together, some 25 ms; a third of it on one that is only followed from
   /// the pose before it.
   Work most{450, 450000};
-  Work most_at_first{450, 1000000};  ///< on the first pose of a sweep, or on one alone
+  Work most_at_first{450, 600000};  ///< on the first pose of a sweep, or on one alone
 };
 
 /// How much is tried where the step from the last pose does not settle.
@@ -109,7 +109,7 @@ class EquilibriumSolver {
   /// asked for. Throws std::invalid_argument where the last pose was not solved.
   [[nodiscard]] Linearization linearized_solution() const;
 
-  /// On the last pose, whether it was found or not.
+  /// On the last pose, whether it was found or not, and on what is told of it.
   [[nodiscard]] const Work& spent() const { return spent_; }
 
   /// Was the last pose found from another start than the pose before it?

@@ -9,6 +9,11 @@
 #include "condyle/equilibrium/second_equilibrium.h"
 
 namespace condyle {
+namespace {
+
+constexpr long kLongerWithLaws = 24;  // than of rigid points, where laws look at fields of points
+
+}  // namespace
 
 bool EquilibriumSolver::tried_from(const RigidTransform& X, const Attempt& attempt) const {
   constexpr double kPracticallySame = 1e-3;  // of L
@@ -18,13 +23,15 @@ bool EquilibriumSolver::tried_from(const RigidTransform& X, const Attempt& attem
 }
 
 Work EquilibriumSolver::most(Patience patience) const {
-  if (patience == Patience::kFirst) return options_.most_at_first;
-  return options_.most.share(patience == Patience::kWay ? 3 : 1);
+  Work most = patience == Patience::kFirst
+                  ? options_.most_at_first
+                  : options_.most.share(patience == Patience::kWay ? 3 : 1);
+  if (!newton_.system().potentials().empty()) most.points *= kLongerWithLaws;
+  return most;
 }
 
-/// Points of surfaces that searches and layers looked at.
 long EquilibriumSolver::looked_at() const {
-  return points_looked_at(searches_) + newton_.system().potentials().looked_at();
+  return points_until_now(searches_, newton_.system().potentials());
 }
 
 /// What may still be spent on the pose under way.

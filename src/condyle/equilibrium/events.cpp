@@ -145,10 +145,12 @@ class EventSearch {
 
   /// The pose at a value, from another one; nothing where it has no equilibrium.
   std::optional<SolvedPose> pose_at(double value, const SolvedPose& from) {
-    if (wasted_.reaches(options_.most_wasted)) return std::nullopt;
+    if (wasted_.reaches(options_.most_wasted) || spent_.reaches(options_.most)) return std::nullopt;
     walker_.stand_at(from);
     SolvedPose pose;
-    if (walker_.step(value, Patience::kNone, pose)) return pose;
+    const bool solved = walker_.step(value, Patience::kNone, pose);
+    spent_.add(walker_.solver().spent());
+    if (solved) return pose;
     wasted_.add(walker_.solver().spent());
     return std::nullopt;
   }
@@ -249,7 +251,7 @@ class EventSearch {
   Walker& walker_;
   std::optional<PathSystem> path_;  ///< once it is asked for
   const EventOptions& options_;
-  Work wasted_;  ///< on trials without equilibrium
+  Work spent_, wasted_;  ///< on trials; on those without equilibrium
 };
 
 }  // namespace

@@ -26,8 +26,9 @@ struct EventOptions {
   double snap = 0.05;    ///< a body that moved farther than this, in units of L, may have snapped
                          ///< through
   int most_events = 16;  ///< between two poses
-  Work most_wasted{6000, 400000};  ///< on trials without equilibrium, after which no event more is
-                                   ///< looked for between the two poses
+  /// On trials without equilibrium, and on all of them, some 20 ms: after either no event more is looked for
+  /// between the two poses.
+  Work most_wasted{6000, 200000}, most{20000, 500000};
 };
 
 /// Appends the events between two poses of one sweep. The walker does not stay where it stood.

@@ -245,11 +245,11 @@ NewtonReport Newton::iterate(EquilibriumState& state, const Drive& drive) {
         report.outcome = NewtonOutcome::kConverged;
         return report;
       }
-      if (report.iterations == options_.max_iterations) return report;
+      if (is_exhausted(report)) return report;
       last_step = INFINITY;
       continue;
     }
-    if (report.iterations == options_.max_iterations) return report;
+    if (is_exhausted(report)) return report;
 
     const int size = system_.fill(state, matrix_, step);
     const bool free = !matrix_.factor(size);
@@ -275,6 +275,11 @@ NewtonReport Newton::iterate(EquilibriumState& state, const Drive& drive) {
     }
     system_.move(state, step);
   }
+}
+
+bool Newton::is_exhausted(const NewtonReport& report) const {
+  return report.iterations == options_.max_iterations ||
+         (!system_.potentials().empty() && system_.potentials().looked_at() >= most_of_laws_);
 }
 
 /// A motion that nothing resists is held by next to nothing, in case nothing asks for it.

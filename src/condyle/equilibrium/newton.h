@@ -17,6 +17,7 @@
 /// (equilibrium_solver.h). Contact laws without unknowns (contact/contact_law.h) add to f, m and
 /// their blocks as ligaments do.
 
+#include <limits>
 #include <vector>
 
 #include "condyle/contact/contact.h"
@@ -145,6 +146,10 @@ class Newton {
   /// Improves the state in place. Allocates nothing once the state has its size.
   NewtonReport solve(EquilibriumState& state, const Drive& drive);
 
+  /// From now on solving ends, as at the limit of iterations, once contact laws have looked at so many points
+  /// (ContactPotentials::looked_at): one iteration with them may take 20 ms.
+  void bound_laws(long points) { most_of_laws_ = points; }
+
   /// Of the last solve.
   [[nodiscard]] const ResidualHistory& residuals() const { return residuals_; }
 
@@ -162,9 +167,11 @@ class Newton {
  private:
   NewtonReport iterate(EquilibriumState& state, const Drive& drive);
   bool factor_softened(const EquilibriumState& state, double* step);
+  [[nodiscard]] bool is_exhausted(const NewtonReport& report) const;
 
   const Model& model_;
   NewtonOptions options_;
+  long most_of_laws_ = std::numeric_limits<long>::max();
   NewtonSystem system_;
   SmallLu matrix_;
   ResidualHistory residuals_;

@@ -155,6 +155,8 @@ double off_surface(const WrapTorus& torus, const Vector3d& x) {
   return Eigen::Vector2d(x.head<2>().norm() - torus.ring, x.z()).norm() / torus.tube - 1;
 }
 
+thread_local long steps_of_thread = 0;
+
 /// A geodesic from a frame, with a and r, followed in steps that are halved where one loses the surface or
 /// the Wronskian a r' - a' r = 1.
 template <class Solid, class Field>
@@ -178,6 +180,7 @@ class Walk {
     constexpr int kMostSteps = 400;
     double left = arc;
     for (int steps = 0; std::abs(left) > 0; ++steps) {
+      ++steps_of_thread;
       if (steps == kMostSteps) return false;
       const double reach = std::abs(left) * rate_;
       const bool last = reach <= kReach8;
@@ -278,6 +281,8 @@ void add_steps(const Solid& solid,
 
 }  // namespace
 
+long geodesic_steps() { return steps_of_thread; }
+
 void add_points_along(const WrapShape& shape,
                       const SurfaceFrame& from,
                       double arc,
@@ -293,6 +298,7 @@ void add_points_along(const WrapShape& shape,
 }
 
 Geodesic shoot(const WrapShape& shape, const SurfaceFrame& from, double arc) {
+  ++steps_of_thread;
   Geodesic g = std::visit([&](const auto& s) { return shoot_on(s, shape, from, arc); }, shape);
   g.arc = arc;
   return g;

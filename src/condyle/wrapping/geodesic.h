@@ -26,6 +26,10 @@ struct Geodesic {
 /// by steps of order 8 to 16, each of which keeps surface and Wronskian to 5e-13.
 [[nodiscard]] Geodesic shoot(const WrapShape& shape, const SurfaceFrame& from, double arc);
 
+/// Steps that this thread has taken along geodesics: what paths cost, counted and not timed. Two readings tell
+/// what lies between them.
+[[nodiscard]] long geodesic_steps();
+
 /// Appends where equal pieces of the arc end, in order, moved by X: for drawing. In
 /// such steps, without fields.
 void add_points_along(const WrapShape& shape,
