@@ -9,11 +9,6 @@
 #include "condyle/equilibrium/second_equilibrium.h"
 
 namespace condyle {
-namespace {
-
-constexpr long kLongerWithLaws = 24;  // than of rigid points, where laws look at fields of points
-
-}  // namespace
 
 bool EquilibriumSolver::tried_from(const RigidTransform& X, const Attempt& attempt) const {
   constexpr double kPracticallySame = 1e-3;  // of L
@@ -23,11 +18,10 @@ bool EquilibriumSolver::tried_from(const RigidTransform& X, const Attempt& attem
 }
 
 Work EquilibriumSolver::most(Patience patience) const {
-  Work most = patience == Patience::kFirst
-                  ? options_.most_at_first
-                  : options_.most.share(patience == Patience::kWay ? 3 : 1);
-  if (!newton_.system().potentials().empty()) most.points *= kLongerWithLaws;
-  return most;
+  const Work most = patience == Patience::kFirst
+                        ? options_.most_at_first
+                        : options_.most.share(patience == Patience::kWay ? 3 : 1);
+  return newton_.system().potentials().empty() ? most : most.with_laws();
 }
 
 long EquilibriumSolver::looked_at() const {

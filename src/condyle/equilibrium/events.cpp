@@ -141,7 +141,13 @@ void append_limit(const SolvedPose& before, const SolvedPose& after, std::vector
 
 class EventSearch {
  public:
-  EventSearch(Walker& walker, const EventOptions& options) : walker_(walker), options_(options) {}
+  EventSearch(Walker& walker, const EventOptions& options) : walker_(walker), options_(options) {
+    const std::vector<ContactPair>& pairs = walker.model().pairs;
+    if (std::none_of(pairs.begin(), pairs.end(), [](const ContactPair& p) { return bool(p.law); }))
+      return;
+    options_.most = options_.most.with_laws();
+    options_.most_wasted = options_.most_wasted.with_laws();
+  }
 
   /// The pose at a value, from another one; nothing where it has no equilibrium.
   std::optional<SolvedPose> pose_at(double value, const SolvedPose& from) {
@@ -250,7 +256,7 @@ class EventSearch {
 
   Walker& walker_;
   std::optional<PathSystem> path_;  ///< once it is asked for
-  const EventOptions& options_;
+  EventOptions options_;
   Work spent_, wasted_;  ///< on trials; on those without equilibrium
 };
 
