@@ -49,6 +49,10 @@ TEST_F(UncertaintyCommand, RefusesWhatHasNoMesh) {
                          "\"patch\" for --uncertainty");
   test::expect_bad_input(run("sweep '" + kPhantom + "' -o run.h5 --uncertainty=1"),
                          "--uncertainty=1: expected at least 2 sweeps");
+  for (const std::string number : {"1.5", "many", "99999999999", "33333333333333333333333333"})
+    test::expect_bad_input(
+        run("sweep '" + kPhantom + "' -o run.h5 --uncertainty=" + number),
+        "--uncertainty=" + number + ": expected a whole number of sweeps up to 1000000");
   EXPECT_TRUE(results().empty());
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -36,8 +37,21 @@ struct SweepCommand {
   std::string scene, output;
   RangeOptions range;
   bool resume = false;
-  int uncertainty = 0;  ///< sweeps; 0: none
+  std::string uncertainty;  ///< how many sweeps; empty: none
 };
+
+/// A flag's number goes through no check of CLI11: it may be of any size, or half a word.
+int sweeps_of_uncertainty(const std::string& words) {
+  constexpr int kMost = 1000000;
+  if (words.empty()) return 0;
+  int sweeps = 0;
+  const char *begin = words.data(), *end = begin + words.size();
+  const auto [last, error] = std::from_chars(begin, end, sweeps);
+  if (error != std::errc() || last != end || sweeps > kMost)
+    throw InputError(
+        fmt::format("--uncertainty={}: expected a whole number of sweeps up to {}", words, kMost));
+  return sweeps;
+}
 
 // The sweep with its table; each pose goes into the journal as soon as it is known.
 SweepResult sweep_aloud(const Talk& talk,
@@ -75,19 +89,20 @@ SweepResult sweep_aloud(const Talk& talk,
 }
 
 /// How sure the poses are, given the meshes; null where it was not asked for.
-std::shared_ptr<const MeshUncertainty> uncertainty_aloud(const SweepCommand& command,
+std::shared_ptr<const MeshUncertainty> uncertainty_aloud(const Talk& talk,
+                                                         int sweeps,
                                                          const Scene& scene,
                                                          const std::vector<FittedSurface>& surfaces,
                                                          const std::vector<PoseResult>& poses) {
-  if (command.uncertainty == 0) return nullptr;
-  Progress line(command.talk, "sweeps");
+  if (sweeps == 0) return nullptr;
+  Progress line(talk, "sweeps");
   StudyProgress progress([&](const std::string&, int done, int total) {
     line.at(done, total);
     return true;
   });
-  auto found = mesh_uncertainty(scene, surfaces, poses, {command.uncertainty, 1, 0}, progress);
+  auto found = mesh_uncertainty(scene, surfaces, poses, {sweeps, 1, 0}, progress);
   line.clear();
-  say(command.talk, "{}\n", uncertainty_words(*found));
+  say(talk, "{}\n", uncertainty_words(*found));
   return found;
 }
 
@@ -96,7 +111,8 @@ int run_sweep(const SweepCommand& command) {
   CommandClock clock;
   check_output_file(command.output);
   Scene scene = read_scene(command.scene);
-  if (command.uncertainty != 0) check_uncertainty(scene, {command.uncertainty, 1, 0});
+  const int more_sweeps = sweeps_of_uncertainty(command.uncertainty);
+  if (!command.uncertainty.empty()) check_uncertainty(scene, {more_sweeps, 1, 0});
   if (command.resume && scene.sweep && scene.sweep->arc_length) {
     throw InputError(command.scene +
                      ": [sweep]: path = \"arc length\", expected \"steps\" for --resume");
@@ -116,7 +132,7 @@ int run_sweep(const SweepCommand& command) {
   const LastWords words(last_words(command.output, "poses"));
   run.sweep = sweep_aloud(talk, scene, surfaces, std::move(earlier.poses), journal);
   run.sensitivities = sweep_sensitivities(scene, surfaces, run.sweep.poses);
-  run.uncertainty = uncertainty_aloud(command, scene, surfaces, run.sweep.poses);
+  run.uncertainty = uncertainty_aloud(talk, more_sweeps, scene, surfaces, run.sweep.poses);
   const SweepResult& result = run.sweep;
   for (const std::string& line : event_lines(scene, swept_quantity(run), result))
     say(talk, "{}\n", line);
