@@ -83,7 +83,7 @@ const std::vector<PartScene>& part_scenes() {
       {"patches", "without patches: exact surfaces", {.patches = false}, "all"},
       {"joint", "without joint frame", {.joint = false}, "all"},
       {"stability", "without stability", {.stability = false}, "all"},
-      {"search", "without search for contacts: held closed", {.search = false}, "all"},
+      {"search", "contacts held closed", {.search = false}, "all"},
       {"prescribed", "with three more motions prescribed", {.prescribed = true}},
       {"ligaments",
        "with these, without ligaments",
