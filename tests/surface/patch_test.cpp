@@ -81,6 +81,22 @@ TEST_P(PatchOfDegree, IsTheSameByItsCells) {
   }
 }
 
+// What Newton's method is led to where a surface degenerates: it reads no memory beyond the net.
+TEST_P(PatchOfDegree, APlaceThatIsNoNumberHasNoNumbers) {
+  const PatchData data = wavy_sheet(GetParam()[0], GetParam()[1]);
+  const Patch patch(data);
+  const double no_number = std::nan("");
+  for (const Place& at : {Patch::place(no_number, 3), Patch::place(3, no_number)})
+    EXPECT_FALSE(patch.evaluate(at).c.allFinite());
+  EXPECT_FALSE(patch.evaluate(Patch::place(1e300, -1e300)).c.allFinite());
+  FourDerivatives found;
+  const double u[] = {no_number, 3, 3, 3}, v[] = {3, no_number, 3, 3};
+  PatchCells(patch).derivatives(u, v, found);
+  for (int x = 0; x < 3; ++x)
+    EXPECT_TRUE(std::isnan(found.d[0][x][0]) && std::isnan(found.d[0][x][1]) &&
+                std::isfinite(found.d[0][x][2]));
+}
+
 // dn = -K dc and du = g_u.dc [Dortmans 1986, 2.18-2.44].
 TEST_P(PatchOfDegree, CurvatureTensorTurnsTheNormal) {
   const Patch patch(wavy_sheet(GetParam()[0], GetParam()[1]));

@@ -78,7 +78,8 @@ Tension tension_of(const TableLaw& law, double length) {
   const std::vector<double>&l = law.lengths, &f = law.forces, &m = law.slopes, &E = law.energies;
   if (length <= l.front())
     return continued_from(f.front(), m.front(), E.front(), length - l.front());
-  if (length >= l.back()) return continued_from(f.back(), m.back(), E.back(), length - l.back());
+  if (!(length < l.back()))  // nor where it is no number
+    return continued_from(f.back(), m.back(), E.back(), length - l.back());
   const std::size_t i =
       static_cast<std::size_t>(std::upper_bound(l.begin(), l.end(), length) - l.begin()) - 1;
   // Cubic Hermite on [l_i, l_i+1] in powers of x = L - l_i.

@@ -201,7 +201,9 @@ void horner(const double* c, int m, double x, double* f, double* df, double* d2f
 
 }  // namespace
 
+/// Of what is no number the first: the numbers of the point are none either.
 int Patch::find_span(const Direction& direction, double t) {
+  if (std::isnan(t)) return 0;
   if (direction.inverse_step > 0)
     return std::min(static_cast<int>((t - direction.min) * direction.inverse_step),
                     direction.spans - 1);

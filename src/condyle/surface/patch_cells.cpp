@@ -194,6 +194,7 @@ PatchCells::PatchCells(const Patch& patch) : patch_(patch) {
 }
 
 inline int PatchCells::span(const Direction& direction, double t) {
+  if (std::isnan(t)) return 0;
   const int spans = static_cast<int>(direction.breaks.size()) - 1;
   if (direction.inverse_step > 0) [[likely]]
     return std::min(static_cast<int>((t - direction.min) * direction.inverse_step), spans - 1);
