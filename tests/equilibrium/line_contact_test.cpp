@@ -6,12 +6,12 @@
 
 #include <cmath>
 
-#include "condyle/equilibrium/contact_rules.h"
 #include "condyle/equilibrium/contact_shape.h"
 #include "condyle/equilibrium/equilibrium_solver.h"
 #include "condyle/equilibrium/model_covers.h"
 #include "condyle/math/rotation.h"
 #include "condyle/surface/exact_surfaces.h"
+#include "support/hold.h"
 
 namespace condyle {
 namespace {
@@ -22,6 +22,7 @@ std::optional<Objection> objection_anew(const Model& model, const RigidTransform
 }
 
 using Eigen::Vector3d;
+using test::hold;
 
 /// A roller of radius 10 and length 30 along x over the floor z = 0, everything turned by X. Its
 /// weight of 12 N acts `off` from its middle, 2 mm below its axis.
@@ -53,16 +54,6 @@ void tether(Model& model, const RigidTransform& X = {}) {
       model.element_names.emplace_back("tether");
     }
   }
-}
-
-void hold(Model& model, ConditionKind kind, int axis, double value = 0) {
-  KinematicCondition condition;
-  condition.kind = kind;
-  condition.axis = Vector3d::Unit(axis);
-  condition.cardan_axis = axis;
-  condition.value = value;
-  model.conditions.push_back(condition);
-  model.condition_names.push_back("hold " + std::to_string(model.conditions.size()));
 }
 
 /// Forces at the ends, the one with the smaller coordinate along `axis` first.
@@ -247,7 +238,7 @@ TEST(LineContact, ARollerThatIsAlsoHeldLevelIsUndetermined) {
   EquilibriumSolver solver(model);
   const PoseResult pose = solver.solve();
   EXPECT_EQ(pose.status, PoseStatus::kSingular);
-  EXPECT_NE(pose.reason.find("\"hold 1\" and contact \"floor\" depend on each other"),
+  EXPECT_NE(pose.reason.find("\"hold\" and contact \"floor\" depend on each other"),
             std::string::npos)
       << pose.reason;
 }
@@ -321,78 +312,6 @@ TEST(LineContact, AContactHeldWhereTheSurfacesInterpenetrateBesideIt) {
   const PoseResult pose = solver.solve();
   EXPECT_EQ(pose.status, PoseStatus::kOverlap);
   EXPECT_EQ(pose.reason, "contact \"cup\": the surfaces interpenetrate beside the point");
-}
-
-/// Two feet of curvature 0.2/mm, at x = -5 and 5 mm of a body that a moment of 12 N mm per 10 N of load tilts.
-Model on_two_feet(ContactMode mode) {
-  Model model;
-  ContactPair pair;
-  pair.name = "feet";
-  pair.mode = mode;
-  pair.on_B = make_plane({0, 0, 0}, {0, 0, 1}, 40);
-  // z = (x² - 25)²/500 + y²/10, least at the feet; the solid lies above.
-  pair.on_A = make_polynomial({0, 0, 0}, Eigen::Matrix3d::Identity(),
-                              {{4, 0, 0.002}, {2, 0, -0.1}, {0, 0, 1.25}, {0, 2, 0.1}},
-                              /*solid_inside=*/false, 12);
-  model.pairs = {pair};
-  Load weight;
-  weight.vector = {0, 0, -10};
-  weight.at = {1.2, 0, 0};
-  model.loads = {weight};
-  model.load_names = {"weight"};
-  hold(model, ConditionKind::kTranslation, 0);
-  hold(model, ConditionKind::kTranslation, 1);
-  hold(model, ConditionKind::kRotation, 0);
-  hold(model, ConditionKind::kRotation, 2);
-  model.length = 15;
-  return model;
-}
-
-// Held closed means that one point touches, whatever it carries: its surfaces may overlap nowhere else.
-TEST(LineContact, WhatIsHeldAtOnePointOverlapsAtNoOther) {
-  Model model = on_two_feet(ContactMode::kClosed);
-  hold(model, ConditionKind::kRotation, 1, 0.05);  // the foot at x = 5 is lower
-  for (const double foot : {-5.0, 5.0}) {
-    model.pairs[0].start = {{foot, 0, 0}};
-    model.start.p.z() = 0.25;
-    const PoseResult pose = EquilibriumSolver(model).solve();
-    ASSERT_TRUE(pose.converged()) << foot << ": " << pose.reason;
-    ASSERT_EQ(pose.contacts[0].points.size(), 1U);
-    EXPECT_GT(pose.contacts[0].points[0].point_ground.x(), 4) << foot;
-    EXPECT_NEAR(pose.contacts[0].force, 10, 1e-9);
-  }
-}
-
-// Free to tilt it stands on both, as an automatic contact does.
-TEST(LineContact, WhatIsHeldAtOnePointMayTouchAtMore) {
-  for (const ContactMode mode : {ContactMode::kClosed, ContactMode::kAuto}) {
-    Model model = on_two_feet(mode);
-    model.start.p.z() = 0.2;
-    const PoseResult pose = EquilibriumSolver(model).solve();
-    ASSERT_TRUE(pose.converged()) << pose.reason;
-    ASSERT_EQ(pose.contacts[0].points.size(), 2U);
-    const auto [left, right] = ends_of(pose, Vector3d::UnitX());
-    EXPECT_NEAR(left.force, 10 * 3.8 / 10, 1e-9);
-    EXPECT_NEAR(right.force, 10 * 6.2 / 10, 1e-9);
-  }
-}
-
-// The back of a sheet, 8 mm in front of a wall: its solid would lie in that of the wall.
-TEST(OpenPair, WhoseSurfacesTurnTheirBacksToEachOtherFacesNothing) {
-  Model model;
-  ContactPair pair;
-  pair.on_B = make_plane({0, 0, 0}, {0, 0, 1}, 60);
-  pair.on_A =
-      make_polynomial({0, 0, 0}, Eigen::Matrix3d::Identity(), {{2, 0, -0.02}, {0, 2, -0.02}},
-                      /*solid_inside=*/true, 12);
-  model.pairs = {pair};
-  std::vector<ContactSearch> searches = make_searches(model, cover_pairs(model));
-  std::vector<GapMinimum> nearest;
-  const auto lies = [&](const RigidTransform& X) {
-    return look_at_open_pair(model.pairs[0], searches[0], X, 30, nearest);
-  };
-  EXPECT_EQ(lies({exp_rotation({0.2, 0, 0}), {1, 2, 14}}), OpenPair::kApart);
-  EXPECT_EQ(lies({exp_rotation({M_PI - 0.2, 0, 0}), {1, 2, 8}}), OpenPair::kClear);
 }
 
 }  // namespace

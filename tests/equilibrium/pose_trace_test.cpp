@@ -111,7 +111,7 @@ TEST(PoseTrace, IterationsTakeOfThePointsThatMayBeLookedAt) {
   EXPECT_FALSE((Work{450, 450000}.after({440, 320000}).any()));
 }
 
-// Of a contact that is held closed only the nearest place is looked for: once all of both surfaces was.
+// Of a contact that is held closed all of both surfaces is looked at, but not for each of the descent's steps.
 TEST(PoseTrace, ContactsHeldClosedAreFoundWithFewPoints) {
   Model model = test::quadric_knee();
   for (ContactPair& pair : model.pairs) pair.mode = ContactMode::kClosed;

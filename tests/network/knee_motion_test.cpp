@@ -15,6 +15,7 @@
 #include "condyle/specimen/fit_surfaces.h"
 #include "support/leg.h"
 #include "support/quadric_knee.h"
+#include "support/two_feet.h"
 
 namespace condyle {
 namespace {
@@ -75,6 +76,37 @@ TEST(KneeMotion, ThePhantomComesToRestAtTheEnginesPose) {
   EXPECT_GT((motion.poses.front().X_BA.p - rest.p).norm(), 1e-3);
   EXPECT_LT((motion.poses.back().X_BA.p - rest.p).norm(), 1e-6);
   EXPECT_LT((motion.poses.back().X_BA.R - rest.R).norm(), 1e-6 / 30);
+}
+
+// A pair that is held closed at one point touches at a second one, too, and does so in a motion; then the
+// load moves beyond it, and what pushes alone there lifts off.
+TEST(KneeMotion, WhatIsHeldAtOnePointMayTouchAtMore) {
+  const Model model = test::on_two_feet(ContactMode::kClosed);
+  EquilibriumSolver solver(model);
+  ASSERT_TRUE(solver.solve().converged());
+  KneeNetwork knee = make_knee_network(model, test::leg());
+  NetworkState start = state_at_rest(model, cover_pairs(model), knee, solver.state());
+  IntegrationOptions options;
+  options.end = 0.1;
+  options.interval = 0.02;
+  const Motion rests = integrate(knee.network, start, options);
+  ASSERT_TRUE(rests.completed) << rests.reason;
+  for (const MotionFrame& frame : rests.frames) {
+    double force = 0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_TRUE(frame.state.contacts[i].closed);
+      force += frame.contact_force[i];
+      EXPECT_NEAR(frame.contact_force[i] * (frame.contact_force[i] - 10), -3.8 * 6.2, 1e-6);
+    }
+    EXPECT_NEAR(force, 10, 1e-9);
+  }
+  const bool first_is_left =
+      start.contacts[0].places.on_B.numbers.x() < start.contacts[1].places.on_B.numbers.x();
+  knee.network.forces[0].load.at.x() = first_is_left ? -6 : 6;
+  const Motion tilts = integrate(knee.network, start, options);
+  ASSERT_FALSE(tilts.frames.empty());
+  EXPECT_TRUE(tilts.frames.back().state.contacts[0].closed);
+  EXPECT_FALSE(tilts.frames.back().state.contacts[1].closed);
 }
 
 // Undamped and with the flexion free, the energy stays what it was.

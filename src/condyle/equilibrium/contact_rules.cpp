@@ -18,33 +18,24 @@ const ContactPair& pair_of(const Model& model, const ClosedContact& contact) {
   return model.pairs[static_cast<std::size_t>(contact.pair)];
 }
 
-/// Is it the only contact of a pair that is held closed?
-bool is_held(const Linearization& at, std::size_t k) {
-  const std::vector<ClosedContact>& contacts = at.state.contacts;
-  return at.pair(k).mode == ContactMode::kClosed &&
-         std::count_if(contacts.begin(), contacts.end(), [&](const ClosedContact& contact) {
-           return contact.pair == contacts[k].pair;
-         }) == 1;
-}
-
 /// The contact that pulls most, beyond round-off; -1 where none does.
 int most_pulling(const Linearization& at) {
   int worst = -1;
   double lowest = -kPull * at.force_scale();
   for (std::size_t k = 0; k < at.state.contacts.size(); ++k) {
     const double p = at.state.contacts[k].p;
-    if (p >= lowest || is_held(at, k)) continue;
+    if (p >= lowest || !may_open(at, k)) continue;
     worst = static_cast<int>(k);
     lowest = p;
   }
   return worst;
 }
 
-/// The contact of such a pair that Newton has led to a place where the solids interpenetrate beside
-/// it; -1 where none is.
-int off_minimum(const Linearization& at, ContactMode mode) {
+/// The contact, of those that may open or of those that may not, that Newton has led to a place where the solids
+/// interpenetrate beside it; -1 where none is.
+int off_minimum(const Linearization& at, bool opens) {
   for (std::size_t k = 0; k < at.contacts().size(); ++k)
-    if (at.pair(k).mode == mode && at.contacts()[k].relative_curvature[0] < -kFlat)
+    if (may_open(at, k) == opens && at.contacts()[k].relative_curvature[0] < -kFlat)
       return static_cast<int>(k);
   return -1;
 }
@@ -78,16 +69,25 @@ struct Overlaps {
 
 }  // namespace
 
+bool may_open(const Linearization& at, std::size_t k) {
+  const std::vector<ClosedContact>& contacts = at.state.contacts;
+  return at.pair(k).mode == ContactMode::kAuto ||
+         std::any_of(contacts.begin(), contacts.end(), [&](const ClosedContact& contact) {
+           return contact.pair == contacts[k].pair && &contact != &contacts[k];
+         });
+}
+
 OpenPair look_at_open_pair(const ContactPair& pair,
                            ContactSearch& search,
                            const RigidTransform& X_BA,
                            double L,
                            std::vector<GapMinimum>& nearest) {
   search.find_nearest(X_BA, kAnywhere * L, nearest, kMerge * L);
-  if (nearest.empty()) return OpenPair::kApart;
   // The back of one surface before the other: its solid lies where that one's does.
-  if (!nearest.front().refined && nearest.front().gap > 0 && nearest.front().cosine > 0)
-    return OpenPair::kApart;
+  std::erase_if(nearest, [](const GapMinimum& minimum) {
+    return !minimum.refined && minimum.gap > 0 && minimum.cosine > 0;
+  });
+  if (nearest.empty()) return OpenPair::kApart;
   const double overlap = pair.law ? kUnseen : kAllowedOverlap;
   return nearest.front().gap < -overlap * L ? OpenPair::kBuried : OpenPair::kClear;
 }
@@ -112,7 +112,7 @@ const ContactChanges& ContactRules::changes(const Linearization& at) {
   changes_.deepest = 0;
   changes_.rims = changes_.too_many = false;
   changes_.searches = 0;
-  const int off = off_minimum(at, ContactMode::kAuto);
+  const int off = off_minimum(at, true);
   changes_.off_minimum = off >= 0;
   changes_.gives_way = -1;
   changes_.opens = most_pulling(at);
@@ -144,7 +144,7 @@ void ContactRules::find_overlaps(const Linearization& at) {
   Overlaps inner{changes_.closes}, rims{rims_};
   const double overlap = kAllowedOverlap * model_.length;
   // One that is held gives way to nothing: whoever tells of the pose objects to it.
-  if (off_minimum(at, ContactMode::kClosed) >= 0) return;
+  if (off_minimum(at, false) >= 0) return;
   for (std::size_t p = 0; p < searches_.size(); ++p) {
     if (model_.pairs[p].mode == ContactMode::kOpen) continue;
     const int pair = static_cast<int>(p);

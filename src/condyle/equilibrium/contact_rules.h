@@ -32,6 +32,9 @@ struct ContactChanges {
   void apply(EquilibriumState& state) const;
 };
 
+/// Does contact k of the state open rather than pull? Of a pair that is held closed the last one does not.
+[[nodiscard]] bool may_open(const Linearization& at, std::size_t k);
+
 /// How the two surfaces of a pair that carries nothing by rigid points lie at a pose.
 enum class OpenPair {
   kClear,
@@ -39,7 +42,7 @@ enum class OpenPair {
   kApart    ///< no known parts of them face each other
 };
 
-/// `nearest`: afterwards the nearest place, unless they are apart.
+/// `nearest`: afterwards the nearest place that faces the other surface first, unless they are apart.
 [[nodiscard]] OpenPair look_at_open_pair(const ContactPair& pair,
                                          ContactSearch& search,
                                          const RigidTransform& X_BA,

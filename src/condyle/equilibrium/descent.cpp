@@ -246,8 +246,8 @@ void Descent::add_memory(int pair,
 
 void Descent::remember(const std::vector<Constraint>& constraints) {
   for (const Constraint& constraint : constraints) {
-    if (constraint.bilateral || !constraint.refined || constraint.gap > kNearPoint * model_.length)
-      continue;
+    const bool held = model_.pairs[constraint.pair].mode == ContactMode::kClosed;
+    if (held || !constraint.refined || constraint.gap > kNearPoint * model_.length) continue;
     const Surface& on_A = *model_.pairs[constraint.pair].on_A;
     const Eigen::Vector3d c = on_A.evaluate(constraint.places.on_A).c;
     const bool known = std::any_of(memory_.begin(), memory_.end(), [&](const auto& entry) {

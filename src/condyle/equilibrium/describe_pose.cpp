@@ -202,7 +202,7 @@ void describe_pose(const Linearization& at,
     for (std::size_t k = 0; k < at.contacts().size(); ++k)
       add_remark(result, nearly_conforming(at.pair(k), at.contacts()[k], at.state.X.R));
   }
-  if (result.converged() && !has_finite_numbers(result))
+  if (result.solved() && !has_finite_numbers(result))
     set_status(result, {PoseStatus::kDiverged, "a number of the solved pose is not finite"});
   to_file_frames(model.origins, result);
 }

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "condyle/equilibrium/contact_rules.h"
+
 namespace condyle {
 
 Sensitivity::Sensitivity(const Model& model) : rates_(model) {}
@@ -86,8 +88,7 @@ std::vector<OneSidedContact> one_sided_contacts(const Linearization& at, const P
   const double no_gap = 1e-6 * at.model.length / 30;
   std::vector<OneSidedContact> found;
   for (std::size_t k = 0; k < at.contacts().size(); ++k)
-    if (at.pair(k).mode == ContactMode::kAuto &&
-        at.state.contacts[k].p < kNoForce * at.force_scale())
+    if (may_open(at, k) && at.state.contacts[k].p < kNoForce * at.force_scale())
       found.push_back({static_cast<std::size_t>(at.state.contacts[k].pair), true});
   for (std::size_t pair = 0; pair < pose.contacts.size(); ++pair) {
     const ContactResult& contact = pose.contacts[pair];

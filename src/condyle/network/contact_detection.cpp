@@ -31,7 +31,7 @@ void KneeContactDetection::forget() {
 DetectedContacts KneeContactDetection::operator()(NetworkState& state) {
   DetectedContacts detected;
   for (std::size_t p = 0; p < model_.pairs.size(); ++p) {
-    if (model_.pairs[p].mode != ContactMode::kAuto || !searches_[p].has_samples()) continue;
+    if (model_.pairs[p].mode == ContactMode::kOpen || !searches_[p].has_samples()) continue;
     detect_in_pair(static_cast<int>(p), state, detected);
   }
   detected.lost = lost_contact(state);

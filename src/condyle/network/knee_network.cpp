@@ -38,8 +38,7 @@ void close_next(const Model& model,
   throw InputError(
       fmt::format("contact \"{}\" touches in more points at the start than a motion "
                   "follows, expected at most {}",
-                  model.pairs[contact.pair].name,
-                  model.pairs[contact.pair].mode == ContactMode::kAuto ? kPointsPerPair : 1));
+                  model.pairs[contact.pair].name, kPointsPerPair));
 }
 
 }  // namespace
@@ -59,8 +58,9 @@ KneeNetwork make_knee_network(const Model& model, const std::optional<MassProper
       knee.potentials.push_back(static_cast<int>(i));
     }
     if (pair.mode == ContactMode::kOpen) continue;
-    const bool opens = pair.mode == ContactMode::kAuto;
-    for (int point = 0; point < (opens ? kPointsPerPair : 1); ++point) {
+    for (int point = 0; point < kPointsPerPair; ++point) {
+      // Of a pair that is held closed the first point stays.
+      const bool opens = pair.mode == ContactMode::kAuto || point > 0;
       network.contacts.push_back({pair.name, 0, pair.on_B, pair.on_A, opens, opens});
       knee.places.push_back(static_cast<int>(i));
     }

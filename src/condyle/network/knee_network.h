@@ -13,9 +13,9 @@ namespace condyle {
 
 /// `mass` may be absent where only statics is asked. The reference port is the mass centre, or the
 /// origin O_A where there is no mass. Contacts that the model leaves out are left out; `places`
-/// says which of Model::pairs each contact of the network is: a pair that can open has several
-/// contacts, for the points at which its surfaces may touch at once. `potentials` says it of those
-/// with a law of their own.
+/// says which of Model::pairs each contact of the network is: a pair has several
+/// contacts, for the points at which its surfaces may touch at once; of one that is held closed the first
+/// does not open. `potentials` says it of those with a law of their own.
 struct KneeNetwork {
   Network network;
   std::vector<int> places, potentials;
