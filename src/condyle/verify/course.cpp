@@ -84,15 +84,28 @@ bool passed_over(const LigamentDescription& ligament,
 }
 
 Deepest runs_into(const WrapAt& wrap, const Vector3d& from, const Vector3d& to) {
-  constexpr int kPlaces = 200;
-  Deepest deepest{0, from};
-  for (int k = 1; k < kPlaces; ++k) {
-    const Vector3d x = from + (to - from) * k / kPlaces;
+  constexpr double kFewest = 200, kMost = 2000, kStep = 0.25;  // of the least radius
+  const double wanted = (to - from).norm() / (kStep * least_radius(wrap.wrap->shape));
+  const int places = static_cast<int>(std::ceil(std::clamp(wanted, kFewest, kMost)));
+  const auto depth_at = [&](double k) {
+    const Vector3d x = from + (to - from) * k / places;
     const Field field = field_at(wrap.wrap->shape, wrap.larger, wrap.own(x));
-    const double depth = -field.f / std::max(1e-12, field.gradient.norm());
-    if (depth > deepest.depth) deepest = {depth, x};
+    return -field.f / std::max(1e-12, field.gradient.norm());
+  };
+  double depth = -INFINITY, at = 0;
+  for (int k = 1; k < places; ++k) {
+    const double here = depth_at(k);
+    if (here > depth) depth = here, at = k;
   }
-  return deepest;
+  // By thirds of what is left between its neighbours: a place in the surface may lie between two that are not.
+  for (double reach = 1; reach > 1e-4; reach *= 2.0 / 3) {
+    for (const double k : {at - reach / 3, at + reach / 3}) {
+      const double here = depth_at(std::clamp(k, 0.0, static_cast<double>(places)));
+      if (here > depth) depth = here, at = std::clamp(k, 0.0, static_cast<double>(places));
+    }
+  }
+  if (!(depth > 0)) return {0, from};
+  return {depth, from + (to - from) * at / places};
 }
 
 Course course_of(const Scene& scene, const PoseResult& pose, std::size_t ligament) {

@@ -53,7 +53,7 @@ constexpr int kWays = 36;  // that are tried across a line
 bool is_ring(const WrapAt& wrap) { return std::holds_alternative<WrapTorus>(wrap.wrap->shape); }
 
 /// Of a ring the way out of the tube where the line lies deepest comes first, if it leads across the line; or
-/// that of number `across`.
+/// that of number `across_ring`.
 WayOut nearest_way_out(const WrapAt& wrap,
                        const Vector3d& from,
                        const Vector3d& to,

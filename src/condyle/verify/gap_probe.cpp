@@ -18,7 +18,8 @@ constexpr double kBeside =
     1;  ///< so near to each other two points have closest points that do too [mm]
 constexpr double kBent =
     2;  ///< radius of a cell that is worth six points to tell how the gap bends [mm]
-constexpr double kLeaf = 0.15;  ///< [mm]
+constexpr double kLeaf = 0.15;         ///< [mm]
+constexpr double kMoreThanSeen = 1.5;  ///< of what four corners tell
 
 void keep(const LowestGap& found, LowestGap& best) {
   if (found.gap < best.gap) best = found;
@@ -118,9 +119,9 @@ LowestGap GapProbe::refine(
   return {now.gap, now.point};
 }
 
-/// No lower than by the quadratic of the gap at the cell's middle, each principal direction at its
-/// worst, less what the gradient at the corners departs from it on the way: surfaces that nearly conform are
-/// told apart by that alone, as the curvatures of either say nothing of their difference.
+/// By the quadratic of the gap at the cell's middle, each principal direction at its worst, less 1.5 times what
+/// the gradient at the corners departs from it on the way (an estimate, as that of the curvatures is): surfaces that nearly
+/// conform are told apart by that alone, as the curvatures of either say nothing of their difference.
 double GapProbe::bound_by_bending(const Node& node, const Reading& at, Search& search) const {
   search.left -= 6;
   const Cell& c = node.cell;
@@ -137,7 +138,7 @@ double GapProbe::bound_by_bending(const Node& node, const Reading& at, Search& s
     }
   if (!H.allFinite() || !std::isfinite(departs)) return -INFINITY;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(H);
-  double bound = at.gap - departs * r;
+  double bound = at.gap - kMoreThanSeen * departs * r;
   for (int i = 0; i < 2; ++i) {
     const double slope = std::abs(principal.eigenvectors().col(i).dot(g)),
                  bend = principal.eigenvalues()[i];

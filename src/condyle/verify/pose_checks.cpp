@@ -25,8 +25,10 @@ std::string named(const char* kind, const std::string& name) {
   return fmt::format("{} \"{}\"", kind, name);
 }
 
-/// What rounding of coordinates so far from the origin comes to [mm].
-double round_off(const Vector3d& a, const Vector3d& b) { return 1e-14 * (a.norm() + b.norm()); }
+/// What rounding of coordinates so far from their origins, in the frames of both bodies, comes to [mm].
+double round_off(const LigamentDescription& ligament, const RigidTransform& X_BA) {
+  return 1e-14 * (ligament.ends[0].at.norm() + ligament.ends[1].at.norm() + X_BA.p.norm());
+}
 
 double slack_of(const ForceLaw& law) {
   if (const auto* toe = std::get_if<ToeLinearLaw>(&law)) return toe->slack_length;
@@ -151,7 +153,7 @@ void check_ligaments(const Subject& subject, const PoseResult& pose, Ledger& led
     const Vector3d a = in_ground(scene, ligament.ends[0], pose.X_BA),
                    b = in_ground(scene, ligament.ends[1], pose.X_BA);
     const double length = wraps ? course_of(scene, pose, i).length : (a - b).norm();
-    const double rounding = round_off(a, b);
+    const double rounding = round_off(ligament, pose.X_BA);
     ledger.note(Check::kLength, std::abs(stored.length - length), element, "",
                 1e-9 + 10 * rounding);
     const double slack = slack_of(ligament.law);

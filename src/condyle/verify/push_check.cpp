@@ -198,7 +198,10 @@ void PushCheck::check(const PoseResult& pose, Ledger& ledger) const {
   for (double size = kPush; size >= kLeastPush && worst > ledger.allowed(Check::kStability);
        size /= 10) {
     const double found = lowers(pose, lines, size);
-    if (std::isnan(found)) return not_tried(ledger);
+    if (std::isnan(found)) {
+      if (std::isinf(worst)) return not_tried(ledger);
+      break;
+    }
     worst = std::min(worst, found);
   }
   ledger.note(
