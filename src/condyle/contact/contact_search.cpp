@@ -269,7 +269,6 @@ void ContactSearch::add_rim(int sample,
   minimum.point_B = B.c;
   minimum.n = B.n;
   minimum.gap = rim->gap;
-  minimum.cosine = B.n.dot(X_BA.R * pair.on_A.evaluate_frame(minimum.places.on_A).n);
   minima.push_back(minimum);
 }
 

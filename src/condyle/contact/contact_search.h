@@ -87,7 +87,7 @@ class ContactSearch {
                     std::vector<GapMinimum>& minima,
                     double merge = 0.3);
 
-  /// Points of the surfaces that it looked at since it was made or copied, refinements as some.
+  /// Points of the surfaces that it looked at since it was made or copied, and what else takes the time of one.
   [[nodiscard]] long looked_at() const { return looked_at_; }
 
   /// False for a pair of surfaces without bounds: nothing can be searched there.

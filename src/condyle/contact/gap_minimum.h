@@ -13,14 +13,16 @@ struct GapMinimum {
   Eigen::Vector3d point_B, n;  ///< point and normal on B, ground frame
   bool refined = false;  ///< normals parallel, an isolated minimum (relative curvature positive)
   double edge = 0;       ///< smaller of the two edge distances [mm]
-  double cosine = -1;    ///< between both normals; above 0 the surfaces do not face each other there
+  /// Between both normals, above 0 where the surfaces do not face each other; of places at a rim not told.
+  double cosine = -1;
 };
 
 /// What is told of two places linearised at a pose; nothing is said of whether they are a minimum.
 [[nodiscard]] inline GapMinimum minimum_at(const SurfacePair& surfaces,
                                            const ContactPlaces& places,
                                            const ContactLinearization& at) {
-  return {places, at.gap(), at.B.c, at.B.n, false, edge_distance(surfaces, places), at.B.n.dot(at.m)};
+  return {places,          at.gap(), at.B.c, at.B.n, false, edge_distance(surfaces, places),
+          at.B.n.dot(at.m)};
 }
 
 }  // namespace condyle

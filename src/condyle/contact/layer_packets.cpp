@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "condyle/math/simd.h"
 #include "condyle/math/simd_sqrt.h"
@@ -202,7 +203,6 @@ LayerPackets::LayerPackets(const LayerLattice& points, const LayerClosestPoints&
       bound.radius = std::max(bound.radius, (point_of(packet.x, k) - bound.center).norm());
     bounds_.push_back(bound);
   }
-  looked_at_ = kMade * static_cast<long>(packets_.size());
   pressed_.reserve(packets_.size());
   candidates_.reserve(packets_.size());
   for (const Vector3d& x : points.x) center_ += x / static_cast<double>(points.x.size());
@@ -212,6 +212,7 @@ LayerPackets::LayerPackets(const LayerLattice& points, const LayerClosestPoints&
 void LayerPackets::reset() {
   for (BlockPacket& blocks : blocks_) blocks.closest = {};
   for (LayerPacket& packet : packets_) packet.closest = {};
+  is_charged_ = false;
   for (Bound& bound : bounds_) bound.known = false;
   X_ = {};
   turned_ = 0;
@@ -241,6 +242,7 @@ unsigned LayerPackets::near(BlockPacket& blocks, const RigidTransform& X, double
 /// says true.
 template <typename Each>
 bool LayerPackets::any_near(const RigidTransform& X, double margin, const Each& each) {
+  if (!std::exchange(is_charged_, true)) looked_at_ += kMade * static_cast<long>(packets_.size());
   for (BlockPacket& blocks : blocks_) {
     const unsigned found = near(blocks, X, margin);
     for (int k = 0; k < 4; ++k) {

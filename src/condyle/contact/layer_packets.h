@@ -59,7 +59,8 @@ class LayerPackets {
   [[nodiscard]] std::size_t size() const { return pressed_.size(); }
   [[nodiscard]] const LayerPacket& operator[](std::size_t i) const { return packets_[pressed_[i]]; }
   [[nodiscard]] std::size_t points() const { return points_pressed_; }
-  /// Since it was made, about: ContactPotential::looked_at.
+  /// ContactPotential::looked_at. What making it takes counts at its first use, and so after each reset:
+  /// a number that does not tell what was asked before.
   [[nodiscard]] long looked_at() const { return looked_at_; }
 
  private:
@@ -104,6 +105,7 @@ class LayerPackets {
   std::vector<std::uint32_t> pressed_;  ///< packets, at X_; with room for all
   std::size_t points_pressed_ = 0;
   long looked_at_ = 0;
+  bool is_charged_ = false;                ///< with what making it takes
   std::vector<std::uint32_t> candidates_;  ///< packets that may be pressed near X_candidates_
   RigidTransform X_candidates_;
   bool has_candidates_ = false;

@@ -21,7 +21,7 @@ constexpr double kBetween = 1.3;   // what lies between neighbours, beyond what 
 constexpr double kNeighbours = 3;  // how far these are looked for, in spacings
 constexpr double kLost = 2.5;      // beside a sample farther than this, in spacings: beyond
 constexpr double kWithin = 0.7;    // of the radius of a cell: well within
-constexpr long kAmongAll = 7;   // points that a search among all samples takes the time of, about
+constexpr long kAmongAll = 7;    // points that a search among all samples takes the time of, about
 constexpr double kAtEdge = 1.5;  // nearer to an edge than this a sample stands for all up to it
 
 }  // namespace
