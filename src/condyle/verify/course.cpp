@@ -86,7 +86,8 @@ bool passed_over(const LigamentDescription& ligament,
 Deepest runs_into(const WrapAt& wrap, const Vector3d& from, const Vector3d& to) {
   constexpr double kFewest = 200, kMost = 2000, kStep = 0.25;  // of the least radius
   const double wanted = (to - from).norm() / (kStep * least_radius(wrap.wrap->shape));
-  const int places = static_cast<int>(std::ceil(std::clamp(wanted, kFewest, kMost)));
+  // What is no number comes to the fewest.
+  const int places = static_cast<int>(std::ceil(std::min(kMost, std::max(kFewest, wanted))));
   const auto depth_at = [&](double k) {
     const Vector3d x = from + (to - from) * k / places;
     const Field field = field_at(wrap.wrap->shape, wrap.larger, wrap.own(x));
