@@ -117,7 +117,7 @@ PieceRate rate_of_pull(const PathChain& chain,
     if (!link.starts_here) add(rate_of_piece(last, P, motion), sum);
     last = Q;
   }
-  if (!chain.links[chain.n - 1].ends_here)
+  if (chain.n == 0 || !chain.links[chain.n - 1].ends_here)
     add(rate_of_piece(last, end_of(chain, motion), motion), sum);
   return sum;
 }
