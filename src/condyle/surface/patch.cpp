@@ -203,10 +203,10 @@ void horner(const double* c, int m, double x, double* f, double* df, double* d2f
 
 /// Of what is no number the first: the numbers of the point are none either.
 int Patch::find_span(const Direction& direction, double t) {
-  if (std::isnan(t)) return 0;
-  if (direction.inverse_step > 0)
-    return std::min(static_cast<int>((t - direction.min) * direction.inverse_step),
-                    direction.spans - 1);
+  if (direction.inverse_step > 0) {
+    const double way = std::max(0.0, (t - direction.min) * direction.inverse_step);
+    return static_cast<int>(std::min(way, direction.spans - 1.0));
+  }
   const auto above = std::upper_bound(direction.breaks.begin() + 1, direction.breaks.end() - 1, t);
   return static_cast<int>(above - direction.breaks.begin()) - 1;
 }
@@ -345,8 +345,9 @@ double Patch::edge_distance(const Place& at) const {
   if (data_.mask.empty()) return outside > 0 ? -outside : inside;
   const double s = (u - u_.min) / (u_.max - u_.min) * data_.mask_nu;
   const double t = (v - v_.min) / (v_.max - v_.min) * data_.mask_nv;
-  const int i = std::clamp(static_cast<int>(s), 0, data_.mask_nu - 1);
-  const int j = std::clamp(static_cast<int>(t), 0, data_.mask_nv - 1);
+  // In this order: what is no number becomes 0.
+  const int i = static_cast<int>(std::min(data_.mask_nu - 1.0, std::max(0.0, s)));
+  const int j = static_cast<int>(std::min(data_.mask_nv - 1.0, std::max(0.0, t)));
   const double a = s - i, b = t - j;
   const double* m = &data_.mask[static_cast<std::size_t>(i) * (data_.mask_nv + 1) + j];
   const double* m_next = m + data_.mask_nv + 1;

@@ -194,10 +194,11 @@ PatchCells::PatchCells(const Patch& patch) : patch_(patch) {
 }
 
 inline int PatchCells::span(const Direction& direction, double t) {
-  if (std::isnan(t)) return 0;
   const int spans = static_cast<int>(direction.breaks.size()) - 1;
-  if (direction.inverse_step > 0) [[likely]]
-    return std::min(static_cast<int>((t - direction.min) * direction.inverse_step), spans - 1);
+  if (direction.inverse_step > 0) [[likely]] {
+    const double way = std::max(0.0, (t - direction.min) * direction.inverse_step);
+    return static_cast<int>(std::min(way, spans - 1.0));
+  }
   const auto above = std::upper_bound(direction.breaks.begin() + 1, direction.breaks.end() - 1, t);
   return static_cast<int>(above - direction.breaks.begin()) - 1;
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "condyle/verify/coordinates.h"
+#include "condyle/verify/parts.h"
 #include "condyle/verify/wrap_field.h"
 
 namespace condyle::verification {
@@ -84,10 +85,10 @@ bool passed_over(const LigamentDescription& ligament,
 }
 
 Deepest runs_into(const WrapAt& wrap, const Vector3d& from, const Vector3d& to) {
-  constexpr double kFewest = 200, kMost = 2000, kStep = 0.25;  // of the least radius
+  constexpr int kFewest = 200, kMost = 2000;
+  constexpr double kStep = 0.25;  // of the least radius
   const double wanted = (to - from).norm() / (kStep * least_radius(wrap.wrap->shape));
-  // What is no number comes to the fewest.
-  const int places = static_cast<int>(std::ceil(std::min(kMost, std::max(kFewest, wanted))));
+  const int places = parts_of(wanted, kFewest, kMost);
   const auto depth_at = [&](double k) {
     const Vector3d x = from + (to - from) * k / places;
     const Field field = field_at(wrap.wrap->shape, wrap.larger, wrap.own(x));

@@ -6,6 +6,7 @@
 
 #include "condyle/input_error.h"
 #include "condyle/results/run_view.h"
+#include "condyle/verify/parts.h"
 #include "condyle/verify/side.h"
 
 namespace condyle::verification {
@@ -17,7 +18,7 @@ constexpr double kForEver = std::numeric_limits<double>::infinity();
 
 /// A surface has few cells to begin with; the search divides those that need it.
 int parts(double length, double size, int least, int most) {
-  return std::clamp(static_cast<int>(std::ceil(length / size)), least, most);
+  return parts_of(length / size, least, most);
 }
 
 void add_cells(int chart, Cell box, int nu, int nv, std::vector<Cell>& cells) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "condyle/verify/parts.h"
+
 namespace condyle::verification {
 namespace {
 
@@ -83,8 +85,8 @@ double mask_distance(const PatchData& patch, double u, double v) {
     return std::min(std::min(u - box.u0, box.u1 - u), std::min(v - box.v0, box.v1 - v));
   const double s = std::clamp((u - box.u0) / (box.u1 - box.u0), 0.0, 1.0) * patch.mask_nu;
   const double t = std::clamp((v - box.v0) / (box.v1 - box.v0), 0.0, 1.0) * patch.mask_nv;
-  const int i = std::min(static_cast<int>(s), patch.mask_nu - 1),
-            j = std::min(static_cast<int>(t), patch.mask_nv - 1);
+  const int i = parts_of(std::floor(s), 0, patch.mask_nu - 1),
+            j = parts_of(std::floor(t), 0, patch.mask_nv - 1);
   const auto corner = [&](int a, int b) {
     return patch.mask[static_cast<std::size_t>((i + a) * (patch.mask_nv + 1) + j + b)];
   };

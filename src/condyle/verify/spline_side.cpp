@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "condyle/verify/nearest_point.h"
+#include "condyle/verify/parts.h"
 #include "condyle/verify/side.h"
 #include "condyle/verify/spline.h"
 
@@ -20,7 +21,7 @@ std::vector<double> divided(const std::vector<double>& knots, double a, double b
   for (const double knot : knots) {
     const double from = values.back(), to = std::min(knot, b);
     if (to <= from) continue;
-    const int parts = std::max(1, static_cast<int>(std::ceil((to - from) / step)));
+    const int parts = parts_of((to - from) / step, 1, 1000);
     for (int i = 1; i <= parts; ++i) values.push_back(from + (to - from) * i / parts);
   }
   return values;

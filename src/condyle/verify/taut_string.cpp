@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/verify/parts.h"
 #include "condyle/verify/wrap_field.h"
 
 namespace condyle::verification {
@@ -230,9 +231,7 @@ std::vector<RigidTransform> TautString::way_to(const RigidTransform& X_BA) const
   for (const WrapAt& wrap : from.wraps) least = std::min(least, least_radius(wrap.wrap->shape));
   const double moved =
       (X_BA * end - from.last.x).norm() + turn.angle() * (from.last.x - from.first.x).norm();
-  // What is no number comes to the fewest.
-  const double wanted = std::ceil(moved / (kStep * least));
-  const int steps = static_cast<int>(std::min(double{kMost}, std::max(double{kFewest}, wanted)));
+  const int steps = parts_of(moved / (kStep * least), kFewest, kMost);
   std::vector<RigidTransform> way;
   for (int step = 1; step < steps; ++step) {
     const double part = static_cast<double>(step) / steps;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/verify/parts.h"
+
 namespace condyle::verification {
 namespace {
 
@@ -96,8 +98,7 @@ Vector3d closest_on(const WrapShape& shape, double larger, const Vector3d& x) {
 /// least radius.
 void follow_geodesic(
     const WrapShape& shape, double larger, double length, Vector3d& x, Vector3d& t) {
-  const int steps =
-      std::clamp(static_cast<int>(100 * std::abs(length) / least_radius(shape)), 200, 20000);
+  const int steps = parts_of(100 * std::abs(length) / least_radius(shape), 200, 20000);
   const double h = length / steps;
   const auto bend = [&](const Vector3d& at, const Vector3d& along) {
     const Field field = field_at(shape, larger, at);
