@@ -35,7 +35,7 @@ int most_pulling(const Linearization& at) {
 /// interpenetrate beside it; -1 where none is.
 int off_minimum(const Linearization& at, bool opens) {
   for (std::size_t k = 0; k < at.contacts().size(); ++k)
-    if (may_open(at, k) == opens && at.contacts()[k].relative_curvature[0] < -kFlat)
+    if (at.contacts()[k].relative_curvature[0] < -kFlat && may_open(at, k) == opens)
       return static_cast<int>(k);
   return -1;
 }
@@ -115,6 +115,7 @@ const ContactChanges& ContactRules::changes(const Linearization& at) {
   const int off = off_minimum(at, true);
   changes_.off_minimum = off >= 0;
   changes_.gives_way = -1;
+  changes_.let_go = false;
   changes_.opens = most_pulling(at);
   if (changes_.opens >= 0) return changes_;
   find_overlaps(at);
@@ -149,6 +150,7 @@ void ContactRules::find_overlaps(const Linearization& at) {
     if (model_.pairs[p].mode == ContactMode::kOpen) continue;
     const int pair = static_cast<int>(p);
     set_known(pair, at);
+    changes_.let_go |= model_.pairs[p].mode == ContactMode::kClosed && known_.empty();
     searches_[p].find(state.X, 0.0, minima_, kMerge * model_.length, known_);
     ++changes_.searches;
     for (const GapMinimum& minimum : minima_) {

@@ -117,8 +117,8 @@ std::string nearly_conforming(const ContactPair& pair,
       quoted(pair.name), least, kDeviation, std::sqrt(2 * kDeviation / least));
 }
 
-/// The nearest place of an open contact; one that is nowhere, or buried, lowers the status. One with
-/// a law of its own that touches there is closed, and carries nothing yet.
+/// The nearest place of an open contact; one that is nowhere, or buried, or that should be held closed, lowers the
+/// status. One with a law of its own that touches there is closed, and carries nothing yet.
 void describe_open(const ContactPair& pair,
                    const EquilibriumState& state,
                    ContactSearch& search,
@@ -128,7 +128,7 @@ void describe_open(const ContactPair& pair,
                    ContactResult& contact,
                    PoseResult& result) {
   const OpenPair lies = look_at_open_pair(pair, search, state.X, L, minima);
-  const bool watched = pair.mode == ContactMode::kAuto || pair.law;
+  const bool watched = pair.mode != ContactMode::kOpen || pair.law;
   if (lies == OpenPair::kApart) {
     if (!watched || !search.has_samples()) return;
     result.status = PoseStatus::kLeftPatch;
@@ -139,6 +139,9 @@ void describe_open(const ContactPair& pair,
   if (watched && lies == OpenPair::kBuried) {
     result.status = PoseStatus::kOverlap;
     result.reason = "contact \"" + pair.name + "\": one body is buried in the other";
+  } else if (pair.mode == ContactMode::kClosed) {
+    set_status(result, {PoseStatus::kNoEquilibrium,
+                        "contact \"" + pair.name + "\" is to be held closed, and touches nowhere"});
   }
   const ContactLinearization at = linearize_contact(pair, lowest.places, state.X);
   set_nearest_point(describe_point(at, 0, lowest.edge), contact);
