@@ -23,9 +23,10 @@ struct ContactChanges {
   bool too_many = false;  ///< more overlaps than there may be constraints
   /// A contact lies where the solids interpenetrate beside it: no minimum of the gap.
   bool off_minimum = false;
-  int gives_way = -1;   ///< that contact, to overlaps of its pair
-  bool let_go = false;  ///< a pair that is held closed has no contact
-  int searches = 0;     ///< that this took
+  int gives_way = -1;  ///< that contact, to overlaps of its pair
+  bool let_go =
+      false;  ///< a pair that is held closed has no contact; told where overlaps are looked for
+  int searches = 0;  ///< that this took
 
   [[nodiscard]] bool any() const { return opens >= 0 || !closes.empty(); }
   /// Does the state agree with unilateral contact as it is?

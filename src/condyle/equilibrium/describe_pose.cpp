@@ -131,14 +131,14 @@ void describe_open(const ContactPair& pair,
   const bool watched = pair.mode != ContactMode::kOpen || pair.law;
   if (lies == OpenPair::kApart) {
     if (!watched || !search.has_samples()) return;
-    result.status = PoseStatus::kLeftPatch;
-    result.reason = "contact \"" + pair.name + "\": no known parts of its surfaces face each other";
-    return;
+    return set_status(
+        result, {PoseStatus::kLeftPatch,
+                 "contact \"" + pair.name + "\": no known parts of its surfaces face each other"});
   }
   const GapMinimum& lowest = minima.front();
   if (watched && lies == OpenPair::kBuried) {
-    result.status = PoseStatus::kOverlap;
-    result.reason = "contact \"" + pair.name + "\": one body is buried in the other";
+    set_status(result, {PoseStatus::kOverlap,
+                        "contact \"" + pair.name + "\": one body is buried in the other"});
   } else if (pair.mode == ContactMode::kClosed) {
     set_status(result, {PoseStatus::kNoEquilibrium,
                         "contact \"" + pair.name + "\" is to be held closed, and touches nowhere"});

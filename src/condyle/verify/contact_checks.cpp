@@ -186,12 +186,13 @@ void check_contacts(const Subject& subject, const PoseResult& pose, Ledger& ledg
     if (scene.contacts[i].layer) continue;  // layer_checks.h
     const std::string element = fmt::format("contact \"{}\"", scene.contacts[i].name);
     const PairOfSides pair = pair_of(subject, i);
-    const bool pulls = scene.contacts[i].state != ContactState::kAuto && contact.points.size() == 1;
+    const bool may_pull =
+        scene.contacts[i].state != ContactState::kAuto && contact.points.size() == 1;
     double sum = 0;
     for (const ContactPointResult& point : contact.points) {
       sum += point.force;
       check_point(pair, scene, pose.X_BA, point, element, contact.closed, ledger);
-      if (!pulls)
+      if (!may_pull)
         ledger.note(
             Check::kPush, -point.force / scale, element,
             fmt::format("pulls with {:.6g} N at {} of {}", -point.force, place(point.point_ground),

@@ -101,9 +101,9 @@ Deepest runs_into(const WrapAt& wrap, const Vector3d& from, const Vector3d& to) 
   }
   // By thirds of what is left between its neighbours: a place in the surface may lie between two that are not.
   for (double reach = 1; reach > 1e-4; reach *= 2.0 / 3) {
-    for (const double k : {at - reach / 3, at + reach / 3}) {
-      const double here = depth_at(std::clamp(k, 0.0, static_cast<double>(places)));
-      if (here > depth) depth = here, at = std::clamp(k, 0.0, static_cast<double>(places));
+    for (const double beside : {at - reach / 3, at + reach / 3}) {
+      const double k = std::clamp(beside, 0.0, static_cast<double>(places)), here = depth_at(k);
+      if (here > depth) depth = here, at = k;
     }
   }
   if (!(depth > 0)) return {0, from};

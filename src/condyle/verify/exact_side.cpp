@@ -17,10 +17,6 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kForEver = std::numeric_limits<double>::infinity();
 
 /// A surface has few cells to begin with; the search divides those that need it.
-int parts(double length, double size, int least, int most) {
-  return parts_of(length / size, least, most);
-}
-
 void add_cells(int chart, Cell box, int nu, int nv, std::vector<Cell>& cells) {
   const double du = (box.u1 - box.u0) / nu, dv = (box.v1 - box.v0) / nv;
   for (int i = 0; i < nu; ++i)
@@ -36,7 +32,7 @@ class EllipsoidSide final : public SurfaceSide {
       : center_(center), axes_(axes), radii_(radii), sign_(inside ? 1 : -1) {}
 
   [[nodiscard]] std::vector<Cell> cells(double size) const override {
-    const int n = parts(2 * radii_.maxCoeff(), size, 4, 24);
+    const int n = parts_of(2 * radii_.maxCoeff() / size, 4, 24);
     std::vector<Cell> cells;
     for (int face = 0; face < 6; ++face) add_cells(face, {face, -1, 1, -1, 1}, n, n, cells);
     return cells;
@@ -116,7 +112,7 @@ class PlaneSide final : public SurfaceSide {
   [[nodiscard]] std::vector<Cell> cells(double size) const override {
     std::vector<Cell> cells;
     if (std::isinf(radius_)) return cells;
-    const int n = parts(2 * radius_, size, 4, 48);
+    const int n = parts_of(2 * radius_ / size, 4, 48);
     add_cells(0, {0, -radius_, radius_, -radius_, radius_}, n, n, cells);
     return cells;
   }
@@ -153,8 +149,8 @@ class CylinderSide final : public SurfaceSide {
   [[nodiscard]] std::vector<Cell> cells(double size) const override {
     std::vector<Cell> cells;
     if (std::isinf(length_)) return cells;
-    add_cells(0, {0, -kPi, kPi, -length_ / 2, length_ / 2}, parts(2 * kPi * radius_, size, 12, 96),
-              parts(length_, size, 2, 48), cells);
+    add_cells(0, {0, -kPi, kPi, -length_ / 2, length_ / 2},
+              parts_of(2 * kPi * radius_ / size, 12, 96), parts_of(length_ / size, 2, 48), cells);
     return cells;
   }
   [[nodiscard]] ChartPoint at(int, double u, double v) const override {
@@ -193,8 +189,8 @@ class TorusSide final : public SurfaceSide {
         sign_(inside ? 1 : -1) {}
   [[nodiscard]] std::vector<Cell> cells(double size) const override {
     std::vector<Cell> cells;
-    add_cells(0, {0, -kPi, kPi, -kPi, kPi}, parts(2 * kPi * (major_ + minor_), size, 12, 96),
-              parts(2 * kPi * minor_, size, 12, 48), cells);
+    add_cells(0, {0, -kPi, kPi, -kPi, kPi}, parts_of(2 * kPi * (major_ + minor_) / size, 12, 96),
+              parts_of(2 * kPi * minor_ / size, 12, 48), cells);
     return cells;
   }
   [[nodiscard]] ChartPoint at(int, double u, double v) const override {
@@ -239,7 +235,7 @@ class HeightSide final : public SurfaceSide {
   [[nodiscard]] std::vector<Cell> cells(double size) const override {
     std::vector<Cell> cells;
     if (std::isinf(radius_)) return cells;
-    const int n = parts(2 * radius_, size, 8, 64);
+    const int n = parts_of(2 * radius_ / size, 8, 64);
     add_cells(0, {0, -radius_, radius_, -radius_, radius_}, n, n, cells);
     return cells;
   }

@@ -198,12 +198,10 @@ void PushCheck::check(const PoseResult& pose, Ledger& ledger) const {
   for (double size = kPush; size >= kLeastPush && worst > ledger.allowed(Check::kStability);
        size /= 10) {
     const double found = lowers(pose, lines, size);
-    if (std::isnan(found)) {
-      if (std::isinf(worst)) return not_tried(ledger);
-      break;
-    }
+    if (std::isnan(found)) break;
     worst = std::min(worst, found);
   }
+  if (std::isinf(worst)) return not_tried(ledger);
   ledger.note(
       Check::kStability, worst, "",
       fmt::format("is called stable, but a small push lowers the energy by {:.3g} N/mm", worst));
