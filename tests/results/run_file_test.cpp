@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <limits>
 
 #include "condyle/input_error.h"
 #include "condyle/results/hdf5_file.h"
@@ -141,6 +142,28 @@ TEST_F(RunFile, GivesBackPatchesMeshesAndScene) {
   EXPECT_EQ(back.bodies[0].mesh.vertices, run.bodies[0].mesh.vertices);
   EXPECT_EQ(back.bodies[0].mesh.triangles, run.bodies[0].mesh.triangles);
   EXPECT_TRUE(back.bodies[1].mesh.vertices.empty());
+}
+
+// What no patch can be evaluated with: each by itself, in a run that is right otherwise.
+TEST_F(RunFile, WithADamagedPatchIsRefused) {
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+  const auto refused = [&](const char* what, void (*damage)(PatchData&, double), double with) {
+    condyle::Run run = made_up_run();
+    damage(run.patches[0].data, with);
+    write_run(path_, run);
+    EXPECT_NE(message().find(what), std::string::npos) << message();
+  };
+  const auto knot_u = [](PatchData& patch, double x) { patch.knots_u[4] = x; };
+  for (const double x : {nan, infinity, 3.0, 2.5}) refused("dataset knots_u holds", knot_u, x);
+  refused("dataset knots_v holds", [](PatchData& patch, double x) { patch.knots_v[0] = x; }, 1.5);
+  const auto point = [](PatchData& patch, double x) { patch.control_points[7].y() = x; };
+  for (const double x : {nan, infinity}) refused("dataset control_points holds", point, x);
+  const auto mask = [](PatchData& patch, double x) { patch.mask[3] = x; };
+  for (const double x : {nan, infinity}) refused("dataset mask is", mask, x);
+  const auto orientation = [](PatchData& patch, double x) {
+    patch.orientation = static_cast<int>(x);
+  };
+  refused("dataset orientation is", orientation, 0);
 }
 
 // A pose beyond the edge of a patch is an equilibrium on the extrapolated surface: all of it is

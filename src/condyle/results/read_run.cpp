@@ -11,7 +11,9 @@
 #include "condyle/results/format_number.h"
 #include "condyle/results/hdf5_file.h"
 #include "condyle/results/layer_group.h"
+#include "condyle/results/patch_group.h"
 #include "condyle/results/path_group.h"
+#include "condyle/results/points_dataset.h"
 #include "condyle/results/rehearsal.h"
 #include "condyle/results/run_columns.h"
 #include "condyle/results/run_layout.h"
@@ -24,7 +26,6 @@
 #include "condyle/results/wrap_group.h"
 #include "condyle/scene/ligament_path.h"
 #include "condyle/scene_file/read_scene.h"
-#include "condyle/surface/bspline_basis.h"
 
 namespace condyle {
 namespace {
@@ -219,68 +220,6 @@ void read_events(const Hdf5Group& group, const Unit& unit, Run& run) {
         {values[i] * unit.factor, static_cast<EventKind>(kinds[i]), contacts[i]});
   }
   if (group.has("wrap")) read_touch_events(group, run);
-}
-
-std::vector<Eigen::Vector3d> read_points(const Hdf5Group& group, const char* name, Shape& shape) {
-  const Hdf5Array array = group.read(name);
-  shape = array.shape;
-  if (shape.empty() || shape.back() != 3)
-    group.fail(fmt::format("dataset {} does not hold points", name));
-  std::vector<Eigen::Vector3d> points(array.values.size() / 3);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    points[i] = Eigen::Map<const Eigen::Vector3d>(&array.values[3 * i]);
-  return points;
-}
-
-FitReport read_fit(const Hdf5Group& patch, const std::string& surface, const PatchData& data) {
-  FitReport report;
-  report.surface = surface;
-  report.control_points = {data.nu, data.nv};
-  report.rms = patch.read("rms_mm", {})[0];
-  report.max = patch.read("max_mm", {})[0];
-  const Hdf5Group fit = patch.open("fit");
-  for (const auto& column : kFitColumns)
-    report.*column.member = fit.read(column.name, {})[0] * column.unit;
-  report.mesh_vertices = fit.read_integers("mesh_vertices", {})[0];
-  const std::vector<double> range = fit.read("curvature_range", {2});
-  report.curvature_range = {range[0], range[1]};
-  const std::vector<double> extent = fit.read("extent", {2}), turn = fit.read("turn", {2});
-  report.extent = {extent[0], extent[1]};
-  report.turn = {kDegree * turn[0], kDegree * turn[1]};
-  report.notes = fit.read_texts("notes");
-  return report;
-}
-
-RunPatch read_patch(const Hdf5Group& group, const std::string& surface, const Scene& scene) {
-  RunPatch patch;
-  patch.surface = surface;
-  patch.body = body_named(scene, group.read_attribute("body"));
-  PatchData& data = patch.data;
-  const std::vector<int> degree = group.read_integers("degree", {2});
-  data.degree = {degree[0], degree[1]};
-  Shape net;
-  data.control_points = read_points(group, "control_points", net);
-  const bool sized = net.size() == 3 && std::min(degree[0], degree[1]) >= 1 &&
-                     std::max(degree[0], degree[1]) <= kMaxDegree &&
-                     net[0] > static_cast<std::size_t>(degree[0]) &&
-                     net[1] > static_cast<std::size_t>(degree[1]);
-  if (!sized || patch.body < 0) group.fail("is not a patch of this scene");
-  data.nu = static_cast<int>(net[0]);
-  data.nv = static_cast<int>(net[1]);
-  data.knots_u = group.read("knots_u", {net[0] + static_cast<std::size_t>(degree[0]) + 1});
-  data.knots_v = group.read("knots_v", {net[1] + static_cast<std::size_t>(degree[1]) + 1});
-  data.orientation = group.read_integers("orientation", {})[0];
-  Hdf5Array mask = group.read("mask");
-  const bool grid =
-      mask.shape.size() == 2 && (mask.values.empty() || std::min(mask.shape[0], mask.shape[1]) > 1);
-  if (!grid) group.fail("dataset mask is not a grid");
-  if (!mask.values.empty()) {
-    data.mask_nu = static_cast<int>(mask.shape[0]) - 1;
-    data.mask_nv = static_cast<int>(mask.shape[1]) - 1;
-  }
-  data.mask = std::move(mask.values);
-  patch.report = read_fit(group, surface, data);
-  return patch;
 }
 
 std::vector<InputFile> read_inputs(const Hdf5Group& group) {

@@ -7,6 +7,8 @@
 #include "condyle/results/comparison_groups.h"
 #include "condyle/results/hdf5_file.h"
 #include "condyle/results/output_file.h"
+#include "condyle/results/patch_group.h"
+#include "condyle/results/points_dataset.h"
 #include "condyle/results/run_columns.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/run_view.h"
@@ -74,47 +76,6 @@ void write_events(const Hdf5Group& group, const Run& run, const Unit& unit) {
   for (const WrapDescription& wrap : run.scene.wraps) wrap_names.push_back(wrap.name);
   group.write_attribute("ligament", "meaning", ligament_names);
   group.write_attribute("wrap", "meaning", wrap_names);
-}
-
-void write_fit(const Hdf5Group& patch, const FitReport& report) {
-  patch.write("rms_mm", std::vector<double>{report.rms}, {}, "mm");
-  patch.write("max_mm", std::vector<double>{report.max}, {}, "mm");
-  const Hdf5Group fit = patch.create("fit");
-  for (const auto& column : kFitColumns) {
-    fit.write(column.name, std::vector<double>{report.*column.member / column.unit}, {},
-              column.units);
-  }
-  fit.write("mesh_vertices", std::vector<int>{report.mesh_vertices}, {}, "1");
-  fit.write("curvature_range",
-            std::vector<double>(report.curvature_range.begin(), report.curvature_range.end()), {2},
-            "1/mm");
-  fit.write("extent", std::vector<double>(report.extent.begin(), report.extent.end()), {2}, "mm");
-  fit.write("turn", std::vector<double>{report.turn[0] / kDegree, report.turn[1] / kDegree}, {2},
-            "deg");
-  fit.write("notes", report.notes);
-}
-
-std::vector<double> coordinates(const std::vector<Eigen::Vector3d>& points) {
-  std::vector<double> out;
-  out.reserve(3 * points.size());
-  for (const Eigen::Vector3d& point : points) out.insert(out.end(), point.begin(), point.end());
-  return out;
-}
-
-void write_patch(const Hdf5Group& group, const RunPatch& patch, const Scene& scene) {
-  const PatchData& data = patch.data;
-  const auto size = [](int n) { return static_cast<std::size_t>(n); };
-  group.write_attribute("body", scene.bodies.at(size(patch.body)).name);
-  group.write("degree", std::vector<int>(data.degree.begin(), data.degree.end()), {2}, "1");
-  group.write("knots_u", data.knots_u, {data.knots_u.size()}, "mm");
-  group.write("knots_v", data.knots_v, {data.knots_v.size()}, "mm");
-  group.write("control_points", coordinates(data.control_points), {size(data.nu), size(data.nv), 3},
-              "mm");
-  group.write("orientation", std::vector<int>{data.orientation}, {}, "1");
-  const Shape mask =
-      data.mask.empty() ? Shape{0, 0} : Shape{size(data.mask_nu) + 1, size(data.mask_nv) + 1};
-  group.write("mask", data.mask, mask, "mm");
-  write_fit(group, patch.report);
 }
 
 void write_body(const Hdf5Group& group, const TriangleMesh& mesh) {
