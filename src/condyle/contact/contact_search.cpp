@@ -109,7 +109,9 @@ ContactSearch::ContactSearch(std::shared_ptr<const ContactCover> cover)
       deepest_(has_edge(other().surface()) ? deepest() : kInfinity),
       shells_(Bending::shells(spacing_, sampled().extent())),
       bending_B_(cover_->on_B, shells_),
-      bending_A_(cover_->on_A, shells_) {
+      bending_A_(cover_->on_A, shells_),
+      reach_B_(cover_->on_B),
+      reach_A_(cover_->on_A) {
   const auto n = static_cast<std::size_t>(sampled().size());
   closest_.resize(n);
   seen_.resize(n);
@@ -131,6 +133,8 @@ void ContactSearch::reset() {
   std::fill(cluster_closest_.begin(), cluster_closest_.end(), Closest());
   std::fill(split_.begin(), split_.end(), char{0});
   std::fill(near_contacts_.begin(), near_contacts_.end(), NearContact());
+  reach_B_.reset();
+  reach_A_.reset();
   division_ = Division();
   doubts_ = 0;
   now_ = 0;

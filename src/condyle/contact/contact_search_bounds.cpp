@@ -106,8 +106,8 @@ void ContactSearch::set_known(const std::vector<KnownContact>& known) {
     const KnownContact& contact = known[k];
     NearContact& near = near_contacts_[k];
     int on_B = near.on_B, on_A = near.on_A;
-    near.on_B = cover_->on_B.nearest(contact.on_B, on_B, looked_at_);
-    near.on_A = cover_->on_A.nearest(contact.on_A, on_A, looked_at_);
+    near.on_B = cover_->on_B.nearest(contact.on_B, on_B, reach_B_, looked_at_);
+    near.on_A = cover_->on_A.nearest(contact.on_A, on_A, reach_A_, looked_at_);
     near.doubt = kDoubt * (contact.K_B.norm() + contact.K_A.norm());
     near.shift =
         bending_B_.shift(near.on_B, contact.K_B) + bending_A_.shift(near.on_A, contact.K_A);
@@ -154,11 +154,19 @@ void ContactSearch::set_discs(const std::vector<KnownContact>& known) {
 }
 
 /// Tangent steps from the place that is known, or else from a seed, until the point closest to p is
-/// within `close` [mm].
+/// within `close` [mm]. What is no nearer than a sample may be a stationary point, but is not the closest one.
 void ContactSearch::find_closest(const Eigen::Vector3d& p, double close, Closest& closest) {
   const Surface& surface = other().surface();
-  double slide = kInfinity;
   looked_at_ += kFromNearby;
+  if (other().bends_evenly()) {
+    closest.place = surface.closest(p, closest.place);
+    closest.at = surface.evaluate(closest.place);
+    closest.known = closest.close = true;
+    return;
+  }
+  const double to_sample =
+      closest.near >= 0 ? (p - other().sample(closest.near).c).norm() + close : kInfinity;
+  double slide = kInfinity;
   for (int attempt = closest.known ? 0 : 1; attempt < 2 && slide > close; ++attempt) {
     if (attempt == 1) {
       closest.place = closest.near >= 0 ? other().place(closest.near) : surface.seed(p);
@@ -170,6 +178,7 @@ void ContactSearch::find_closest(const Eigen::Vector3d& p, double close, Closest
       closest.at = surface.evaluate(closest.place);
       slide = off_normal(p - closest.at.c, closest.at.n).norm();
     }
+    if ((p - closest.at.c).norm() > to_sample) slide = kInfinity;
   }
   closest.known = true;
   closest.close = slide <= close;
@@ -179,11 +188,13 @@ void ContactSearch::find_closest(const Eigen::Vector3d& p, double close, Closest
   closest.at = surface.evaluate(closest.place);
 }
 
-/// Where a surface bends evenly, a quadric of an earlier pose serves as well, not far beside.
+/// Where a surface bends evenly, a quadric of an earlier pose serves as well, not far beside, and on this side of
+/// the centre.
 bool ContactSearch::is_beside(const Eigen::Vector3d& p, double r, const Closest& closest) const {
   if (!closest.close || !other().bends_evenly()) return false;
   const double reach = kBeside * r;
-  return off_normal(p - closest.at.c, closest.at.n).squaredNorm() < reach * reach;
+  const Facing facing = over_quadric(closest.at, p);
+  return facing.beside.squaredNorm() < reach * reach && facing.along * closest.at.K.trace() < 1;
 }
 
 /// Point p over the quadric at its closest point.
@@ -264,7 +275,7 @@ bool ContactSearch::is_clear(int index, const RigidTransform& X_from_to, double 
     const Eigen::Vector3d p = X_from_to * cluster.center;
     if (closest.from < 0 && cluster.parent >= 0)
       closest.from = cluster_closest_[static_cast<std::size_t>(cluster.parent)].from;
-    closest.near = other().nearest(p, closest.from, looked_at_);
+    closest.near = other().nearest(p, closest.from, reach_of_other(), looked_at_);
     if (closest.near >= 0) return is_clear_of_sample(cluster, p, cutoff, closest.near);
   }
   return is_clear_of_closest(bending_sampled().quadrics().of(index).cell, X_from_to, cutoff,
@@ -321,7 +332,7 @@ void ContactSearch::estimate(int sample,
   Facing facing;
   if (!other().bends_evenly() && other().size() > 0) {
     there.from = other().nearer(p, near, there.from);
-    there.near = other().nearest(p, there.from, looked_at_);
+    there.near = other().nearest(p, there.from, reach_of_other(), looked_at_);
     near = there.from;
     if (there.near < 0) return;  // beyond the edge of the other surface
     facing = facing_cell(other(), p, there.near);

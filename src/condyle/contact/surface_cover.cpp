@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "condyle/contact/curvature_tensor.h"
+#include "condyle/contact/medial_reach.h"
 #include "condyle/contact/neighbour_grid.h"
 #include "condyle/math/simd.h"
 
@@ -21,8 +22,10 @@ constexpr double kBetween = 1.3;   // what lies between neighbours, beyond what 
 constexpr double kNeighbours = 3;  // how far these are looked for, in spacings
 constexpr double kLost = 2.5;      // beside a sample farther than this, in spacings: beyond
 constexpr double kWithin = 0.7;    // of the radius of a cell: well within
-constexpr long kAmongAll = 7;    // points that a search among all samples takes the time of, about
-constexpr double kAtEdge = 1.5;  // nearer to an edge than this a sample stands for all up to it
+constexpr double kNearer = 0.95;   // of a distance: on another sheet of the surface
+constexpr long kSearch = 2;  // points that a search among all samples takes the time of, about,
+constexpr long kLeavesOfAPoint = 2;  // and by how many it looks into
+constexpr double kAtEdge = 1.5;      // nearer to an edge than this a sample stands for all up to it
 
 }  // namespace
 
@@ -131,14 +134,18 @@ int SurfaceCover::build(int first, int last, int parent) {
 struct SurfaceCover::Candidate {
   int sample = -1;
   double square = kInfinity;  // of its distance [mm²]
+  long leaves = 0;            // looked at
 };
 
 void SurfaceCover::find_nearest(int index, const Eigen::Vector3d& point, Candidate& nearest) const {
   const Cluster& cluster = clusters_[at(index)];
   if (cluster.child[0] < 0) {
+    ++nearest.leaves;
     for (int k = cluster.first; k < cluster.last; ++k) {
       const double square = (points_[at(k)] - point).squaredNorm();
-      if (square < nearest.square) nearest = {in_order(k), square};
+      if (square >= nearest.square) continue;
+      nearest.sample = in_order(k);
+      nearest.square = square;
     }
     return;
   }
@@ -152,18 +159,34 @@ void SurfaceCover::find_nearest(int index, const Eigen::Vector3d& point, Candida
     if (way < 0 || way * way < nearest.square) find_nearest(child, point, nearest);
 }
 
+int SurfaceCover::nearest_within(const Eigen::Vector3d& point,
+                                 double radius,
+                                 long& looked_at) const {
+  Candidate nearest{-1, radius * radius};
+  if (!cells_.empty()) find_nearest(0, point, nearest);
+  looked_at += kSearch + nearest.leaves / kLeavesOfAPoint;
+  return nearest.sample;
+}
+
 CONDYLE_FMA_CLONE
-int SurfaceCover::nearest(const Eigen::Vector3d& point, int& from, long& looked_at) const {
+int SurfaceCover::nearest(const Eigen::Vector3d& point,
+                          int& from,
+                          MedialReach& reach,
+                          long& looked_at) const {
   if (cells_.empty()) return -1;
   const auto beside = [&](int i) {
     return off_normal(point - sample(i).c, sample(i).n).squaredNorm();
   };
   const auto near = [&](int i) { return beside(i) < kLost * kLost * spacing_ * spacing_; };
+  const auto holds = [&](int i) {
+    return reach.holds(i, (point - sample(i).c).dot(sample(i).n), looked_at);
+  };
   Candidate nearest;
   if (from >= 0) {
     const double within = kWithin * cell_radius(from);
-    if (beside(from) < within * within) return from;
-    auto& [best, square] = nearest;
+    if (beside(from) < within * within && holds(from)) return from;
+    int& best = nearest.sample;
+    double& square = nearest.square;
     best = from;
     square = (sample(best).c - point).squaredNorm();
     for (bool moved = true; moved;) {
@@ -178,10 +201,11 @@ int SurfaceCover::nearest(const Eigen::Vector3d& point, int& from, long& looked_
         break;
       }
     }
-    if (near(best)) return from = best;
+    if (near(best) && holds(best)) return from = best;
   }
-  looked_at += kAmongAll;
+  nearest.square *= kNearer * kNearer;
   find_nearest(0, point, nearest);
+  looked_at += kSearch + nearest.leaves / kLeavesOfAPoint;
   from = nearest.sample;
   return near(from) ? from : -1;
 }

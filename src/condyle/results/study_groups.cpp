@@ -1,5 +1,7 @@
 #include "condyle/results/study_groups.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "condyle/contact/pose_status.h"
@@ -58,7 +60,9 @@ std::vector<std::string> meanings_of_status() {
 }
 
 long count_in(const Hdf5Group& group, const char* name) {
-  return static_cast<long>(group.read(name, {1}).front());
+  const int count = group.read_integers(name, {1}).front();
+  if (count < 0) group.fail(fmt::format("dataset {} counts less than none", name));
+  return count;
 }
 
 }  // namespace
