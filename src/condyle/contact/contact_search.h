@@ -12,6 +12,7 @@
 /// the gap (gap_paraboloid.h), are refined by Newton on the contact conditions at a fixed pose. No
 /// pose is trusted that this search has not seen.
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -19,6 +20,7 @@
 
 #include "condyle/contact/bending.h"
 #include "condyle/contact/contact_pair.h"
+#include "condyle/contact/contact_scales.h"
 #include "condyle/contact/gap_minimum.h"
 #include "condyle/contact/medial_reach.h"
 #include "condyle/math/rigid_transform.h"
@@ -67,6 +69,10 @@ class ContactSearch {
 
   /// What lies deeper behind a surface with an edge is taken for no overlap [mm].
   [[nodiscard]] double deepest() const { return kDeepest * spacing_; }
+
+  /// What lengths of this pair are measured by [mm]: L of the model, or less where its surfaces are small for that:
+  /// lever arms may be much longer.
+  [[nodiscard]] double length(double L) const { return std::min(L, spacing_ / kSampleSpacing); }
 
   /// As newly made. Allocates nothing.
   void reset();

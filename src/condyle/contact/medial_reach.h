@@ -1,9 +1,9 @@
 #pragma once
 
 /// How far from a sample of a surface, along its normal, the surface is nearest there: the radius of the largest
-/// ball that touches the surface at the sample and holds no other one (medial ball; Amenta and Bern 1999). A point
+/// ball that touches the surface at the sample and holds no other one (medial ball). A point
 /// closer than that has its closest point there, and not on another sheet of the surface, or beyond the centre of
-/// its curvature. Measured by shrinking balls [Ma, Bae and Choi 2012], when a sample is first asked for; it belongs
+/// its curvature. Measured by shrinking balls [Ma 2012], when a sample is first asked for; it belongs
 /// to one thread.
 
 #include <array>

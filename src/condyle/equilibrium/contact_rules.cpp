@@ -9,14 +9,9 @@ namespace {
 
 constexpr double kPull = 1e-12;              // round-off, of all forces
 constexpr double kFlat = 1e-7;               // relative curvature [1/mm] that counts as none
-constexpr double kRim = 2 * kSampleSpacing;  // of L, from an edge
-constexpr double kUnseen = 0.5 / 30;         // of L: a law that sums over points sees nothing of
+constexpr double kRim = 2 * kSampleSpacing;  // from an edge; of the length of the pair, as all
+constexpr double kUnseen = 0.5 / 30;         // a law that sums over points sees nothing of
                                              // what touches between them, so deep at most
-constexpr double kLeftByNewton = 1e-3;       // of the distance at which places count as one
-
-const ContactPair& pair_of(const Model& model, const ClosedContact& contact) {
-  return model.pairs[static_cast<std::size_t>(contact.pair)];
-}
 
 /// The contact that pulls most, beyond round-off; -1 where none does.
 int most_pulling(const Linearization& at) {
@@ -38,21 +33,6 @@ int off_minimum(const Linearization& at, bool opens) {
     if (at.contacts()[k].relative_curvature[0] < -kFlat && may_open(at, k) == opens)
       return static_cast<int>(k);
   return -1;
-}
-
-/// Is a minimum of the gap one of the state's contacts, but for what Newton leaves?
-bool is_contact_of(const Model& model,
-                   const EquilibriumState& state,
-                   int pair,
-                   const GapMinimum& minimum) {
-  const double near = kMerge * model.length;
-  return minimum.gap > -kLeftByNewton * near &&
-         std::any_of(
-             state.contacts.begin(), state.contacts.end(), [&](const ClosedContact& contact) {
-               const Surface& on_B = *pair_of(model, contact).on_B;
-               return contact.pair == pair &&
-                      (on_B.evaluate(contact.places.on_B).c - minimum.point_B).norm() < near;
-             });
 }
 
 struct Overlaps {
@@ -82,14 +62,15 @@ OpenPair look_at_open_pair(const ContactPair& pair,
                            const RigidTransform& X_BA,
                            double L,
                            std::vector<GapMinimum>& nearest) {
-  search.find_nearest(X_BA, kAnywhere * L, nearest, kMerge * L);
+  const double length = search.length(L);
+  search.find_nearest(X_BA, kAnywhere * L, nearest, kMerge * length);
   // The back of one surface before the other: its solid lies where that one's does.
   std::erase_if(nearest, [](const GapMinimum& minimum) {
     return !minimum.refined && minimum.gap > 0 && minimum.cosine > 0;
   });
   if (nearest.empty()) return OpenPair::kApart;
   const double overlap = pair.law ? kUnseen : kAllowedOverlap;
-  return nearest.front().gap < -overlap * L ? OpenPair::kBuried : OpenPair::kClear;
+  return nearest.front().gap < -overlap * length ? OpenPair::kBuried : OpenPair::kClear;
 }
 
 void ContactChanges::apply(EquilibriumState& state) const {
@@ -143,7 +124,6 @@ void ContactRules::set_known(int pair, const Linearization& at) {
 void ContactRules::find_overlaps(const Linearization& at) {
   const EquilibriumState& state = at.state;
   Overlaps inner{changes_.closes}, rims{rims_};
-  const double overlap = kAllowedOverlap * model_.length;
   // One that is held gives way to nothing: whoever tells of the pose objects to it.
   if (off_minimum(at, false) >= 0) return;
   for (std::size_t p = 0; p < searches_.size(); ++p) {
@@ -151,11 +131,12 @@ void ContactRules::find_overlaps(const Linearization& at) {
     const int pair = static_cast<int>(p);
     set_known(pair, at);
     changes_.let_go |= model_.pairs[p].mode == ContactMode::kClosed && known_.empty();
-    searches_[p].find(state.X, 0.0, minima_, kMerge * model_.length, known_);
+    const double length = searches_[p].length(model_.length);
+    searches_[p].find(state.X, 0.0, minima_, kMerge * length, known_);
     ++changes_.searches;
     for (const GapMinimum& minimum : minima_) {
-      if (minimum.gap > -overlap || is_contact_of(model_, state, pair, minimum)) continue;
-      const bool at_rim = !minimum.refined && minimum.edge < kRim * model_.length;
+      if (minimum.gap > -kAllowedOverlap * length) continue;
+      const bool at_rim = !minimum.refined && minimum.edge < kRim * length;
       (at_rim ? rims : inner).add(pair, minimum);
     }
   }

@@ -95,7 +95,7 @@ std::optional<std::size_t> conforming_pair(const Model& model,
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
     const ContactPair& pair = model.pairs[p];
     if (pair.mode == ContactMode::kOpen) continue;
-    searches[p].find(X_BA, kFarthest * L, minima, kMerge * L);
+    searches[p].find(X_BA, kFarthest * L, minima, kMerge * searches[p].length(L));
     if (minima.empty() || minima.front().gap < -kDeepest * L) continue;
     const GapMinimum& at = minima.front();
     const auto [least, greatest] = linearize_contact(pair, at.places, X_BA).relative_curvature;
@@ -112,7 +112,7 @@ std::optional<Objection> objection_at(const Model& model,
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
     const ContactPair& pair = model.pairs[p];
     if (pair.mode == ContactMode::kOpen) continue;
-    searches[p].find(X_BA, 1e-6 * L, minima, kMerge * L);
+    searches[p].find(X_BA, 1e-6 * L, minima, kMerge * searches[p].length(L));
     for (const GapMinimum& at : minima) {
       const ContactLinearization contact = linearize_contact(pair, at.places, X_BA);
       if (contact.h.norm() < kTilted) {

@@ -31,9 +31,9 @@ EquilibriumState with_all_contacts(const Model& model,
     const bool held = pair.mode == ContactMode::kClosed;
     const double L = model.length;
     if (held)
-      searches[p].find_nearest(state.X, kAnywhere * L, minima, kMerge * L);
+      searches[p].find_nearest(state.X, kAnywhere * L, minima, kMerge * searches[p].length(L));
     else
-      searches[p].find(state.X, kTouching * L, minima, kMerge * L);
+      searches[p].find(state.X, kTouching * L, minima, kMerge * searches[p].length(L));
     for (const GapMinimum& minimum : minima) {
       // Deep inside a body the search keeps to its samples.
       ContactPlaces places = minimum.places;
@@ -196,7 +196,7 @@ std::string at_an_edge(const Failure& f) {
   std::vector<GapMinimum> minima;
   for (std::size_t p = 0; p < f.model.pairs.size(); ++p) {
     if (f.model.pairs[p].mode == ContactMode::kOpen) continue;
-    f.searches[p].find(f.state.X, kTouching * f.model.length, minima, kMerge * f.model.length);
+    f.searches[p].find(f.state.X, kTouching * f.model.length, minima, kMerge * f.searches[p].length(f.model.length));
     for (const GapMinimum& minimum : minima) {
       const ContactPair& pair = f.model.pairs[p];
       if (minimum.edge > kNear * f.model.length ||

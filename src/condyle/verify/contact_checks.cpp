@@ -48,15 +48,18 @@ Vector3d middle_of(const Scene& scene, const PoseResult& pose) {
 }
 
 void add_ligaments(const Scene& scene, const PoseResult& pose, Sums& sums) {
-  // Of a law so steep that the rounding of the length is felt no sum is better known than that.
-  constexpr double kFelt = 1e-13 / 2e-9;  // [mm], of what is allowed of the sums
+  // Of a line so steep or so short that rounding is felt, along or across, no sum is better known than that.
+  constexpr double kAllowed = 2e-9;  // of the sums
   for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
     const LigamentDescription& ligament = scene.ligaments[i];
     const Course course = course_of(scene, pose, i);
     const Vector3d way = course.on_B - course.on_A;
     if (!(way.norm() > 0)) continue;
     sums.pull(course.on_A, pose.ligaments[i].force * way.normalized());
-    const double felt = kFelt * std::abs(slope_at(ligament.law, course.length));
+    const double rounding = 1e-13 + 0.1 * round_off(ligament, pose.X_BA);
+    const double stiffness = std::abs(slope_at(ligament.law, course.length)) +
+                             std::abs(pose.ligaments[i].force) / way.norm();
+    const double felt = stiffness * rounding / kAllowed;
     sums.forces += felt;
     sums.moments += (course.on_A - sums.about).norm() * felt;
   }

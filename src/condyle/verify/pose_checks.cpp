@@ -25,11 +25,6 @@ std::string named(const char* kind, const std::string& name) {
   return fmt::format("{} \"{}\"", kind, name);
 }
 
-/// What rounding of coordinates so far from their origins, in the frames of both bodies, comes to [mm].
-double round_off(const LigamentDescription& ligament, const RigidTransform& X_BA) {
-  return 1e-14 * (ligament.ends[0].at.norm() + ligament.ends[1].at.norm() + X_BA.p.norm());
-}
-
 double slack_of(const ForceLaw& law) {
   if (const auto* toe = std::get_if<ToeLinearLaw>(&law)) return toe->slack_length;
   if (const auto* quadratic = std::get_if<QuadraticLaw>(&law)) return quadratic->slack_length;
@@ -60,6 +55,10 @@ std::optional<double> wrapped_length_at(const Run& run,
 }
 
 }  // namespace
+
+double round_off(const LigamentDescription& ligament, const RigidTransform& X_BA) {
+  return 1e-14 * (ligament.ends[0].at.norm() + ligament.ends[1].at.norm() + X_BA.p.norm());
+}
 
 PairOfSides pair_of(const Subject& subject, std::size_t contact) {
   const Scene& scene = subject.run.scene;

@@ -31,6 +31,9 @@ struct PairOfSides {
 /// The factor on a load at a pose.
 [[nodiscard]] double load_scale(const Subject& subject, std::size_t load, const PoseResult& pose);
 
+/// What rounding of coordinates so far from their origins, in the frames of both bodies, comes to at most [mm].
+[[nodiscard]] double round_off(const LigamentDescription& ligament, const RigidTransform& X_BA);
+
 /// Once for a run. Says in `not_checked` of which ligaments they are not.
 void check_slack_lengths(const Run& run, Ledger& ledger, std::vector<std::string>& not_checked);
 
