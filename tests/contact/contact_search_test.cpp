@@ -111,8 +111,31 @@ TEST(ContactSearch, FindsTheSameMinimumWarmAndFresh) {
   }
 }
 
-// The ball rests on the inner side of the right ridge (z' = 0.1428 at x = 7), so far over that it
-// runs into the left one: 60 mm from its centre, but for the way that Pythagoras tells.
+// A ring and an egg go through the cavity of a hollow ball or egg, and out through its wall: what a search remembers
+// of the wall that they came from says nothing of the other one.
+TEST(ContactSearch, SeesAnOverlapBeyondTheCentreWarmAndFresh) {
+  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d z(0, 0, 1);
+  int overlaps = 0;
+  for (const bool ring : {true, false})
+    for (const bool ball : {true, false}) {
+      const ContactPair pair = pair_of(ring ? make_torus({0, 0, 0}, z, 9, 3, true)
+                                            : make_ellipsoid({0, 0, 0}, I, {7, 9, 11}, true),
+                                       ball ? make_sphere({0, 0, 0}, 23, false)
+                                            : make_ellipsoid({0, 0, 0}, I, {18, 27, 30}, false));
+      ContactSearch warm(pair);
+      std::vector<GapMinimum> minima, fresh_minima;
+      for (int k = -30; k <= 60; ++k) {
+        const RigidTransform X{exp_rotation({0.01 * k, 0.3, 0}), {0.1 * k, 0.03 * k, 0.7 * k}};
+        warm.find(X, 0, minima);
+        ContactSearch(pair).find(X, 0, fresh_minima);
+        EXPECT_EQ(minima.empty(), fresh_minima.empty()) << ring << ball << k;
+        overlaps += minima.empty() ? 0 : 1;
+      }
+    }
+  EXPECT_GT(overlaps, 100);
+}
+
 // Corners of two edges, where a sample faces the other surface's known part or not by a hair.
 TEST(ContactSearch, FindsTheSameAtCornersOfEdgesWarmAndFresh) {
   const ContactPair pair = pair_of(make_polynomial({0, 0, 0}, Eigen::Matrix3d::Identity(),
@@ -152,6 +175,8 @@ TEST(ContactSearch, FindsTheSameAtCornersOfEdgesWarmAndFresh) {
   EXPECT_GT(at_corners, 10);
 }
 
+// The ball rests on the inner side of the right ridge (z' = 0.1428 at x = 7), so far over that it
+// runs into the left one: 60 mm from its centre, but for the way that Pythagoras tells.
 TEST(ContactSearch, AKnownContactHidesNoOverlapElsewhere) {
   const ContactPair pair = pair_of(make_polynomial({0, 0, 0}, Eigen::Matrix3d::Identity(),
                                                    {{2, 0, 0.02}, {4, 0, -0.0001}}, true),

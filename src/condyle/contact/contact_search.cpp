@@ -110,8 +110,8 @@ ContactSearch::ContactSearch(std::shared_ptr<const ContactCover> cover)
       shells_(Bending::shells(spacing_, sampled().extent())),
       bending_B_(cover_->on_B, shells_),
       bending_A_(cover_->on_A, shells_),
-      reach_B_(cover_->on_B),
-      reach_A_(cover_->on_A) {
+      nearest_B_(cover_->on_B),
+      nearest_A_(cover_->on_A) {
   const auto n = static_cast<std::size_t>(sampled().size());
   closest_.resize(n);
   seen_.resize(n);
@@ -133,8 +133,8 @@ void ContactSearch::reset() {
   std::fill(cluster_closest_.begin(), cluster_closest_.end(), Closest());
   std::fill(split_.begin(), split_.end(), char{0});
   std::fill(near_contacts_.begin(), near_contacts_.end(), NearContact());
-  reach_B_.reset();
-  reach_A_.reset();
+  nearest_B_.reset();
+  nearest_A_.reset();
   division_ = Division();
   doubts_ = 0;
   now_ = 0;

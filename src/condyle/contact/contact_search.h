@@ -22,7 +22,7 @@
 #include "condyle/contact/contact_pair.h"
 #include "condyle/contact/contact_scales.h"
 #include "condyle/contact/gap_minimum.h"
-#include "condyle/contact/medial_reach.h"
+#include "condyle/contact/nearest_sample.h"
 #include "condyle/math/rigid_transform.h"
 
 namespace condyle {
@@ -205,8 +205,12 @@ class ContactSearch {
   [[nodiscard]] const SurfaceCover& other() const {
     return sampled_on_A_ ? cover_->on_B : cover_->on_A;
   }
-  [[nodiscard]] MedialReach& reach_of_sampled() { return sampled_on_A_ ? reach_A_ : reach_B_; }
-  [[nodiscard]] MedialReach& reach_of_other() { return sampled_on_A_ ? reach_B_ : reach_A_; }
+  [[nodiscard]] NearestSample& nearest_of_sampled() {
+    return sampled_on_A_ ? nearest_A_ : nearest_B_;
+  }
+  [[nodiscard]] NearestSample& nearest_of_other() {
+    return sampled_on_A_ ? nearest_B_ : nearest_A_;
+  }
   [[nodiscard]] Bending& bending_sampled() { return sampled_on_A_ ? bending_A_ : bending_B_; }
   [[nodiscard]] Bending& bending_other() { return sampled_on_A_ ? bending_B_ : bending_A_; }
   [[nodiscard]] Seen& seen(int sample) { return seen_[static_cast<std::size_t>(sample)]; }
@@ -224,7 +228,7 @@ class ContactSearch {
   double deepest_;  ///< overlap that is still taken for one [mm]
   Bending::Radii shells_;
   Bending bending_B_, bending_A_;
-  MedialReach reach_B_, reach_A_;
+  NearestSample nearest_B_, nearest_A_;
   std::vector<Closest> closest_;          ///< to each sample
   std::vector<Closest> cluster_closest_;  ///< to the centre of each cluster
   std::vector<char> split_;               ///< the cluster's own bound was of no use the last time

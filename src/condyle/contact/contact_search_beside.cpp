@@ -88,7 +88,7 @@ void ContactSearch::look_at_facing(int sample_of_other,
   const SurfacePoint& own = other().sample(sample_of_other);
   const RigidTransform X_to_from = X_from_to.inverse();
   const Eigen::Vector3d p = X_to_from * own.c;
-  if (sampled().nearest(p, near, reach_of_sampled(), looked_at_) < 0) return;  // faces nothing
+  if (nearest_of_sampled().find(p, near, looked_at_) < 0) return;  // faces nothing
   if (bound_of_cell(facing_cell(sampled(), p, near), own, X_to_from.R,
                     other().cell_radius(sample_of_other), other().cell_change(sample_of_other),
                     cutoff) > cutoff)

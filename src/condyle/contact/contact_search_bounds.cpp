@@ -106,8 +106,8 @@ void ContactSearch::set_known(const std::vector<KnownContact>& known) {
     const KnownContact& contact = known[k];
     NearContact& near = near_contacts_[k];
     int on_B = near.on_B, on_A = near.on_A;
-    near.on_B = cover_->on_B.nearest(contact.on_B, on_B, reach_B_, looked_at_);
-    near.on_A = cover_->on_A.nearest(contact.on_A, on_A, reach_A_, looked_at_);
+    near.on_B = nearest_B_.find(contact.on_B, on_B, looked_at_);
+    near.on_A = nearest_A_.find(contact.on_A, on_A, looked_at_);
     near.doubt = kDoubt * (contact.K_B.norm() + contact.K_A.norm());
     near.shift =
         bending_B_.shift(near.on_B, contact.K_B) + bending_A_.shift(near.on_A, contact.K_A);
@@ -275,7 +275,7 @@ bool ContactSearch::is_clear(int index, const RigidTransform& X_from_to, double 
     const Eigen::Vector3d p = X_from_to * cluster.center;
     if (closest.from < 0 && cluster.parent >= 0)
       closest.from = cluster_closest_[static_cast<std::size_t>(cluster.parent)].from;
-    closest.near = other().nearest(p, closest.from, reach_of_other(), looked_at_);
+    closest.near = nearest_of_other().find(p, closest.from, looked_at_);
     if (closest.near >= 0) return is_clear_of_sample(cluster, p, cutoff, closest.near);
   }
   return is_clear_of_closest(bending_sampled().quadrics().of(index).cell, X_from_to, cutoff,
@@ -332,7 +332,7 @@ void ContactSearch::estimate(int sample,
   Facing facing;
   if (!other().bends_evenly() && other().size() > 0) {
     there.from = other().nearer(p, near, there.from);
-    there.near = other().nearest(p, there.from, reach_of_other(), looked_at_);
+    there.near = nearest_of_other().find(p, there.from, looked_at_);
     near = there.from;
     if (there.near < 0) return;  // beyond the edge of the other surface
     facing = facing_cell(other(), p, there.near);

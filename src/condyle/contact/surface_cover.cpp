@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "condyle/contact/curvature_tensor.h"
-#include "condyle/contact/medial_reach.h"
 #include "condyle/contact/neighbour_grid.h"
 #include "condyle/math/simd.h"
 
@@ -20,9 +19,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kLeafSize = 8;
 constexpr double kBetween = 1.3;   // what lies between neighbours, beyond what they tell
 constexpr double kNeighbours = 3;  // how far these are looked for, in spacings
-constexpr double kLost = 2.5;      // beside a sample farther than this, in spacings: beyond
-constexpr double kWithin = 0.7;    // of the radius of a cell: well within
-constexpr double kNearer = 0.95;   // of a distance: on another sheet of the surface
 constexpr long kSearch = 2;  // points that a search among all samples takes the time of, about,
 constexpr long kLeavesOfAPoint = 2;  // and by how many it looks into
 constexpr double kAtEdge = 1.5;      // nearer to an edge than this a sample stands for all up to it
@@ -166,48 +162,6 @@ int SurfaceCover::nearest_within(const Eigen::Vector3d& point,
   if (!cells_.empty()) find_nearest(0, point, nearest);
   looked_at += kSearch + nearest.leaves / kLeavesOfAPoint;
   return nearest.sample;
-}
-
-CONDYLE_FMA_CLONE
-int SurfaceCover::nearest(const Eigen::Vector3d& point,
-                          int& from,
-                          MedialReach& reach,
-                          long& looked_at) const {
-  if (cells_.empty()) return -1;
-  const auto beside = [&](int i) {
-    return off_normal(point - sample(i).c, sample(i).n).squaredNorm();
-  };
-  const auto near = [&](int i) { return beside(i) < kLost * kLost * spacing_ * spacing_; };
-  const auto holds = [&](int i) {
-    return reach.holds(i, (point - sample(i).c).dot(sample(i).n), looked_at);
-  };
-  Candidate nearest;
-  if (from >= 0) {
-    const double within = kWithin * cell_radius(from);
-    if (beside(from) < within * within && holds(from)) return from;
-    int& best = nearest.sample;
-    double& square = nearest.square;
-    best = from;
-    square = (sample(best).c - point).squaredNorm();
-    for (bool moved = true; moved;) {
-      moved = false;
-      for (const int other : neighbours(best)) {
-        if (other < 0) break;
-        const double d = (sample(other).c - point).squaredNorm();
-        if (d >= square) continue;
-        best = other;
-        square = d;
-        moved = true;
-        break;
-      }
-    }
-    if (near(best) && holds(best)) return from = best;
-  }
-  nearest.square *= kNearer * kNearer;
-  find_nearest(0, point, nearest);
-  looked_at += kSearch + nearest.leaves / kLeavesOfAPoint;
-  from = nearest.sample;
-  return near(from) ? from : -1;
 }
 
 }  // namespace condyle

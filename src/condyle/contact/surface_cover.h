@@ -26,8 +26,6 @@ struct Rise {
   double over_plane = 0;    ///< greatest 2 h/t²: a paraboloid of revolution above all of it
 };
 
-class MedialReach;
-
 class SurfaceCover {
  public:
   struct Cluster {
@@ -66,16 +64,8 @@ class SurfaceCover {
   /// No two samples are farther apart [mm].
   [[nodiscard]] double extent() const { return extent_; }
 
-  /// The sample nearest to a point, or one of which the point lies well within the cell; -1 where
-  /// none is near it beside its normal: beyond the samples. Walks from the sample `from` (-1: from any), which
-  /// becomes the one that was found, near or not; where `reach` does not hold there, all are searched. Adds to
-  /// `looked_at` what that takes.
-  [[nodiscard]] int nearest(const Eigen::Vector3d& point,
-                            int& from,
-                            MedialReach& reach,
-                            long& looked_at) const;
-
-  /// The sample nearest to a point, of all within `radius` [mm]; -1 where there are none.
+  /// The sample nearest to a point, of all within `radius` [mm]; -1 where there are none. Adds to `looked_at` the
+  /// points that take as long.
   [[nodiscard]] int nearest_within(const Eigen::Vector3d& point,
                                    double radius,
                                    long& looked_at) const;
