@@ -13,9 +13,13 @@ namespace {
 
 constexpr double kLost = 2.5;    // beside a sample farther than this, in spacings: beyond
 constexpr double kWithin = 0.7;  // of the radius of a cell: well within
-constexpr double kThin = 1;      // sample spacings: sheets of a surface are farther apart
+constexpr double kThin = 1.5;    // sample spacings: sheets of a surface are farther apart
 constexpr double kSurely = 0.9;  // of the radius of a ball, which samples tell
 constexpr double kSame = 0.95;   // of a radius or distance, which need not be known better
+constexpr double kFirst = 4,
+                 kMore = 4;     // spacings, and times those, that are asked for one after the other
+constexpr double kMost = 8;     // extents of the surface: more is without end
+constexpr long kMeasuring = 8;  // points of a surface that this takes the time of, about
 
 /// Radius of the ball that touches a plane with the normal n at the origin and goes through d.
 double ball_through(const Eigen::Vector3d& d, const Eigen::Vector3d& n) {
@@ -75,34 +79,33 @@ int NearestSample::find(const Eigen::Vector3d& point, int& from, long& looked_at
 bool NearestSample::holds(int sample, double along, long& looked_at) {
   if (std::abs(along) < kThin * cover_->spacing()) return true;
   Ball& ball = balls_[along > 0 ? 0 : 1][static_cast<std::size_t>(sample)];
-  if (ball.counted != now_) {
+  if (ball.counted != now_) looked_at += kMeasuring;
+  ball.counted = now_;
+  const double needed = std::abs(along) / kSurely;
+  const double most = kMost * cover_->extent();
+  while (ball.radius <= needed && ball.radius == ball.asked && ball.asked < most) {
     const Eigen::Vector3d& n = cover_->sample(sample).n;
-    if (ball.radius < 0) ball = measure(sample, along > 0 ? n : Eigen::Vector3d(-n));
-    ball.counted = now_;
-    looked_at += ball.looked_at;
+    ball.asked = std::max(kMore * ball.asked, kFirst * cover_->spacing());
+    ball.radius = measure(sample, along > 0 ? n : Eigen::Vector3d(-n), ball.asked);
   }
-  return std::abs(along) < kSurely * ball.radius;
+  return needed < ball.radius;
 }
 
-NearestSample::Ball NearestSample::measure(int sample, const Eigen::Vector3d& n) const {
-  constexpr long kLeavesOfAPoint = 2;
-  Ball ball{std::numeric_limits<double>::infinity()};
-  shrink(0, cover_->sample(sample), n, ball);
-  ball.looked_at = 1 + ball.looked_at / kLeavesOfAPoint;
-  return ball;
+double NearestSample::measure(int sample, const Eigen::Vector3d& n, double most) const {
+  double radius = most;
+  shrink(0, cover_->sample(sample), n, radius);
+  return radius;
 }
 
-/// To the smallest ball through a sample of the cluster, to within kSame; counts the leaves that it looked into.
+/// To the smallest ball through a sample of the cluster, to within kSame.
 void NearestSample::shrink(int index,
                            const SurfacePoint& at,
                            const Eigen::Vector3d& n,
-                           Ball& ball) const {
+                           double& radius) const {
   const SurfaceCover::Cluster& cluster = cover_->cluster(index);
   if (cluster.child[0] < 0) {
-    ++ball.looked_at;
     for (int k = cluster.first; k < cluster.last; ++k)
-      ball.radius =
-          std::min(ball.radius, ball_through(cover_->sample(cover_->in_order(k)).c - at.c, n));
+      radius = std::min(radius, ball_through(cover_->sample(cover_->in_order(k)).c - at.c, n));
     return;
   }
   const auto bound = [&](int child) {
@@ -112,7 +115,7 @@ void NearestSample::shrink(int index,
   std::pair<double, int> first = bound(cluster.child[0]), second = bound(cluster.child[1]);
   if (second < first) std::swap(first, second);
   for (const auto& [least, child] : {first, second})
-    if (least < kSame * ball.radius) shrink(child, at, n, ball);
+    if (least < kSame * radius) shrink(child, at, n, radius);
 }
 
 }  // namespace condyle

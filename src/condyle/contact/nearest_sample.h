@@ -32,14 +32,14 @@ class NearestSample {
 
  private:
   struct Ball {
-    double radius = -1;  ///< [mm]; below zero: not measured
-    long looked_at = 0;  ///< what measuring took
-    int counted = -1;    ///< after which reset
+    double radius = 0;  ///< [mm], where it is less than
+    double asked = 0;   ///< which was asked for: else the ball is as large at least [mm]
+    int counted = -1;   ///< after which reset
   };
 
-  /// On the side of the unit normal n.
-  [[nodiscard]] Ball measure(int sample, const Eigen::Vector3d& n) const;
-  void shrink(int cluster, const SurfacePoint& at, const Eigen::Vector3d& n, Ball& ball) const;
+  /// The radius on the side of the unit normal n, or `most` [mm] where it is no less.
+  [[nodiscard]] double measure(int sample, const Eigen::Vector3d& n, double most) const;
+  void shrink(int cluster, const SurfacePoint& at, const Eigen::Vector3d& n, double& radius) const;
 
   const SurfaceCover* cover_;
   std::array<std::vector<Ball>, 2> balls_;  ///< over and under each sample
