@@ -155,7 +155,8 @@ TEST_F(RunFile, WithADamagedPatchIsRefused) {
   };
   const auto knot_u = [](PatchData& patch, double x) { patch.knots_u[4] = x; };
   for (const double x : {nan, infinity, 3.0, 2.5}) refused("dataset knots_u holds", knot_u, x);
-  refused("dataset knots_v holds", [](PatchData& patch, double x) { patch.knots_v[0] = x; }, 1.5);
+  refused(
+      "dataset knots_v holds", [](PatchData& patch, double x) { patch.knots_v[0] = x; }, 1.5);
   const auto point = [](PatchData& patch, double x) { patch.control_points[7].y() = x; };
   for (const double x : {nan, infinity}) refused("dataset control_points holds", point, x);
   const auto mask = [](PatchData& patch, double x) { patch.mask[3] = x; };

@@ -10,7 +10,6 @@
 
 #include "condyle/contact/curvature_tensor.h"
 #include "condyle/contact/neighbour_grid.h"
-#include "condyle/math/simd.h"
 
 namespace condyle {
 namespace {

@@ -196,7 +196,8 @@ std::string at_an_edge(const Failure& f) {
   std::vector<GapMinimum> minima;
   for (std::size_t p = 0; p < f.model.pairs.size(); ++p) {
     if (f.model.pairs[p].mode == ContactMode::kOpen) continue;
-    f.searches[p].find(f.state.X, kTouching * f.model.length, minima, kMerge * f.searches[p].length(f.model.length));
+    f.searches[p].find(f.state.X, kTouching * f.model.length, minima,
+                       kMerge * f.searches[p].length(f.model.length));
     for (const GapMinimum& minimum : minima) {
       const ContactPair& pair = f.model.pairs[p];
       if (minimum.edge > kNear * f.model.length ||

@@ -73,9 +73,7 @@ void read_mask(const Hdf5Group& group, PatchData& data) {
   Hdf5Array mask = group.read("mask");
   const bool grid =
       mask.shape.size() == 2 && (mask.values.empty() || std::min(mask.shape[0], mask.shape[1]) > 1);
-  if (!grid || !std::all_of(mask.values.begin(), mask.values.end(),
-                            [](double x) { return std::isfinite(x); }))
-    group.fail("dataset mask is not a grid of numbers");
+  if (!grid || !are_finite(mask.values)) group.fail("dataset mask is not a grid of numbers");
   if (!mask.values.empty()) {
     data.mask_nu = static_cast<int>(mask.shape[0]) - 1;
     data.mask_nv = static_cast<int>(mask.shape[1]) - 1;

@@ -21,7 +21,12 @@ namespace condyle {
   return out;
 }
 
-/// Numbers all of them; `shape` becomes that of the dataset.
+/// None is infinite or not a number.
+[[nodiscard]] inline bool are_finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// Finite all of them; `shape` becomes that of the dataset.
 [[nodiscard]] inline std::vector<Eigen::Vector3d> read_points(const Hdf5Group& group,
                                                               const char* name,
                                                               Shape& shape) {
@@ -29,8 +34,7 @@ namespace condyle {
   shape = array.shape;
   if (shape.empty() || shape.back() != 3)
     group.fail(fmt::format("dataset {} does not hold points", name));
-  if (!std::all_of(array.values.begin(), array.values.end(),
-                   [](double x) { return std::isfinite(x); }))
+  if (!are_finite(array.values))
     group.fail(fmt::format("dataset {} holds what is no number", name));
   std::vector<Eigen::Vector3d> points(array.values.size() / 3);
   for (std::size_t i = 0; i < points.size(); ++i)

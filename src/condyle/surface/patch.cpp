@@ -8,6 +8,7 @@
 
 #include "condyle/math/simd.h"
 #include "condyle/surface/bspline_basis.h"
+#include "condyle/surface/knot_span.h"
 #include "condyle/surface/point_tree.h"
 
 namespace condyle {
@@ -201,19 +202,9 @@ void horner(const double* c, int m, double x, double* f, double* df, double* d2f
 
 }  // namespace
 
-/// Of what is no number the first: the numbers of the point are none either.
-int Patch::find_span(const Direction& direction, double t) {
-  if (direction.inverse_step > 0) {
-    const double way = std::max(0.0, (t - direction.min) * direction.inverse_step);
-    return static_cast<int>(std::min(way, direction.spans - 1.0));
-  }
-  const auto above = std::upper_bound(direction.breaks.begin() + 1, direction.breaks.end() - 1, t);
-  return static_cast<int>(above - direction.breaks.begin()) - 1;
-}
-
 int Patch::evaluate_direction(const Direction& direction, double t, Basis& basis) {
   const double inside = std::clamp(t, direction.min, direction.max);
-  const int span = find_span(direction, inside);
+  const int span = knot_span(direction.breaks, direction.inverse_step, inside);
   const int m = direction.degree + 1;
   const double x = inside - direction.breaks[span];
   const double* c = &direction.coefficients[static_cast<std::size_t>(span) * m * m];
@@ -231,7 +222,8 @@ int Patch::evaluate_direction(const Direction& direction, double t, Basis& basis
 
 PatchDerivatives Patch::bicubic_derivatives(double u, double v, bool second) const {
   const double inside_u = std::clamp(u, u_.min, u_.max), inside_v = std::clamp(v, v_.min, v_.max);
-  const int i = find_span(u_, inside_u), j = find_span(v_, inside_v);
+  const int i = knot_span(u_.breaks, u_.inverse_step, inside_u),
+            j = knot_span(v_.breaks, v_.inverse_step, inside_v);
   double out[24];
   bicubic(&u_.coefficients[static_cast<std::size_t>(i) * 16], inside_u - u_.breaks[i], u - inside_u,
           &v_.coefficients[static_cast<std::size_t>(j) * 16], inside_v - v_.breaks[j], v - inside_v,

@@ -87,7 +87,6 @@ class Patch final : public Surface {
   struct Basis;
   [[nodiscard]] static Direction make_direction(const std::vector<double>& knots, int degree);
   static int evaluate_direction(const Direction& direction, double t, Basis& basis);
-  static int find_span(const Direction& direction, double t);
   [[nodiscard]] PatchDerivatives bicubic_derivatives(double u, double v, bool second) const;
   [[nodiscard]] PatchDerivatives general_derivatives(double u, double v) const;
   [[nodiscard]] SurfacePoint point_from(const PatchDerivatives& d) const;

@@ -5,6 +5,7 @@
 
 #include "condyle/math/simd.h"
 #include "condyle/surface/bspline_basis.h"
+#include "condyle/surface/knot_span.h"
 
 namespace condyle {
 namespace {
@@ -193,20 +194,10 @@ PatchCells::PatchCells(const Patch& patch) : patch_(patch) {
     }
 }
 
-inline int PatchCells::span(const Direction& direction, double t) {
-  const int spans = static_cast<int>(direction.breaks.size()) - 1;
-  if (direction.inverse_step > 0) [[likely]] {
-    const double way = std::max(0.0, (t - direction.min) * direction.inverse_step);
-    return static_cast<int>(std::min(way, spans - 1.0));
-  }
-  const auto above = std::upper_bound(direction.breaks.begin() + 1, direction.breaks.end() - 1, t);
-  return static_cast<int>(above - direction.breaks.begin()) - 1;
-}
-
 std::array<int, 2> PatchCells::cell_of(double u, double v) const {
   const bool inside = !cells_.empty() && u >= u_.min && u <= u_.max && v >= v_.min && v <= v_.max;
   if (!inside) return {-1, -1};
-  return {span(u_, u), span(v_, v)};
+  return {knot_span(u_.breaks, u_.inverse_step, u), knot_span(v_.breaks, v_.inverse_step, v)};
 }
 
 void PatchCells::derivatives_of_patch(double u, double v, int place, FourDerivatives& out) const {

@@ -51,7 +51,6 @@ class PatchCells {
     double inverse_step = 0;     ///< 1 / knot step for uniform knots, else 0
     std::vector<double> breaks;  ///< knots within the domain
   };
-  static int span(const Direction& direction, double t);
   void derivatives_of_patch(double u, double v, int place, FourDerivatives& out) const;
 
   const Patch& patch_;

@@ -16,7 +16,7 @@ using Eigen::Matrix3d;
 constexpr double kPi = std::numbers::pi;
 constexpr double kForEver = std::numeric_limits<double>::infinity();
 
-/// A surface has few cells to begin with; the search divides those that need it.
+/// nu by nv cells of a box. A surface has few to begin with; the search divides those that need it.
 void add_cells(int chart, Cell box, int nu, int nv, std::vector<Cell>& cells) {
   const double du = (box.u1 - box.u0) / nu, dv = (box.v1 - box.v0) / nv;
   for (int i = 0; i < nu; ++i)
