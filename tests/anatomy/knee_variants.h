@@ -13,13 +13,12 @@
 #include <vector>
 
 #include "condyle/anatomy/recognise_knee.h"
+#include "condyle/math/degree.h"
 #include "condyle/mesh/clean_mesh.h"
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/mesh_files/load_mesh.h"
 
-namespace condyle::testing {
-
-constexpr double kDegree = M_PI / 180;
+namespace condyle::test {
 
 /// Right knee; x anterior, y proximal, z lateral, the origin midway between the posterior condyles.
 inline KneeMeshes phantom() {
@@ -115,4 +114,4 @@ inline void expect_frame(const BoneFrame& found,
   EXPECT_LT((found.origin - truth.origin).norm(), mm);
 }
 
-}  // namespace condyle::testing
+}  // namespace condyle::test

@@ -12,9 +12,9 @@ namespace condyle {
 namespace {
 
 using Eigen::Vector3d;
-using testing::mapped;
-using testing::part;
-using testing::phantom;
+using test::mapped;
+using test::part;
+using test::phantom;
 
 void expect_refused(const KneeMeshes& meshes, const std::string& words) {
   try {
@@ -86,9 +86,9 @@ TEST(RecogniseFaults, PartsAndOtherThings) {
                  "not both condyles");
   expect_refused({part(femur, [](const Vector3d& p) { return p.z() > 0; }), tibia, {}, {}},
                  "not both condyles");
-  const TriangleMesh ball = testing::ellipsoid_solid(Vector3d::Constant(38), 2);
+  const TriangleMesh ball = test::ellipsoid_solid(Vector3d::Constant(38), 2);
   expect_refused({shifted(ball, {0, 18, 0}), tibia, {}, {}}, "not both condyles");
-  const TriangleMesh disc = mapped(testing::cylinder_solid(38, 60, 2), [](const Vector3d& p) {
+  const TriangleMesh disc = mapped(test::cylinder_solid(38, 60, 2), [](const Vector3d& p) {
     return Vector3d(p.x(), p.z(), -p.y());
   });
   double top = -1e300;

@@ -13,15 +13,14 @@ namespace condyle {
 namespace {
 
 using Eigen::Vector3d;
-using testing::axes_apart;
-using testing::drawn_out;
-using testing::expect_frame;
-using testing::joined;
-using testing::kDegree;
-using testing::mapped;
-using testing::part;
-using testing::phantom;
-using testing::roughened;
+using test::axes_apart;
+using test::drawn_out;
+using test::expect_frame;
+using test::joined;
+using test::mapped;
+using test::part;
+using test::phantom;
+using test::roughened;
 
 void expect_as(const RecognisedKnee& found,
                const RecognisedKnee& truth,
@@ -41,8 +40,8 @@ TEST(RecogniseKnee, FindsTheFramesThatThePhantomWasBuiltIn) {
   EXPECT_EQ(knee.side, Side::kRight);
   EXPECT_GT(knee.side_confidence, 0.95);
   EXPECT_TRUE(knee.doubts.empty());
-  expect_frame(knee.femur.frame, testing::phantom_frame(), 3, 4);
-  expect_frame(knee.tibia.frame, testing::phantom_frame(), 3, 4);
+  expect_frame(knee.femur.frame, test::phantom_frame(), 3, 4);
+  expect_frame(knee.tibia.frame, test::phantom_frame(), 3, 4);
 }
 
 // Turned anyhow, metres away, in another unit: frames move along.
@@ -55,8 +54,8 @@ TEST(RecogniseKnee, MovesAndScalesWithTheMeshes) {
         mapped(phantom(), [&](const Vector3d& p) { return Vector3d(X * p / unit); }));
     EXPECT_EQ(moved.to_mm, unit);
     EXPECT_EQ(moved.side, knee.side);
-    expect_frame(moved.femur.frame, testing::moved(knee.femur.frame, X), 1e-5, 1e-5);
-    expect_frame(moved.tibia.frame, testing::moved(knee.tibia.frame, X), 1e-5, 1e-5);
+    expect_frame(moved.femur.frame, test::moved(knee.femur.frame, X), 1e-5, 1e-5);
+    expect_frame(moved.tibia.frame, test::moved(knee.tibia.frame, X), 1e-5, 1e-5);
   }
 }
 
@@ -91,7 +90,7 @@ TEST(RecogniseKnee, FramesBelongToTheBones) {
     flexed.tibia = mapped(meshes.tibia, [&](const Vector3d& p) { return Vector3d(X * p); });
     const RecognisedKnee found = recognise_knee(flexed);
     expect_frame(found.femur.frame, knee.femur.frame, 0.1, 0.1);
-    EXPECT_LT(axes_apart(found.tibia.frame, testing::moved(knee.tibia.frame, X)) / kDegree, 0.1);
+    EXPECT_LT(axes_apart(found.tibia.frame, test::moved(knee.tibia.frame, X)) / kDegree, 0.1);
     EXPECT_FALSE(found.doubts.empty()) << "scanned flexed";
   }
 }
@@ -116,10 +115,10 @@ TEST(RecogniseKnee, WholeBonesHaveTheFramesOfCutOnes) {
   const KneeMeshes meshes = phantom();
   const RecognisedKnee knee = recognise_knee(meshes);
   const auto ball = [](double radius, const Vector3d& at) {
-    return mapped(testing::ellipsoid_solid(Vector3d::Constant(radius), 3),
+    return mapped(test::ellipsoid_solid(Vector3d::Constant(radius), 3),
                   [&](const Vector3d& p) { return Vector3d(p + at); });
   };
-  const TriangleMesh fibula = mapped(testing::cylinder_solid(6.5, 340, 3), [](const Vector3d& p) {
+  const TriangleMesh fibula = mapped(test::cylinder_solid(6.5, 340, 3), [](const Vector3d& p) {
     return Vector3d(p.x() - 20, p.z() - 220, -p.y() + 30);
   });
   KneeMeshes whole = meshes;
@@ -146,7 +145,7 @@ TEST(RecogniseKnee, TakesAGivenUnitAndSideAsTheyAre) {
 }
 
 TEST(CrossSection, OfACylinderIsADisc) {
-  const TriangleMesh cylinder = testing::cylinder_solid(10, 100, 0.5);
+  const TriangleMesh cylinder = test::cylinder_solid(10, 100, 0.5);
   Vector3d middle = Vector3d::Zero();
   for (const Vector3d& p : cylinder.vertices)
     middle += p / static_cast<double>(cylinder.vertices.size());

@@ -13,10 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-using testing::angle_between;
-using testing::kDegree;
+using test::angle_between;
 
-const fs::path kSpecimens = fs::path(CONDYLE_SOURCE_DIR) / "../shared/specimens";
+const fs::path kShared = fs::path(CONDYLE_SOURCE_DIR) / "../shared/specimens";
 
 /// Frame of the files, one for both bones: anterior, proximal, lateral.
 struct Specimen {
@@ -36,8 +35,8 @@ Eigen::Matrix3d axes_of(const Vector3d& anterior,
 
 std::vector<Specimen> specimens() {
   const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ();
-  const fs::path lenhart = kSpecimens / "lenhart2015", oai = kSpecimens / "oai_pymskt",
-                 ssm = kSpecimens / "clouthier2019_ssm";
+  const fs::path lenhart = kShared / "lenhart2015", oai = kShared / "oai_pymskt",
+                 ssm = kShared / "clouthier2019_ssm";
   std::vector<Specimen> all = {
       {"Lenhart", lenhart / "lenhart2015-R-femur-subchondral-bone.stl",
        lenhart / "lenhart2015-R-tibia-subchondral-bone.stl", axes_of(x, y, z), 1000},
@@ -52,7 +51,7 @@ std::vector<Specimen> specimens() {
 /// In the unit of the files; a mesh of less than 5 is not read as such.
 KneeMeshes read(const Specimen& s) {
   const auto mesh = [&](const fs::path& file) {
-    return testing::mapped(clean_mesh(load_mesh(file, s.to_mm)).mesh,
+    return test::mapped(clean_mesh(load_mesh(file, s.to_mm)).mesh,
                            [&](const Vector3d& p) { return Vector3d(p / s.to_mm); });
   };
   return {mesh(s.femur), mesh(s.tibia), {}, {}};
@@ -78,13 +77,13 @@ void print_against(const std::string& name, const RecognisedBone& bone, const Bo
 }  // namespace
 
 TEST(RecognisedSpecimens, AreRightKneesAndTheirMirrorImagesLeftOnes) {
-  if (!fs::exists(kSpecimens)) GTEST_SKIP() << "no specimens here";
+  if (!fs::exists(kShared)) GTEST_SKIP() << "no specimens here";
   for (const Specimen& s : specimens()) {
     SCOPED_TRACE(s.name);
     const KneeMeshes meshes = read(s);
     const RecognisedKnee knee = recognise_knee(meshes);
     const RecognisedKnee mirrored = recognise_knee(
-        testing::mapped(meshes, [](const Vector3d& p) { return Vector3d(-p.x(), p.y(), p.z()); }));
+        test::mapped(meshes, [](const Vector3d& p) { return Vector3d(-p.x(), p.y(), p.z()); }));
     EXPECT_EQ(knee.to_mm, s.to_mm);
     EXPECT_EQ(knee.side, Side::kRight);
     EXPECT_EQ(mirrored.side, Side::kLeft);
@@ -93,7 +92,7 @@ TEST(RecognisedSpecimens, AreRightKneesAndTheirMirrorImagesLeftOnes) {
     EXPECT_LT(angle_between(knee.femur.frame.lateral, knee.tibia.frame.lateral) / kDegree, 6);
     // No axis of a knee is far from that of its image or model.
     for (const RecognisedBone* bone : {&knee.femur, &knee.tibia})
-      EXPECT_LT(testing::axes_apart(bone->frame, given(s)) / kDegree, 20);
+      EXPECT_LT(test::axes_apart(bone->frame, given(s)) / kDegree, 20);
     fmt::print("{}: {:.4f}, {}\n", s.name, knee.side_confidence, knee.side_evidence);
     print_against("femur", knee.femur, given(s));
     print_against("tibia", knee.tibia, given(s));
@@ -101,11 +100,11 @@ TEST(RecognisedSpecimens, AreRightKneesAndTheirMirrorImagesLeftOnes) {
 }
 
 TEST(RecognisedSpecimens, LenhartsFramesAreThoseOfTheModel) {
-  if (!fs::exists(kSpecimens / "lenhart2015")) GTEST_SKIP() << "no specimens here";
+  if (!fs::exists(kShared / "lenhart2015")) GTEST_SKIP() << "no specimens here";
   const Specimen s = specimens()[0];
   const RecognisedKnee knee = recognise_knee(read(s));
-  testing::expect_frame(knee.femur.frame, given(s), 3, 4);
-  testing::expect_frame(knee.tibia.frame, given(s), 3, 4);
+  test::expect_frame(knee.femur.frame, given(s), 3, 4);
+  test::expect_frame(knee.tibia.frame, given(s), 3, 4);
   EXPECT_EQ(knee.doubts.size(), 2u) << "sheets without shafts";
 }
 

@@ -12,16 +12,16 @@
 namespace condyle::test {
 namespace {
 
-const std::filesystem::path kRoot = CONDYLE_SOURCE_DIR;
+const std::filesystem::path kProject = CONDYLE_SOURCE_DIR;
 const std::string kSources = "src/condyle";
 
 const std::vector<Include>& includes() {
-  static const std::vector<Include> all = includes_of_project(kRoot);
+  static const std::vector<Include> all = includes_of_project(kProject);
   return all;
 }
 
 const std::vector<Room>& rooms() {
-  static const std::vector<Room> all = rooms_of_page(kRoot / "docs/architecture.md");
+  static const std::vector<Room> all = rooms_of_page(kProject / "docs/architecture.md");
   return all;
 }
 
@@ -47,7 +47,7 @@ bool starts_with(const std::string& text, const std::string& begin) {
 
 TEST(Architecture, EveryRoomHasARowOfTheTableAndEveryRowARoom) {
   std::set<std::string> folders;
-  for (const auto& entry : std::filesystem::directory_iterator(kRoot / kSources))
+  for (const auto& entry : std::filesystem::directory_iterator(kProject / kSources))
     if (entry.is_directory()) folders.insert(entry.path().filename().string());
   std::set<std::string> rows;
   for (const Room& room : rooms()) rows.insert(room.name);

@@ -1,6 +1,7 @@
 /// Tables of measurements: what is read, and what is refused in which words.
 
 #include "condyle/calibration/measurement_table.h"
+#include "condyle/math/degree.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +12,6 @@
 
 namespace condyle::test {
 namespace {
-
-constexpr double kDeg = M_PI / 180;
 
 /// In a folder of each test's own.
 std::filesystem::path table_folder() {
@@ -49,14 +48,14 @@ TEST(MeasurementTable, RowsAreReadInTheUnitsUsedInside) {
   const Measurement& drawer = table.rows[0];
   EXPECT_EQ(drawer.line, 2);
   EXPECT_EQ(drawer.test, "ap30");
-  EXPECT_DOUBLE_EQ(drawer.flexion, 30 * kDeg);
+  EXPECT_DOUBLE_EQ(drawer.flexion, 30 * kDegree);
   EXPECT_EQ(drawer.load, 0);
   EXPECT_EQ(drawer.level, 88);
   EXPECT_EQ(drawer.index, 4u);
   EXPECT_EQ(drawer.value, 4.9);
   EXPECT_EQ(drawer.sd, 0.5);
   EXPECT_EQ(drawer.use, MeasuredUse::kFit);
-  EXPECT_DOUBLE_EQ(table.rows[1].value, -2.1 * kDeg);
+  EXPECT_DOUBLE_EQ(table.rows[1].value, -2.1 * kDegree);
   EXPECT_EQ(table.rows[3].level, 3000);  // N m
   EXPECT_EQ(table.rows[3].use, MeasuredUse::kTest);
   EXPECT_EQ(table.rows[4].kind, MeasuredKind::kReaction);
@@ -84,7 +83,7 @@ TEST(MeasurementTable, HowATextIsWrittenDoesNotMatter) {
   ASSERT_EQ(table.rows.size(), 1u);
   EXPECT_EQ(table.rows[0].test, "a \"b\", c");
   EXPECT_EQ(table.rows[0].line, 4);
-  EXPECT_EQ(table.rows[0].sd, 0.5 * kDeg);
+  EXPECT_EQ(table.rows[0].sd, 0.5 * kDegree);
 }
 
 TEST(MeasurementTable, OnlyTheSpecimenThatIsMeantIsRead) {
@@ -138,7 +137,7 @@ TEST(MeasurementTable, TheUnloadedRowOfARelativeCurveMayStandBesideItsFlexion) {
   ASSERT_EQ(table.rows.size(), 2u);
   EXPECT_EQ(table.rows[0].value, 5);
   EXPECT_DOUBLE_EQ(table.rows[0].sd, 0.5);
-  EXPECT_DOUBLE_EQ(table.rows[0].zero_flexion.value(), 30.5 * kDeg);
+  EXPECT_DOUBLE_EQ(table.rows[0].zero_flexion.value(), 30.5 * kDegree);
   EXPECT_EQ(table.rows[1].value, 8);  // more than two degrees away
 }
 
@@ -172,7 +171,7 @@ TEST(MeasurementTable, RowsAreCalledByTheirUnits) {
   EXPECT_EQ(quantity_of(table.rows[4], scene), "reaction");
   EXPECT_EQ(quantity_of(table.rows[5], scene), "force of aACL");
   EXPECT_EQ(unit_of(table.rows[1], scene).name, "deg");
-  EXPECT_DOUBLE_EQ(unit_of(table.rows[1], scene).factor, kDeg);
+  EXPECT_DOUBLE_EQ(unit_of(table.rows[1], scene).factor, kDegree);
   EXPECT_EQ(unit_of(table.rows[4], scene).name, "N");
 }
 

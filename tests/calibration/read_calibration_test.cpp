@@ -2,16 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <ostream>
 
 #include "calibration/small_calibration.h"
+#include "condyle/math/degree.h"
 #include "scene/mistake.h"
 
 namespace condyle::test {
 namespace {
-
-constexpr double kDeg = M_PI / 180;
 
 CalibrationDescription calibration_of(const std::string& text) {
   return parse_scene(text, "some/knee.toml").calibration.value();
@@ -25,10 +23,10 @@ TEST(ReadCalibration, AllIsReadInTheUnitsUsedInside) {
   EXPECT_EQ(read.relative, std::vector<std::string>{"ap30"});
   EXPECT_EQ(read.huber, 3);
   EXPECT_EQ(read.curve_sd.value()[0], 0.5);
-  EXPECT_DOUBLE_EQ(read.curve_sd.value()[1], kDeg);
-  EXPECT_DOUBLE_EQ(read.femur_frame_sd.value()[1], 2 * kDeg);
+  EXPECT_DOUBLE_EQ(read.curve_sd.value()[1], kDegree);
+  EXPECT_DOUBLE_EQ(read.femur_frame_sd.value()[1], 2 * kDegree);
   EXPECT_EQ(read.tibia_frame_sd.value()[1], 0);
-  EXPECT_DOUBLE_EQ(read.flexion_sd, kDeg);
+  EXPECT_DOUBLE_EQ(read.flexion_sd, kDegree);
   EXPECT_EQ(read.level_sd, 0.02);
   EXPECT_EQ(read.starts, 4);
   EXPECT_EQ(read.seed, 7u);

@@ -8,6 +8,7 @@
 
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/input_error.h"
+#include "condyle/math/degree.h"
 #include "condyle/results/run_file.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
@@ -18,7 +19,6 @@ namespace condyle {
 namespace {
 
 constexpr const char* kDrawer = CONDYLE_SOURCE_DIR "/data/wismans-type/drawer.toml";
-constexpr double kDegree = M_PI / 180;
 
 TEST(Laxity, GrowsWhenTheCruciateIsCut) {
   const Scene scene = read_scene(kDrawer);
@@ -109,7 +109,7 @@ TEST(Laxity, GoesThroughAFileUnchanged) {
   EXPECT_TRUE(std::isnan(displacements(scene, back.laxity()->curves[5].ours)[3]));
 }
 
-std::string message_of(const std::string& laxity) {
+std::string message_about_laxity(const std::string& laxity) {
   const std::string load = with(kSmallScene, "vary = \"bend\"\nfrom = 0\nto = 120\nstep = 5",
                                 "vary = \"weight.scale\"\nvalues = [0, 1]");
   try {
@@ -121,18 +121,18 @@ std::string message_of(const std::string& laxity) {
 }
 
 TEST(Laxity, NamesWhatIsWrongInItsTable) {
-  EXPECT_EQ(message_of("[laxity]\nflexion = [0, 30]\ncut = [\"aACL\"]\n"), "no error");
-  EXPECT_EQ(message_of("[laxity]\ncut = []\n"),
+  EXPECT_EQ(message_about_laxity("[laxity]\nflexion = [0, 30]\ncut = [\"aACL\"]\n"), "no error");
+  EXPECT_EQ(message_about_laxity("[laxity]\ncut = []\n"),
             "knee.toml:60: [laxity]: flexion is missing, expected angles [f1, f2, ...]");
-  EXPECT_EQ(message_of("[laxity]\nflexion = []\n"),
+  EXPECT_EQ(message_about_laxity("[laxity]\nflexion = []\n"),
             "knee.toml:61: [laxity]: flexion = [], expected angles [f1, f2, ...]");
   EXPECT_EQ(
-      message_of("[laxity]\nflexion = [0]\ncut = [\"ACL\"]\n"),
+      message_about_laxity("[laxity]\nflexion = [0]\ncut = [\"ACL\"]\n"),
       "knee.toml:62: [laxity]: cut = \"ACL\", expected the name of a ligament: \"aACL\"; did you "
       "mean \"aACL\"?");
-  EXPECT_EQ(message_of("[laxity]\nflexion = [0]\ncut = [\"aACL\", \"aACL\"]\n"),
+  EXPECT_EQ(message_about_laxity("[laxity]\nflexion = [0]\ncut = [\"aACL\", \"aACL\"]\n"),
             "knee.toml:62: [laxity]: cut = \"aACL\", expected each ligament once");
-  EXPECT_EQ(message_of("[laxity]\nflexion = [0]\ncuts = []\n"),
+  EXPECT_EQ(message_about_laxity("[laxity]\nflexion = [0]\ncuts = []\n"),
             "knee.toml:62: [laxity]: unknown key cuts = [], did you mean \"cut\"?");
 }
 

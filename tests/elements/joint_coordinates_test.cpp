@@ -1,4 +1,5 @@
 #include "condyle/elements/joint_coordinates.h"
+#include "condyle/math/degree.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +15,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using test::Random;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// Columns lateral, anterior, proximal for a body whose x points to the right, y forwards, z
 /// upwards; for a left knee the first axis still points to the right, which keeps the triad

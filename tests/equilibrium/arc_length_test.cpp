@@ -1,4 +1,5 @@
 #include "condyle/equilibrium/arc_length.h"
+#include "condyle/math/degree.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,6 @@ namespace {
 
 using test::Truss;
 
-constexpr double kDegree = M_PI / 180;
 constexpr Swept kPress = load_scale(0);
 
 TEST(ArcLength, FollowsTheTrussThroughBothLimitPoints) {

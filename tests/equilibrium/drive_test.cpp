@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -25,6 +24,7 @@
 #include "condyle/equilibrium/linearization.h"
 #include "condyle/equilibrium/path_system.h"
 #include "condyle/equilibrium/sweep.h"
+#include "condyle/math/degree.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "support/allocation_count.h"
@@ -36,8 +36,6 @@ namespace condyle {
 namespace {
 
 using test::words_of;
-
-constexpr double kDegree = M_PI / 180;
 
 using Bits = std::vector<std::uint64_t>;
 

@@ -4,8 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include <cmath>
-
+#include "condyle/math/degree.h"
 #include "condyle/math/rotation.h"
 #include "condyle/surface/exact_surfaces.h"
 #include "support/ball_on_floor.h"
@@ -16,8 +15,6 @@
 
 namespace condyle {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 // Cancellation test [Dortmans 1986, 4.6]: a pull in -x beyond p(0) = 32.1 N opens the contact;
 // without it the contact is back, with the same answer.

@@ -12,12 +12,12 @@
 #include <sstream>
 
 #include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/math/degree.h"
 #include "condyle/surface/exact_surfaces.h"
 
 namespace condyle {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
 const std::filesystem::path kFolder =
     std::filesystem::path(CONDYLE_SOURCE_DIR) / "../shared/published";
 

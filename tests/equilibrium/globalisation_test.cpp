@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/math/degree.h"
+#include "equilibrium/displaced.h"
 #include "support/allocation_count.h"
 #include "support/quadric_knee.h"
 #include "support/random.h"
@@ -12,15 +12,8 @@
 namespace condyle {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
-
 /// A pose displaced by up to 8 mm along each axis, 16 degrees about the flexion axis and 8 degrees
 /// about the others: far into overlaps and gaps.
-RigidTransform displaced(const RigidTransform& X, test::Random& random) {
-  const Eigen::Vector3d turn(random.between(-16, 16), random.between(-8, 8), random.between(-8, 8));
-  const Eigen::Vector3d way = random.vector(8);
-  return {exp_rotation(kDegree * turn) * X.R, X.p + way};
-}
 
 struct Count {
   int lost = 0, elsewhere = 0;

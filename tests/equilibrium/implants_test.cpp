@@ -12,6 +12,7 @@
 
 #include "condyle/equilibrium/edge_in_words.h"
 #include "condyle/equilibrium/sweep.h"
+#include "condyle/math/degree.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/surface/exact_surfaces.h"
@@ -25,7 +26,6 @@ namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
 constexpr double kCondyle = 24, kAside = 23;  // radius, half the distance of the compartments [mm]
-constexpr double kDegree = M_PI / 180;
 
 constexpr const char* kHead = R"(title = "Total knee"
 [units]

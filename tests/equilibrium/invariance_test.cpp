@@ -5,12 +5,11 @@
 #include <vector>
 
 #include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/math/degree.h"
 #include "support/quadric_knee.h"
 
 namespace condyle {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 std::vector<PoseResult> path(const test::QuadricKneeView& view) {
   EquilibriumSolver solver(test::quadric_knee(view));

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -13,6 +12,7 @@
 #include "condyle/contact/layer_contact.h"
 #include "condyle/equilibrium/build_model.h"
 #include "condyle/equilibrium/sweep.h"
+#include "condyle/math/degree.h"
 #include "condyle/scene_file/read_scene.h"
 #include "support/layer_fixture.h"
 
@@ -21,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDegree = M_PI / 180;
 const fs::path kKnee = fs::path(CONDYLE_SOURCE_DIR) / "../shared/specimens/lenhart2015/knee.toml";
 
 using Row = std::map<std::string, double>;

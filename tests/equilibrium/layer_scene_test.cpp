@@ -8,6 +8,7 @@
 
 #include "condyle/equilibrium/build_model.h"
 #include "condyle/equilibrium/sweep.h"
+#include "condyle/math/degree.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "support/allocation_count.h"
@@ -15,8 +16,6 @@
 
 namespace condyle {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 Scene layered_phantom(double modulus = 10) {
   Scene scene = read_scene(CONDYLE_SOURCE_DIR "/data/phantom/knee.toml");

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "condyle/equilibrium/arc_length.h"
+#include "condyle/math/degree.h"
+#include "equilibrium/displaced.h"
 #include "support/layered_pairs.h"
 #include "support/quadric_knee.h"
 #include "support/random.h"
@@ -16,14 +18,7 @@ namespace {
 
 using test::Truss;
 
-constexpr double kDegree = M_PI / 180;
-
 /// Up to 8 mm along each axis, 16 degrees about the flexion axis and 8 about the others.
-RigidTransform displaced(const RigidTransform& X, test::Random& random) {
-  const Eigen::Vector3d turn(random.between(-16, 16), random.between(-8, 8), random.between(-8, 8));
-  const Eigen::Vector3d way = random.vector(8);
-  return {exp_rotation(kDegree * turn) * X.R, X.p + way};
-}
 
 class DisplacedStartsOnLayers : public testing::TestWithParam<unsigned> {};
 

@@ -10,7 +10,6 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <vector>
 
 #include "condyle/equilibrium/arc_length.h"
@@ -18,6 +17,7 @@
 #include "condyle/equilibrium/linearization.h"
 #include "condyle/equilibrium/stability.h"
 #include "condyle/equilibrium/sweep.h"
+#include "condyle/math/degree.h"
 #include "support/allocation_count.h"
 #include "support/hold.h"
 #include "support/led_paths.h"
@@ -28,8 +28,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// A weight on a string of 10 N/mm and 60 mm that comes from (-30, 0, 40), 50 mm from the origin, by
 /// a path through there. Turning held.

@@ -10,6 +10,7 @@
 #include "condyle/equilibrium/carried_pose.h"
 #include "condyle/equilibrium/passed_through.h"
 #include "condyle/equilibrium/sweep.h"
+#include "condyle/math/degree.h"
 #include "condyle/surface/exact_surfaces.h"
 #include "support/counted_model.h"
 #include "support/known_part.h"
@@ -18,8 +19,6 @@
 
 namespace condyle {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 /// Values in degrees, as a scene gives them.
 std::vector<double> values(double from, double to, double step) {

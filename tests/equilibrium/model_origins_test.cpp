@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "condyle/equilibrium/equilibrium_solver.h"
 #include "condyle/equilibrium/model_origins.h"
+#include "condyle/math/degree.h"
 #include "support/ball_on_floor.h"
 #include "support/hold.h"
 #include "support/quadric_knee.h"
@@ -14,7 +13,6 @@ namespace condyle {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kDegree = M_PI / 180;
 
 const BodyOrigins kFar{{-1700, 900, 2300}, {800, -2600, 1100}};
 

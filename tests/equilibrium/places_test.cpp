@@ -8,9 +8,11 @@
 
 #include "condyle/equilibrium/events.h"
 #include "condyle/equilibrium/sweep.h"
+#include "condyle/math/degree.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/specimen/fit_wraps.h"
+#include "equilibrium/without_events.h"
 #include "support/knee_scenes.h"
 #include "support/moved_scene.h"
 #include "support/scratch_folder.h"
@@ -24,7 +26,6 @@ using test::Move;
 using test::MovedScene;
 using test::to;
 
-constexpr double kDegree = M_PI / 180;
 constexpr double kLength = 1e-8, kAngle = 1e-8 * kDegree;  // [mm], [rad]
 constexpr double kForce = 1e-8;                            // of 1 N or of the force
 
@@ -111,12 +112,6 @@ void expect_same(const SweepResult& expected, const SweepResult& actual, const M
     SCOPED_TRACE(testing::Message() << "pose at " << expected.poses[k].value);
     expect_same(expected.poses[k], moved.back(actual.poses[k]));
   }
-}
-
-SweepOptions without_events() {
-  SweepOptions options;
-  options.events = false;
-  return options;
 }
 
 /// Surfaces and wraps are moved as they were fitted once: what the engine makes of them.

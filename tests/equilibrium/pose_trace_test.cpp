@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "condyle/equilibrium/arc_length.h"
 #include "condyle/equilibrium/sweep.h"
+#include "condyle/math/degree.h"
 #include "condyle/math/rotation.h"
 #include "support/quadric_knee.h"
 #include "support/report_problems.h"
@@ -16,8 +16,6 @@
 
 namespace condyle {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 std::vector<double> residuals(const PoseResult& pose) {
   return {pose.trace.residuals.begin(), pose.trace.residuals.end()};

@@ -6,15 +6,16 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <map>
 
 #include "condyle/equilibrium/build_model.h"
 #include "condyle/equilibrium/sweep.h"
+#include "condyle/math/degree.h"
 #include "condyle/math/rotation.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
+#include "equilibrium/without_events.h"
 #include "support/random.h"
 
 namespace condyle {
@@ -22,13 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 const fs::path kSpecimens = fs::path(CONDYLE_SOURCE_DIR) / "../shared/specimens";
-constexpr double kDegree = M_PI / 180;
-
-SweepOptions without_events() {
-  SweepOptions options;
-  options.events = false;
-  return options;
-}
 
 /// Knees whose scene is our own; that of the others lies beside their meshes.
 fs::path scene_of(const std::string& name) {
@@ -83,8 +77,8 @@ double least_gap(const Scene& scene,
   return least;
 }
 
-using Knee = std::pair<const char*, const char*>;
-class SpecimenFits : public testing::TestWithParam<Knee> {
+using NamedKnee = std::pair<const char*, const char*>;
+class SpecimenFits : public testing::TestWithParam<NamedKnee> {
  protected:
   void SetUp() override {
     if (!fs::exists(kSpecimens / GetParam().first)) GTEST_SKIP() << "no specimens here";
@@ -124,11 +118,11 @@ TEST_P(SpecimenFits, ComesBackTheWayItWent) {
 
 INSTANTIATE_TEST_SUITE_P(Knees,
                          SpecimenFits,
-                         testing::Values(Knee{"lenhart2015", ""},
-                                         Knee{"lenhart2015", "medium"},
-                                         Knee{"lenhart2015", "coarse"},
-                                         Knee{"clouthier2019_ssm", ""},
-                                         Knee{"oai_pymskt", ""}));
+                         testing::Values(NamedKnee{"lenhart2015", ""},
+                                         NamedKnee{"lenhart2015", "medium"},
+                                         NamedKnee{"lenhart2015", "coarse"},
+                                         NamedKnee{"clouthier2019_ssm", ""},
+                                         NamedKnee{"oai_pymskt", ""}));
 
 // Closed slabs with the staircase of voxels. With smoothing chosen for position 20, 23 and 21 of 25
 // poses were met under 50, 100 and 300 N: in early flexion a contact slid over the steps to the rim

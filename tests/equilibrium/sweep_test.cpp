@@ -6,14 +6,13 @@
 #include <filesystem>
 
 #include "condyle/contact/contact_search.h"
+#include "condyle/math/degree.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/surface/patch.h"
 
 namespace condyle {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 /// Lowest signed distance between the known parts of two surfaces, by projecting a dense grid of
 /// one onto the other: no code of the contact search.

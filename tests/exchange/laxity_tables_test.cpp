@@ -11,6 +11,7 @@
 #include "app/run_program.h"
 #include "calibration/small_calibration.h"
 #include "condyle/calibration/measurement_table.h"
+#include "condyle/math/degree.h"
 #include "exchange/jcs_files.h"
 
 namespace condyle::test {
@@ -65,15 +66,14 @@ TEST_F(LaxityTables, MotionsAndLoadsAreReadInTheirOwnSenses) {
   const MeasurementTable read = read_by_scene(table.text);
   ASSERT_EQ(read.rows.size(), 15u);
   const double expected[] = {-0.75, -9, -0.75, -3, 2.5};  // of the last row
-  constexpr double kDeg = M_PI / 180;
   for (std::size_t i = 0; i < 5; ++i) {
     const Measurement& row = read.rows[10 + i];
     EXPECT_EQ(row.index, i + 1);
-    EXPECT_NEAR(row.value, expected[i] * (i < 2 ? kDeg : 1), 1e-12) << i;
-    EXPECT_NEAR(row.sd, i < 2 ? kDeg : 0.5, 1e-12);
+    EXPECT_NEAR(row.value, expected[i] * (i < 2 ? kDegree : 1), 1e-12) << i;
+    EXPECT_NEAR(row.sd, i < 2 ? kDegree : 0.5, 1e-12);
     EXPECT_EQ(row.load, 1);
     EXPECT_EQ(row.level, 5000);
-    EXPECT_NEAR(row.flexion, 30 * kDeg, 1e-12);
+    EXPECT_NEAR(row.flexion, 30 * kDegree, 1e-12);
     EXPECT_EQ(row.test, "EI1");
   }
   ASSERT_EQ(table.notes.size(), 2u);
@@ -85,9 +85,8 @@ TEST_F(LaxityTables, OffsetsAreAddedInTheSensesOfTheirChannels) {
   write("State.cfg", kState);
   options_.offsets = folder_ / "State.cfg";
   const MeasurementTable read = read_by_scene(laxity_table(both(), options_).text);
-  constexpr double kDeg = M_PI / 180;
-  EXPECT_NEAR(read.rows[0].flexion, 30.5 * kDeg + 0.1, 2e-6);  // six digits are written
-  EXPECT_NEAR(read.rows[0].value, -0.25 * kDeg + 0.2, 1e-6);
+  EXPECT_NEAR(read.rows[0].flexion, 30.5 * kDegree + 0.1, 2e-6);  // six digits are written
+  EXPECT_NEAR(read.rows[0].value, -0.25 * kDegree + 0.2, 1e-6);
   EXPECT_NEAR(read.rows[2].value, -0.5 - 1, 1e-12);
   EXPECT_NEAR(read.rows[3].value, -1 + 2, 1e-12);
   EXPECT_NEAR(read.rows[4].value, 2 - 30, 1e-12);
@@ -95,7 +94,7 @@ TEST_F(LaxityTables, OffsetsAreAddedInTheSensesOfTheirChannels) {
   options_.offsets = folder_ / "kinematic_offsets.csv";
   const MeasurementTable same = read_by_scene(laxity_table(both(), options_).text);
   EXPECT_NEAR(same.rows[4].value, 2 - 30, 1e-12);
-  EXPECT_NEAR(same.rows[0].flexion, 31.5 * kDeg, 1e-12);
+  EXPECT_NEAR(same.rows[0].flexion, 31.5 * kDegree, 1e-12);
 }
 
 TEST_F(LaxityTables, AStepThatIsHeldIsItsEndOrItsMean) {

@@ -9,7 +9,7 @@ namespace condyle {
 namespace {
 
 using Eigen::Vector3d;
-using namespace testing;
+using namespace test;
 
 /// Every triangle with vertices of its own, as in an STL file.
 TriangleMesh apart(const TriangleMesh& mesh) {

@@ -15,7 +15,7 @@
 namespace condyle {
 namespace {
 
-using namespace testing;
+using namespace test;
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 

@@ -17,7 +17,7 @@
 namespace condyle {
 namespace {
 
-using namespace testing;
+using namespace test;
 namespace fs = std::filesystem;
 
 /// A folder of its own for each test.

@@ -14,7 +14,7 @@
 namespace condyle {
 namespace {
 
-using namespace testing;
+using namespace test;
 
 struct Format {
   const char* name;

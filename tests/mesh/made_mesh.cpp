@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-namespace condyle::testing {
+namespace condyle::test {
 namespace {
 
 using Eigen::Vector3d;
@@ -380,4 +380,4 @@ std::string difference(const TriangleMesh& mesh, const MadeMesh& expected) {
   return "";
 }
 
-}  // namespace condyle::testing
+}  // namespace condyle::test

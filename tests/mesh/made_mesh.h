@@ -12,7 +12,7 @@
 
 #include "condyle/mesh/triangle_mesh.h"
 
-namespace condyle::testing {
+namespace condyle::test {
 
 struct Random : std::mt19937_64 {
   using std::mt19937_64::mt19937_64;
@@ -53,4 +53,4 @@ enum class Numbers { kWhole, kFloat, kDouble };
 /// triangles as the faces make, the same vector area and area of triangles.
 [[nodiscard]] std::string difference(const TriangleMesh& mesh, const MadeMesh& expected);
 
-}  // namespace condyle::testing
+}  // namespace condyle::test

@@ -10,7 +10,7 @@ namespace condyle {
 namespace {
 
 using Eigen::Vector3d;
-using namespace testing;
+using namespace test;
 
 // The vector areas of a closed surface cancel; the areas of a cube of side 10 add to 600.
 TEST(MeshMeasures, AreasOfAClosedSurfaceCancelAsVectors) {

@@ -10,13 +10,12 @@
 #include "condyle/math/rotation.h"
 #include "condyle/network/integrate.h"
 #include "condyle/network/network_equations.h"
+#include "network/gravity.h"
 #include "network/integration_options.h"
 #include "support/random.h"
 
 namespace condyle {
 namespace {
-
-const Eigen::Vector3d kGravity(0, -9810, 0);
 
 MassProperties rod() {
   MassProperties mass;

@@ -9,12 +9,11 @@
 #include "condyle/math/rotation.h"
 #include "condyle/network/integrate.h"
 #include "condyle/surface/exact_surfaces.h"
+#include "network/gravity.h"
 #include "network/integration_options.h"
 
 namespace condyle {
 namespace {
-
-const Eigen::Vector3d kGravity(0, -9810, 0);
 
 /// A ball of radius 10 and its contact with one surface of the ground.
 struct Ball {

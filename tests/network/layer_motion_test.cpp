@@ -23,11 +23,11 @@ constexpr double kRadius = 30, kMass = 1e-3;  // [mm], [t]
 const double kSpring = M_PI * 6.321839080459770 * kRadius;
 
 /// A ball over an endless plane, its centre `height` above where it touches.
-struct Ball {
+struct LayeredBall {
   Network network;
   NetworkState state;
 
-  explicit Ball(double height) {
+  explicit LayeredBall(double height) {
     MassProperties mass;
     mass.mass = kMass;
     mass.inertia = 0.4 * kMass * kRadius * kRadius * Eigen::Matrix3d::Identity();
@@ -60,7 +60,7 @@ TEST(LayerMotion, BallComesBackAfterTheTimeOfTheClosedForm) {
   const double speed = 300, deepest = std::cbrt(1.5 * kMass * speed * speed / kSpring);
   const double time =
       2 * std::sqrt(M_PI) * std::tgamma(4.0 / 3) / std::tgamma(5.0 / 6) * deepest / speed;
-  Ball ball(0);
+  LayeredBall ball(0);
   ball.state.bodies[0].v = {0, 0, -speed};
   const Motion motion = ball.move(options(2 * time, time / 2, 1e-12));
   ASSERT_TRUE(motion.completed) << motion.reason;
@@ -85,7 +85,7 @@ TEST(LayerMotion, BallThatIsLaidDownOscillates) {
   const double g = 9810, deepest = std::sqrt(3 * g * kMass / kSpring);
   const double beta = std::tgamma(0.25) * std::sqrt(M_PI) / std::tgamma(0.75);
   const double period = std::sqrt(deepest / (2 * g)) * beta;
-  Ball ball(0);
+  LayeredBall ball(0);
   ball.network.gravity = {0, 0, -g};
   const Motion motion = ball.move(options(5 * period, period / 2, 1e-11));
   ASSERT_TRUE(motion.completed) << motion.reason;
@@ -100,7 +100,7 @@ TEST(LayerMotion, BallThatIsLaidDownOscillates) {
 // With a damper beside the layer it comes to rest at its depth; what it loses is what was damped.
 TEST(LayerMotion, DampedBallComesToRest) {
   const double depth = std::sqrt(9810 * kMass / kSpring);
-  Ball ball(5);
+  LayeredBall ball(5);
   ball.network.gravity = {0, 0, -9810};
   LineComponent damper;
   damper.name = "damper";

@@ -18,14 +18,14 @@ constexpr double kDensity = 1.9e-9;  // [tonne/mm³]
 /// A cube with its corners pulled about, far from the origin: no symmetry left.
 TriangleMesh irregular_solid() {
   test::Random random(3);
-  TriangleMesh mesh = testing::cube(40, {20, -10, 70});
+  TriangleMesh mesh = test::cube(40, {20, -10, 70});
   for (Eigen::Vector3d& p : mesh.vertices) p += random.vector(8);
   return mesh;
 }
 
 // A box a x b x c has J = m/12 diag(b² + c², ...) about its centre.
 TEST(MassProperties, BoxHasItsTextbookInertia) {
-  TriangleMesh mesh = testing::cube(1, {-0.5, -0.5, -0.5});
+  TriangleMesh mesh = test::cube(1, {-0.5, -0.5, -0.5});
   const Eigen::Vector3d sides(30, 50, 80), center(5, 6, 7);
   for (Eigen::Vector3d& p : mesh.vertices) p = p.cwiseProduct(sides) + center;
   const MassProperties box = mass_of_solid(mesh, kDensity, "box");

@@ -7,12 +7,11 @@
 
 #include "condyle/math/rotation.h"
 #include "condyle/network/linear_graph.h"
+#include "network/gravity.h"
 #include "support/random.h"
 
 namespace condyle {
 namespace {
-
-const Eigen::Vector3d kGravity(0, -9810, 0);
 
 /// Eight point masses: an asymmetric body.
 std::vector<PointMass> some_points() {

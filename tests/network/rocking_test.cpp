@@ -15,7 +15,7 @@
 namespace condyle {
 namespace {
 
-constexpr double kGravity = 9810, kMass = 1e-3, kRadius = 10;  // mm/s², tonne, mm
+constexpr double kFreeFall = 9810, kMass = 1e-3, kRadius = 10;  // mm/s², tonne, mm
 
 /// Balls that are one body, on a plane without friction.
 struct BallsOnPlane {
@@ -26,7 +26,7 @@ struct BallsOnPlane {
     MassProperties mass;
     mass.mass = kMass;
     mass.inertia = inertia * Eigen::Matrix3d::Identity();
-    network.gravity = {0, -kGravity, 0};
+    network.gravity = {0, -kFreeFall, 0};
     network.bodies = {{"balls", mass, {0, 0, 0}, false}};
     const std::shared_ptr<const Surface> plane = make_plane({0, 0, 0}, {0, 1, 0});
     for (const Eigen::Vector3d& center : centers)
@@ -59,7 +59,7 @@ class RockingBalls : public testing::Test {
 
   BallsOnPlane balls{{{-b, 0, 0}, {b, 0, 0}}, I};
   const double first_speed =
-      2 * b * std::sqrt(kMass * kGravity * b * std::sin(tilt) / (0.5 * (I + kMass * b * b)));
+      2 * b * std::sqrt(kMass * kFreeFall * b * std::sin(tilt) / (0.5 * (I + kMass * b * b)));
 
   Motion rock() {
     const Eigen::Matrix3d R = Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -84,8 +84,8 @@ TEST_F(RockingBalls, StrikeInTurnMoreSlowlyEachTimeUntilTheyRest) {
   }
   EXPECT_LE(static_cast<int>(strikes.size()), expected + 1);
   const MotionFrame& end = motion.frames.back();
-  for (const double force : end.contact_force) EXPECT_NEAR(force, kMass * kGravity / 2, 1e-6);
-  EXPECT_NEAR(end.dissipated, kMass * kGravity * b * std::sin(tilt), 1e-7 * motion.energy_scale);
+  for (const double force : end.contact_force) EXPECT_NEAR(force, kMass * kFreeFall / 2, 1e-6);
+  EXPECT_NEAR(end.dissipated, kMass * kFreeFall * b * std::sin(tilt), 1e-7 * motion.energy_scale);
 }
 
 TEST_F(RockingBalls, NeverGainEnergy) {
@@ -104,7 +104,7 @@ TEST_F(RockingBalls, NeverGainEnergy) {
 /// from the mass centre and 3a/2 from the ball: (I + m a²/4) θ'' = 3/2 a (force - weight/3).
 class Tripod : public testing::Test {
  protected:
-  static constexpr double a = 40, I = 0.4, weight = kMass * kGravity;
+  static constexpr double a = 40, I = 0.4, weight = kMass * kFreeFall;
   static constexpr double leaves = 1.0 / 3;  // [s]
 
   /// Turned and elsewhere: round-off does not come out even. `omega` about the vertical.
@@ -114,7 +114,7 @@ class Tripod : public testing::Test {
     const Eigen::Matrix3d T =
         Eigen::AngleAxisd(turned, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
     const Eigen::Vector3d up = T.col(1), origin = turned * Eigen::Vector3d(300, 400, 500);
-    tripod.network.gravity = -kGravity * up;
+    tripod.network.gravity = -kFreeFall * up;
     for (ContactComponent& contact : tripod.network.contacts)
       contact.on_ground = make_plane(origin, up);
     Load load;

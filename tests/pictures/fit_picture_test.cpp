@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRadius = 25;
+constexpr double kBallRadius = 25;
 
 /// A patch through `mesh`, charted by `chart`, as fit_surfaces would hand it over.
 template <class Chart>
@@ -35,10 +35,12 @@ FittedSurface fitted(const TriangleMesh& mesh, Chart chart) {
 
 /// The cap of a ball around z; its mesh then steps 0.09 mm out where x > 0 and in where x < 0.
 FittedSurface ball_beside_its_mesh() {
-  const auto ball = [](double x, double y) { return std::sqrt(kRadius * kRadius - x * x - y * y); };
-  FittedSurface surface = fitted(testing::height_sheet(24, 60, ball),
+  const auto ball = [](double x, double y) {
+    return std::sqrt(kBallRadius * kBallRadius - x * x - y * y);
+  };
+  FittedSurface surface = fitted(test::height_sheet(24, 60, ball),
                                  [](const Vector3d& p) { return Eigen::Vector2d(p.head<2>()); });
-  for (Vector3d& p : surface.region.vertices) p *= 1 + std::copysign(0.09, p.x()) / kRadius;
+  for (Vector3d& p : surface.region.vertices) p *= 1 + std::copysign(0.09, p.x()) / kBallRadius;
   return surface;
 }
 
@@ -75,7 +77,7 @@ TEST(FitMap, CurvaturesAreThoseOfABall) {
   const auto& patch = dynamic_cast<const Patch&>(*surface.surface);
   for (const Principal which : {Principal::kGreatest, Principal::kLeast}) {
     const FitMap map = curvature_map(patch, which);
-    EXPECT_NEAR(map.value(patch.evaluate(Patch::place(0, 0))), -1 / kRadius, 5e-4);
+    EXPECT_NEAR(map.value(patch.evaluate(Patch::place(0, 0))), -1 / kBallRadius, 5e-4);
     EXPECT_NEAR(map.limit, 0.045, 0.0051) << "1/25, rounded up";
     EXPECT_EQ(map.unit, "1/mm");
   }
@@ -111,7 +113,7 @@ TEST(FitPicture, PutsBothCurvaturesOfABallInBlueSideBySide) {
 
 // A half pipe of radius 20 about z, like a condyle: 150 degrees do not fit into one view.
 TEST(FitPicture, ShowsWhatTurnsFarFromTwoSides) {
-  const TriangleMesh pipe = testing::grid_sheet(60, 30, [](double i, double j) {
+  const TriangleMesh pipe = test::grid_sheet(60, 30, [](double i, double j) {
     const double angle = (i / 60 - 0.5) * 150 * M_PI / 180;
     return Vector3d(20 * std::sin(angle), -20 * std::cos(angle), 20 * (0.5 - j / 30));
   });

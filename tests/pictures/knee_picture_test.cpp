@@ -5,14 +5,12 @@
 #include <algorithm>
 
 #include "condyle/input_error.h"
+#include "pictures/bare_picture.h"
 #include "support/block_knee.h"
 
 namespace condyle {
 namespace {
 
-constexpr PictureOptions kBare = {600, 450, false};
-
-bool is_white(Rgb c) { return c[0] > 252 && c[1] > 252 && c[2] > 252; }
 /// The middle of the strain colours, a magenta, which nothing else in a picture has: bone and slack
 /// grey do not.
 bool is_strain_color(Rgb c) { return c[0] > c[1] + 30 && c[2] > c[1] - 40 && c[0] > 90; }

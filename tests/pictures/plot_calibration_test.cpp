@@ -12,20 +12,13 @@
 #include "condyle/calibration/calibration.h"
 #include "condyle/pictures/png_file.h"
 #include "condyle/pictures/run_program.h"
+#include "pictures/plot_pages.h"
 #include "support/made_up_calibration.h"
 #include "support/many_parameters.h"
 #include "support/scratch_folder.h"
 
 namespace condyle {
 namespace {
-
-bool has_gnuplot() { return run_program({"gnuplot", "--version"}, "").exit_code == 0; }
-
-std::vector<std::string> names_of(const std::vector<NamedPage>& pages) {
-  std::vector<std::string> names;
-  for (const NamedPage& page : pages) names.push_back(page.name);
-  return names;
-}
 
 const ChartPage& page_of(const std::vector<NamedPage>& pages, const std::string& name) {
   const auto found = std::find_if(pages.begin(), pages.end(),

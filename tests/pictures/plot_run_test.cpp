@@ -12,13 +12,12 @@
 #include "condyle/network/simulate.h"
 #include "condyle/pictures/png_file.h"
 #include "condyle/pictures/run_program.h"
+#include "pictures/plot_pages.h"
 #include "support/block_knee.h"
 #include "support/scratch_folder.h"
 
 namespace condyle {
 namespace {
-
-bool has_gnuplot() { return run_program({"gnuplot", "--version"}, "").exit_code == 0; }
 
 TEST(PlotRun, AnglesAreInDegreesAndFailedPosesLeaveGaps) {
   auto run = block_run();

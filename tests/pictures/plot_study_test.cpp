@@ -9,6 +9,7 @@
 #include "condyle/pictures/png_file.h"
 #include "condyle/pictures/run_program.h"
 #include "condyle/results/study_shown.h"
+#include "pictures/plot_pages.h"
 #include "support/made_up_study.h"
 #include "support/scratch_folder.h"
 
@@ -16,12 +17,6 @@ namespace condyle {
 namespace {
 
 using Names = std::vector<std::string>;
-
-Names names_of(const std::vector<NamedPage>& pages) {
-  Names names;
-  for (const NamedPage& page : pages) names.push_back(page.name);
-  return names;
-}
 
 const PagePanel& panel_of(const std::vector<NamedPage>& pages, const std::string& title) {
   for (const NamedPage& page : pages)
@@ -38,8 +33,7 @@ std::vector<const Mark*> marks_of(const PagePanel& panel, Mark::Kind kind) {
 }
 
 void expect_drawn(const StudyView& study, const char* folder) {
-  if (run_program({"gnuplot", "--version"}, "").exit_code != 0)
-    GTEST_SKIP() << "gnuplot is not installed";
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   const auto where = test::fresh_folder(folder);
   const auto files = plot_study(study, where, {PlotFormat::kPng});
   EXPECT_EQ(files.size(), study_pages(study).size() + study_maps(study).size());

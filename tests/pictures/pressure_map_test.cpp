@@ -13,13 +13,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRadius = 30, kDepth = 0.5;  // of a ball in a plane [mm]
+constexpr double kLayeredRadius = 30, kDepth = 0.5;  // of a ball in a plane [mm]
 // E (1 - ν)/((1 + ν)(1 - 2ν))/h at E = 10 N/mm², ν = 0.45, both layers 6 mm [N/mm³].
 constexpr double kStiffness = 6.321839080459770;
 
 /// A layered ball 0.5 mm deep in a layered plane.
 Run ball_in_plane(double greatest = 0) {
-  Run run = ball_over_plane(kRadius, -kDepth);
+  Run run = ball_over_plane(kLayeredRadius, -kDepth);
   for (SurfaceDescription& surface : run.scene.surfaces)
     surface.elastic = ElasticSurface{.modulus = 10, .poisson = 0.45, .layer = 3};
   run.scene.contacts.resize(1);
@@ -31,25 +31,24 @@ Run ball_in_plane(double greatest = 0) {
   return run;
 }
 
-const std::vector<RigidTransform> kAsModelled(2);
+const std::vector<RigidTransform> kAsBuilt(2);
 
 TEST(PressureMap, IsTheLawAtTheDepthOfThePoint) {
   const auto run = ball_in_plane();
   const PressureMap map(run);
   for (const double r : {0.0, 2.0, 5.0}) {
-    const double depth = kRadius - std::hypot(r, kRadius - kDepth);
-    EXPECT_NEAR(map.pressure(1, {r, 0, 0}, {0, 1, 0}, kAsModelled).value(), kStiffness * depth,
-                1e-9);
+    const double depth = kLayeredRadius - std::hypot(r, kLayeredRadius - kDepth);
+    EXPECT_NEAR(map.pressure(1, {r, 0, 0}, {0, 1, 0}, kAsBuilt).value(), kStiffness * depth, 1e-9);
   }
-  EXPECT_EQ(map.pressure(1, {20, 0, 0}, {0, 1, 0}, kAsModelled).value(), 0) << "not pressed";
-  const Vector3d top(0, 2 * kRadius - kDepth, 0);
-  EXPECT_FALSE(map.pressure(0, top, {0, 1, 0}, kAsModelled)) << "looks away from the plane";
+  EXPECT_EQ(map.pressure(1, {20, 0, 0}, {0, 1, 0}, kAsBuilt).value(), 0) << "not pressed";
+  const Vector3d top(0, 2 * kLayeredRadius - kDepth, 0);
+  EXPECT_FALSE(map.pressure(0, top, {0, 1, 0}, kAsBuilt)) << "looks away from the plane";
 }
 
 TEST(PressureMap, ARigidContactHasNone) {
   auto run = ball_in_plane();
   run.scene.contacts[0].layer.reset();
-  EXPECT_FALSE(PressureMap(run).pressure(1, {0, 0, 0}, {0, 1, 0}, kAsModelled));
+  EXPECT_FALSE(PressureMap(run).pressure(1, {0, 0, 0}, {0, 1, 0}, kAsBuilt));
 }
 
 TEST(PressureMap, OneScaleForAllPosesEndsAtARoundNumber) {
@@ -81,9 +80,10 @@ TEST(PressureMap, OutlinesTheAreaAndColoursWhatIsPressed) {
   const auto run = ball_in_plane(3.2);
   ShadedMesh mesh = grid(12, 60);
   const double line = 0.05;
-  const ShadedMesh outline = PressureMap(run).paint(mesh, 1, kAsModelled, kCartilage, line);
+  const ShadedMesh outline = PressureMap(run).paint(mesh, 1, kAsBuilt, kCartilage, line);
   // The ball cuts the plane in a circle.
-  const double radius = std::sqrt(kRadius * kRadius - (kRadius - kDepth) * (kRadius - kDepth));
+  const double radius = std::sqrt(kLayeredRadius * kLayeredRadius -
+                                  (kLayeredRadius - kDepth) * (kLayeredRadius - kDepth));
   ASSERT_FALSE(outline.vertices.empty());
   for (const ShadedVertex& vertex : outline.vertices)
     EXPECT_NEAR(vertex.position.head<3>().norm(), radius, line + 0.02);

@@ -10,6 +10,7 @@
 #include "condyle/pictures/page_scales.h"
 #include "condyle/pictures/png_file.h"
 #include "condyle/pictures/strip.h"
+#include "pictures/bare_picture.h"
 #include "support/block_knee.h"
 
 namespace condyle {
@@ -17,14 +18,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr PictureOptions kBare = {600, 450, false};
-
 Rgb seen_at(KneePictures& pictures, const Image& image, View view, const Vector3d& p) {
   const Vector3d at = pictures.camera(view).project(p);
   return image.at(static_cast<int>(at.x()), static_cast<int>(at.y()));
 }
 
-bool is_white(Rgb c) { return c[0] > 252 && c[1] > 252 && c[2] > 252; }
 bool is_hertz_color(Rgb c) { return c[0] > c[1] + 60 && c[1] > c[2] + 20; }
 
 int count(const Image& image, bool (*is)(Rgb)) {

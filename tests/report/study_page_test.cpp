@@ -13,7 +13,7 @@
 namespace condyle {
 namespace {
 
-std::string page_of(const StudyView& study, bool pictures = false) {
+std::string page_of_study(const StudyView& study, bool pictures = false) {
   StudyPageOptions options;
   options.pictures = pictures;
   return study_page(study, "study.h5", options);
@@ -24,7 +24,7 @@ bool has(const std::string& page, const std::string& words) {
 }
 
 TEST(StudyPage, HoldsItsSectionsInOrder) {
-  const std::string page = page_of(test::made_up_study());
+  const std::string page = page_of_study(test::made_up_study());
   std::size_t at = 0;
   for (const char* id : {"status", "varied", "effects", "plots", "bands", "failures", "source"}) {
     const std::size_t found = page.find("<section id=\"" + std::string(id) + "\">");
@@ -39,24 +39,25 @@ TEST(StudyPage, HoldsItsSectionsInOrder) {
 
 TEST(StudyPage, FailuresThatDependOnANumberAreABias) {
   StudyView study = test::made_up_study();
-  const std::string page = page_of(study);
+  const std::string page = page_of_study(study);
   EXPECT_TRUE(has(page, "poses without a result depend on " + shown_parameters(study)[2] + "."));
   EXPECT_TRUE(has(page, std::string("240 ") + name(PoseStatus::kLeftPatch)));
   for (auto& shares : study.all.failures.by_quartile) shares = {0.03, 0.031, 0.03, 0.029};
-  EXPECT_FALSE(has(page_of(study), "biased"));
-  EXPECT_TRUE(has(page_of(study), "about as many in each quarter"));
+  EXPECT_FALSE(has(page_of_study(study), "biased"));
+  EXPECT_TRUE(has(page_of_study(study), "about as many in each quarter"));
   study.all.failures.failed = study.all.failures.incomplete = 0;
-  EXPECT_FALSE(has(page_of(study), "<section id=\"failures\">"));
-  EXPECT_TRUE(has(page_of(study), "<p class=\"verdict good\"><strong>25600 of 25600</strong>"));
+  EXPECT_FALSE(has(page_of_study(study), "<section id=\"failures\">"));
+  EXPECT_TRUE(
+      has(page_of_study(study), "<p class=\"verdict good\"><strong>25600 of 25600</strong>"));
 }
 
 // Three levels of a grid leave one quarter without samples.
 TEST(StudyPage, AQuarterWithoutSamplesHidesNoBias) {
   StudyView study = test::made_up_study();
   for (auto& shares : study.all.failures.by_quartile) shares = {0.02, 0.02, 0.06, std::nan("")};
-  EXPECT_TRUE(has(page_of(study), "biased"));
+  EXPECT_TRUE(has(page_of_study(study), "biased"));
   for (auto& shares : study.all.failures.by_quartile) shares = {0.033, 0.032, 0.033, std::nan("")};
-  EXPECT_FALSE(has(page_of(study), "biased"));
+  EXPECT_FALSE(has(page_of_study(study), "biased"));
 }
 
 TEST(StudyPage, TellsWhatExplainsWhatTheGreatestFirst) {
@@ -64,10 +65,10 @@ TEST(StudyPage, TellsWhatExplainsWhatTheGreatestFirst) {
   for (auto& by_parameter : study.all.effects[3].first)
     for (IndexEstimate& index : by_parameter) index = {0.001, 0, 0.01};
   for (IndexEstimate& index : study.all.effects[3].first[4]) index = {0.75, 0.7, 0.8};
-  const std::string page = page_of(study);
+  const std::string page = page_of_study(study);
   EXPECT_TRUE(has(page, "anterior drawer by aMCL strain (75 %)"));
   EXPECT_TRUE(has(page, "<td class=\"text\">aMCL strain 0.75</td>")) << "others are too small";
-  const std::string others = page_of(test::made_up_study(false));
+  const std::string others = page_of_study(test::made_up_study(false));
   EXPECT_TRUE(has(others, "Squares of rank correlations"));
   EXPECT_FALSE(has(others, "At some poses, with intervals"));
 }
@@ -91,18 +92,18 @@ TEST(StudyPage, NumbersThatAreNoneBreakNothing) {
     for (auto& quantile : band.quantiles) quantile = band.mean;
   }
   study.scenes = {"no TOML ["};
-  EXPECT_FALSE(has(page_of(study), ">nan<"));
+  EXPECT_FALSE(has(page_of_study(study), ">nan<"));
 }
 
 TEST(StudyPage, OfManyKneesOnlySomeScenesAreShown) {
-  const std::string page = page_of(test::made_up_study(false, 6));
+  const std::string page = page_of_study(test::made_up_study(false, 6));
   EXPECT_TRUE(has(page, "6144 samples of 6 knees, 1024 of each"));
   EXPECT_TRUE(has(page, "And 3 scenes more"));
 }
 
 #ifdef CONDYLE_PICTURES
 TEST(StudyPage, HasAllPlots) {
-  const std::string page = page_of(test::made_up_study(), true);
+  const std::string page = page_of_study(test::made_up_study(), true);
   if (!has(page, "<svg")) GTEST_SKIP() << "gnuplot is not installed";
   std::size_t count = 0;
   for (std::size_t at = 0; (at = page.find("<figure class=\"plot\">", at)) != std::string::npos;

@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "condyle/math/degree.h"
 #include "condyle/scene_file/read_scene.h"
 
 namespace condyle {
@@ -89,7 +90,6 @@ Scene read(const std::string& length, double mm, const std::string& angle, doubl
   return parse_scene(scene_in(length, mm, angle, deg), "folder/knee.toml");
 }
 
-constexpr double kDegree = M_PI / 180;
 // Decimal input times a unit: two roundings.
 constexpr double kTolerance = 4e-15;
 

@@ -22,7 +22,8 @@ std::string wrapped(const std::string& wrap, const std::string& ligament) {
               kLaw, ligament + "\n" + kLaw);
 }
 
-const std::string kSphere = "body = \"tibia\"\nkind = \"sphere\"\ncenter = [3, 5, 0]\nradius = 5";
+const std::string kWrapSphere =
+    "body = \"tibia\"\nkind = \"sphere\"\ncenter = [3, 5, 0]\nradius = 5";
 
 /// From (0, 20) to (0, -10) round a circle about (3, 5) with the radius r: both ends √(15² + 3²) from its
 /// middle.
@@ -59,7 +60,7 @@ TEST(WrapOfAScene, IsReadInItsUnits) {
 TEST(WrapOfAScene, SetsTheSlackLengthByTheLengthAlongThePath) {
   for (const double thickness : {0.0, 1.0}) {
     const std::string text =
-        with(wrapped(kSphere, "wraps = [\"rim\"]\nthickness = " + std::to_string(thickness)),
+        with(wrapped(kWrapSphere, "wraps = [\"rim\"]\nthickness = " + std::to_string(thickness)),
              "slack_length = 30", "reference_strain = 0.1");
     const Scene scene = parse_scene(text, "knee.toml");
     EXPECT_NEAR(slack_length(scene.ligaments[0].law), length_round(5 + thickness / 2) / 1.1, 1e-10);
@@ -101,23 +102,23 @@ const WrapMistake kMistakes[] = {
      "46: [[wrap]] \"rim\": length = 4, expected no length: a cylinder that ligaments wrap on has "
      "no "
      "ends"},
-    {kSphere, "wraps = []",
+    {kWrapSphere, "wraps = []",
      "49: [[ligament]] \"aACL\": wraps = [], expected names of wraps [\"...\", ...], from the "
      "first "
      "end to the second"},
-    {kSphere, "wraps = [\"rib\"]",
+    {kWrapSphere, "wraps = [\"rib\"]",
      "49: [[ligament]] \"aACL\": wraps = \"rib\", expected the name of a wrap: \"rim\"; did you "
      "mean \"rim\"?"},
-    {kSphere, "wraps = [\"rim\", \"rim\"]",
+    {kWrapSphere, "wraps = [\"rim\", \"rim\"]",
      "49: [[ligament]] \"aACL\": wraps = \"rim\", expected each wrap once"},
-    {kSphere, kOn + "\nside = [[1, 2, 3], [4, 5, 6]]",
+    {kWrapSphere, kOn + "\nside = [[1, 2, 3], [4, 5, 6]]",
      "50: [[ligament]] \"aACL\": side = [[1, 2, 3], [4, 5, 6]], expected a point [x, y, z] on the "
      "side that is passed"},
-    {kSphere, kOn + "\ninside = \"bent\"",
+    {kWrapSphere, kOn + "\ninside = \"bent\"",
      "50: [[ligament]] \"aACL\": inside = \"bent\", expected \"anchor\" or \"straight\""},
-    {kSphere, "thickness = 2",
+    {kWrapSphere, "thickness = 2",
      "49: [[ligament]] \"aACL\": thickness = 2, expected wraps beside it"},
-    {kSphere, kOn + "\nthickness = -1",
+    {kWrapSphere, kOn + "\nthickness = -1",
      "50: [[ligament]] \"aACL\": thickness = -1, expected a thickness >= 0"},
     {"body = \"tibia\"\nkind = \"torus\"\ncenter = [9, 0, 0]\naxis = [0, 0, 1]\nmajor = 2\nminor = "
      "1.5",
@@ -146,7 +147,7 @@ TEST(WrapOfAScene, NoEndLiesInsideTwo) {
 
 TEST(WrapOfAScene, ThatNoLigamentUsesIsNamed) {
   EXPECT_EQ(
-      message_of(wrapped(kSphere, "")),
+      message_of(wrapped(kWrapSphere, "")),
       "some/knee.toml:39: [[wrap]] \"rim\": no ligament wraps on it, expected wraps = [..] of a "
       "ligament to name it");
 }

@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 /// A ball of 25 mm without its poles, facing out, about `middle`.
 TriangleMesh ball(const Vector3d& middle = Vector3d::Zero()) {
   constexpr int kAlong = 100, kAround = 240;
-  return testing::grid_sheet(kAlong, kAround, [&](double i, double j) {
+  return test::grid_sheet(kAlong, kAround, [&](double i, double j) {
     const double latitude = (i / kAlong - 0.5) * 2, longitude = 2 * std::numbers::pi * j / kAround;
     return Vector3d(middle + 25 * Vector3d(std::cos(latitude) * std::cos(longitude),
                                            std::cos(latitude) * std::sin(longitude),

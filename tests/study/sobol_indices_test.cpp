@@ -7,12 +7,11 @@
 #include <limits>
 
 #include "condyle/design/uniform_draws.h"
+#include "study/missing.h"
 #include "study/saltelli_values.h"
 
 namespace condyle {
 namespace {
-
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 bool holds(const IndexEstimate& estimate, double value) {
   return estimate.lower <= value && value <= estimate.upper;

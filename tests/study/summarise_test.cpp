@@ -9,12 +9,11 @@
 #include "condyle/design/uniform_draws.h"
 #include "condyle/study/quantiles.h"
 #include "condyle/study/sobol_indices.h"
+#include "study/missing.h"
 #include "study/saltelli_values.h"
 
 namespace condyle {
 namespace {
-
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 // By hand: of 1, 2, 4, 8 the places of the levels are 3q; numpy.quantile gives the same.
 TEST(Quantiles, StandBetweenValuesLinearly) {

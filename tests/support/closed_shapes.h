@@ -5,7 +5,7 @@
 #include "condyle/mesh/clean_mesh.h"
 #include "support/mesh_shapes.h"
 
-namespace condyle::testing {
+namespace condyle::test {
 
 /// About the z axis, x = r cos φ, y = r sin φ, along a profile (r, z) from pole to pole, r = 0 there;
 /// facing outward.
@@ -44,4 +44,4 @@ inline TriangleMesh cylinder_solid(double radius, double length, double spacing)
   return turned_solid(profile, around);
 }
 
-}  // namespace condyle::testing
+}  // namespace condyle::test

@@ -11,11 +11,10 @@
 #include <vector>
 
 #include "condyle/calibration/calibration.h"
+#include "condyle/math/degree.h"
 #include "condyle/scene_file/read_scene.h"
 
 namespace condyle::test {
-
-inline constexpr double kMadeUpDegree = M_PI / 180;
 
 inline CalibrationDescription made_up_description() {
   CalibrationDescription asked;
@@ -24,7 +23,7 @@ inline CalibrationDescription made_up_description() {
   asked.flexion = 0;
   asked.moment_to_nmm = 1000;
   asked.relative = {"ap30"};
-  asked.curve_sd = {0.5, kMadeUpDegree};
+  asked.curve_sd = {0.5, kDegree};
   asked.loads = {{"anterior", false, 0}, {"varus", false, 1}};
   asked.parameters.resize(3);
   asked.parameters[0].of = {0, 3};
@@ -90,11 +89,11 @@ inline Measurement row(
   Measurement row;
   row.line = line;
   row.test = test;
-  row.flexion = flexion * kMadeUpDegree;
+  row.flexion = flexion * kDegree;
   row.load = load;
   row.level = level;
   row.index = coordinate;
-  row.sd = coordinate < 3 ? 0.5 * kMadeUpDegree : 0.5;
+  row.sd = coordinate < 3 ? 0.5 * kDegree : 0.5;
   return row;
 }
 
@@ -164,7 +163,7 @@ inline Identifiability known(const Eigen::MatrixXd& S, const Eigen::VectorXd& pr
 }
 
 inline void fill_studies(CalibrationResult& result) {
-  for (int k = 0; k <= 9; ++k) result.band_flexions.push_back(10 * k * kMadeUpDegree);
+  for (int k = 0; k <= 9; ++k) result.band_flexions.push_back(10 * k * kDegree);
   for (const auto& [quantity, units] :
        {std::pair{"anterior_drawer", "mm"}, {"internal_rotation", "deg"}, {"aACL.force", "N"}}) {
     Band band{quantity, units, {}, {}, {}, {}};
@@ -187,9 +186,9 @@ inline void fill_studies(CalibrationResult& result) {
     }
     result.profiles.push_back(profile);
   }
-  result.suggested = {{60 * kMadeUpDegree, 1, 10000, 0.8, 0.71, ""},
-                      {90 * kMadeUpDegree, 0, -100, 0.3, 0.88, ""},
-                      {90 * kMadeUpDegree, 1, 10000, 0, 1, "no pose: the descent found no rest"}};
+  result.suggested = {{60 * kDegree, 1, 10000, 0.8, 0.71, ""},
+                      {90 * kDegree, 0, -100, 0.3, 0.88, ""},
+                      {90 * kDegree, 1, 10000, 0, 1, "no pose: the descent found no rest"}};
 }
 
 }  // namespace made_up

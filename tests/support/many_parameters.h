@@ -44,7 +44,7 @@ inline void add_curve(MeasurementTable& table,
       Measurement m = row(static_cast<int>(table.rows.size()) + 2, test.c_str(), flexion,
                           level == 0 ? -1 : load, level, k);
       const double main = load == 0 ? (k == 4 ? 1 : 0.15) : k == 1 ? 1 : 0.2;
-      const double unit = k < 3 ? kMadeUpDegree : 1;
+      const double unit = k < 3 ? kDegree : 1;
       m.value = unit * 5 * main *
                 (std::tanh(1.5 * level / size) + 0.2 * std::sin(flexion + static_cast<double>(k)));
       m.use = use;

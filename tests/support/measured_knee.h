@@ -3,17 +3,14 @@
 /// The Wismans-type knee in tests of laxity: its loads, the table of a laboratory that measures all
 /// that moves, and the numbers that may be free.
 
-#include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "condyle/calibration/free_parameter.h"
+#include "condyle/math/degree.h"
 #include "condyle/scene_file/read_scene.h"
 
 namespace condyle::test {
-
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// Loads of the tests of laxity on the tibia: "anterior" [N] at the plateau, "varus" and "internal"
 /// [N mm], by force; "drawn" holds the anterior drawer instead [mm].

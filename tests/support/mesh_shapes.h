@@ -9,7 +9,7 @@
 
 #include "condyle/mesh/triangle_mesh.h"
 
-namespace condyle::testing {
+namespace condyle::test {
 
 /// A sheet over the grid [0, nu] x [0, nv], each cell cut in two; `point` maps (i, j) to space.
 /// Faces towards ∂i x ∂j.
@@ -63,4 +63,4 @@ inline void append(TriangleMesh& mesh, const TriangleMesh& other) {
     mesh.triangles.push_back({a + offset, b + offset, c + offset});
 }
 
-}  // namespace condyle::testing
+}  // namespace condyle::test

@@ -91,7 +91,7 @@ TEST(BoneCheck, DeeperPlateauTellsTheSide) {
 TEST(BoneCheck, FibularHeadDoesNotDeepenThePlateau) {
   TriangleMesh both = bone("tibia.stl");
   const int first = static_cast<int>(both.vertices.size());
-  const TriangleMesh head = testing::grid_sheet(20, 20, [](double i, double j) {
+  const TriangleMesh head = test::grid_sheet(20, 20, [](double i, double j) {
     const double a = M_PI * i / 20, b = 2 * M_PI * j / 20;
     return Eigen::Vector3d(-26 + 9 * std::sin(a) * std::cos(b), -47 - 9 * std::cos(a),
                            34 + 9 * std::sin(a) * std::sin(b));

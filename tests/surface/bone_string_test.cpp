@@ -14,8 +14,8 @@ namespace condyle {
 namespace {
 
 using Eigen::Vector3d;
-using testing::cylinder_solid;
-using testing::ellipsoid_solid;
+using test::cylinder_solid;
+using test::ellipsoid_solid;
 
 /// Between points at the distances a and b from the middle of a circle, the angle `between` apart.
 double round_a_circle(double radius, double a, double b, double between) {

@@ -44,7 +44,7 @@ Shape torus() {
 
 ArticularRegion sheet(const Shape& shape) {
   ArticularRegion region;
-  region.mesh = testing::height_sheet(24, 96, shape.height);
+  region.mesh = test::height_sheet(24, 96, shape.height);
   region.normals = vertex_normals(region.mesh);
   for (std::size_t i = 0; i < region.normals.size(); ++i) {
     region.chart.emplace_back(region.mesh.vertices[i].head<2>());

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using namespace testing;
+using namespace test;
 
 /// A sheet over the (x, y) plane as a region, facing up.
 ArticularRegion region_of(TriangleMesh mesh) {

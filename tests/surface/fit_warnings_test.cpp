@@ -122,15 +122,15 @@ TEST_F(FitWarnings, NameAFold) {
   };
   PatchDescription patch = within({-20, -20, -20}, {20, 20, 20});
   patch.smoothing = 3;
-  EXPECT_FALSE(holds(notes_of(testing::height_sheet(24, 80, hills), patch), "fold"));
-  EXPECT_TRUE(holds(notes_of(testing::height_sheet(24, 160, rippled), patch),
+  EXPECT_FALSE(holds(notes_of(test::height_sheet(24, 80, hills), patch), "fold"));
+  EXPECT_TRUE(holds(notes_of(test::height_sheet(24, 160, rippled), patch),
                     "warning: fold: the patch faces away from the mesh at"));
 }
 
 // A strip of 7 mm is at most 3.5 mm from its edge, less the rim that smoothing makes uncertain.
 TEST_F(FitWarnings, NameAThinRegion) {
   const TriangleMesh mesh =
-      testing::height_sheet(30, 60, [](double x, double y) { return 0.01 * (x * x + y * y); });
+      test::height_sheet(30, 60, [](double x, double y) { return 0.01 * (x * x + y * y); });
   EXPECT_FALSE(holds(notes_of(mesh, within({-15, -15, -5}, {15, 15, 20})), "thin region"));
   EXPECT_TRUE(holds(notes_of(mesh, within({-15, -3.6, -5}, {15, 3.6, 20})),
                     "warning: thin region: nowhere farther than"));

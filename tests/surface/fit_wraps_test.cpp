@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 using test::fitted_wrap_scene;
-using testing::ellipsoid_solid;
+using test::ellipsoid_solid;
 
 const RigidTransform kPlace{exp_rotation({0.2, -0.5, 0.3}), {6, 5, -2}};
 
@@ -97,7 +97,7 @@ TEST(FitWraps, LeadsAsTheEllipsoidItself) {
 TEST(FitWraps, RefusesWhatIsNoEllipsoid) {
   // A bar with edges.
   TriangleMesh bar;
-  testing::append(bar, testing::cylinder_solid(6, 40, 0.7));
+  test::append(bar, test::cylinder_solid(6, 40, 0.7));
   for (Vector3d& p : bar.vertices) {
     const double r = std::max(std::abs(p.x()), std::abs(p.y()));
     if (r > 0) p.head<2>() *= p.head<2>().norm() / r;
@@ -115,7 +115,7 @@ TEST(FitWraps, RefusesWhatIsNoEllipsoid) {
 }
 
 TEST(FitWraps, NamesMeshesThatCannotBeUsed) {
-  EXPECT_EQ(message_of_fit(testing::height_sheet(30, 20, [](double, double) { return 0.0; })),
+  EXPECT_EQ(message_of_fit(test::height_sheet(30, 20, [](double, double) { return 0.0; })),
             "knee.toml: wrap \"rim\": fit = \"bone\": the mesh of \"tibia\" does not enclose a "
             "volume, expected a closed one");
   RigidTransform far;
@@ -165,7 +165,7 @@ TEST(StrandsInBone, AreNamedWithTheirDepthAndAWrapIsProposed) {
             std::string::npos);
   // Of open sheets and of several parts nothing is said.
   TriangleMesh two = bone;
-  testing::append(two, placed(ellipsoid_solid(Vector3d::Constant(4), 0.5),
+  test::append(two, placed(ellipsoid_solid(Vector3d::Constant(4), 0.5),
                               {Eigen::Matrix3d::Identity(), {60, 0, 0}}));
   EXPECT_TRUE(strands_in_bone(scene, {TriangleMesh{}, two}).empty());
 }

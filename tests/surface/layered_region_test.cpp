@@ -14,7 +14,7 @@ namespace condyle {
 namespace {
 
 /// Squares of 1 mm, 10 each way, in two triangles each; vertex i, j at (i, j, 0).
-TriangleMesh sheet() {
+TriangleMesh flat_sheet() {
   TriangleMesh mesh;
   constexpr int kSide = 11;
   for (int i = 0; i < kSide; ++i)
@@ -38,7 +38,7 @@ double reach(const TriangleMesh& mesh, const std::vector<bool>& keep) {
 }
 
 TEST(GrowRegion, GoesOnAsFarAsItIsToldAndWhereItMay) {
-  const TriangleMesh mesh = sheet();
+  const TriangleMesh mesh = flat_sheet();
   std::vector<bool> strip, all(mesh.vertices.size(), true), up_to_4 = all;
   for (const auto& [a, b, c] : mesh.triangles) strip.push_back(mesh.vertices[b].x() < 1.5);
   for (std::size_t i = 0; i < up_to_4.size(); ++i) up_to_4[i] = mesh.vertices[i].x() < 4.5;

@@ -15,12 +15,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRadius = 25;
+constexpr double kBallRadius = 25;
 
 /// A square of 30 mm of a ball of 25 mm: its outside, or the inside of a socket.
 ArticularRegion ball_region(bool socket) {
-  const TriangleMesh mesh = testing::height_sheet(
-      30, 60, [](double x, double y) { return std::sqrt(kRadius * kRadius - x * x - y * y); });
+  const TriangleMesh mesh = test::height_sheet(30, 60, [](double x, double y) {
+    return std::sqrt(kBallRadius * kBallRadius - x * x - y * y);
+  });
   ArticularRegion region;
   for (const Vector3d& n : vertex_normals(mesh)) region.normals.push_back(socket ? -n : n);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -50,12 +51,13 @@ void expect_radius(bool socket, double offset, double radius) {
     EXPECT_GT(before.edge_distance(place), -0.2);
   }
   const Place middle = Patch::place(0, 0);
-  EXPECT_NEAR(patch.edge_distance(middle), before.edge_distance(middle) * radius / kRadius, 0.3);
+  EXPECT_NEAR(patch.edge_distance(middle), before.edge_distance(middle) * radius / kBallRadius,
+              0.3);
   for (const Vector3d& p : moved.region.vertices) EXPECT_NEAR(p.norm(), radius, 0.02);
 }
 
-TEST(OffsetPatch, OfABallIsALargerBall) { expect_radius(false, 2.5, kRadius + 2.5); }
-TEST(OffsetPatch, OfASocketIsASmallerSocket) { expect_radius(true, 2.5, kRadius - 2.5); }
+TEST(OffsetPatch, OfABallIsALargerBall) { expect_radius(false, 2.5, kBallRadius + 2.5); }
+TEST(OffsetPatch, OfASocketIsASmallerSocket) { expect_radius(true, 2.5, kBallRadius - 2.5); }
 
 TEST(OffsetPatch, IsRefusedWhereItWouldFoldOver) {
   const ArticularRegion region = ball_region(true);

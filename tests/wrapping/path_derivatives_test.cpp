@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 using test::Random;
 
 /// A string from x_C on B to s_D on A over surfaces that it touches at X_BA.
-struct Strand {
+struct PathStrand {
   Vector3d x_C, s_D;
   std::shared_ptr<const WrappedPath> path;
   std::array<double, kMostPathNumbers> kept = unknown_path();
@@ -33,7 +33,7 @@ struct Strand {
   }
 };
 
-void expect_exact(const Strand& strand, const RigidTransform& X) {
+void expect_exact(const PathStrand& strand, const RigidTransform& X) {
   const auto length = [&](const RigidTransform& at) -> Vector3d {
     Wrench unit;
     return {strand.pull(at, unit), 0, 0};
@@ -65,12 +65,12 @@ void expect_exact(const Strand& strand, const RigidTransform& X) {
 }
 
 /// The rates by the motion v of an end in the ground frame.
-void expect_exact_ends(const Strand& strand, const RigidTransform& X) {
+void expect_exact_ends(const PathStrand& strand, const RigidTransform& X) {
   LineRates rates;
   ASSERT_TRUE(strand.path->end_rates(strand.ends(X), X, strand.kept.data(), rates));
   for (const bool at_C : {true, false}) {
     const auto pull = [&](const Vector3d& v) {
-      Strand moved = strand;
+      PathStrand moved = strand;
       if (at_C)
         moved.x_C += v;
       else
@@ -90,7 +90,7 @@ void expect_exact_ends(const Strand& strand, const RigidTransform& X) {
   }
 }
 
-WrapShape random_shape(Random& random, int kind) {
+WrapShape random_low_shape(Random& random, int kind) {
   if (kind == 0) return WrapSphere{random.between(8, 14)};
   if (kind == 1) return WrapCylinder{random.between(6, 12)};
   if (kind == 2)
@@ -99,10 +99,10 @@ WrapShape random_shape(Random& random, int kind) {
 }
 
 /// Surfaces along x, 35 mm apart, each with its top near the line or somewhat above it.
-Strand random_strand(Random& random,
-                     const RigidTransform& X,
-                     const std::vector<bool>& on_A,
-                     int kind) {
+PathStrand random_strand(Random& random,
+                         const RigidTransform& X,
+                         const std::vector<bool>& on_A,
+                         int kind) {
   const double span = 35;
   std::vector<PathWrap> wraps;
   for (std::size_t i = 0; i < on_A.size(); ++i) {
@@ -110,7 +110,7 @@ Strand random_strand(Random& random,
     RigidTransform X_GS{exp_rotation(random.vector(0.3)),
                         {span * (static_cast<double>(i) + 1), 0, 0}};
     if (shape_kind % 2 == 1) X_GS.R = X_GS.R * exp_rotation(Vector3d(M_PI / 2, 0, 0));
-    const WrapShape shape = random_shape(random, shape_kind);
+    const WrapShape shape = random_low_shape(random, shape_kind);
     // 2 to 3 mm of it stand above the line, of inner ones more.
     double top = 0;
     for (double z = -40; z < 40; z += 0.1)
@@ -121,7 +121,7 @@ Strand random_strand(Random& random,
     wrap.side = wrap.placement * (X_GS.inverse() * (X_GS.p + Vector3d(0, 0, top + 1)));
     wraps.push_back(wrap);
   }
-  Strand strand;
+  PathStrand strand;
   strand.x_C = random.vector(2);
   const Vector3d x_D =
       Vector3d(span * static_cast<double>(on_A.size() + 1), 0, 0) + random.vector(2);
@@ -132,7 +132,7 @@ Strand random_strand(Random& random,
   return strand;
 }
 
-int touched(const Strand& strand, const RigidTransform& X) {
+int touched(const PathStrand& strand, const RigidTransform& X) {
   int count = 0;
   for (const auto& touch : strand.path->touches(strand.ends(X), X, strand.kept.data()))
     count += touch.touching ? 1 : 0;
@@ -145,7 +145,7 @@ void expect_exact_for(const std::vector<bool>& on_A, unsigned seed) {
   for (int k = 0; k < 12; ++k) {
     SCOPED_TRACE(k);
     const RigidTransform X = random.pose(20);
-    const Strand strand = random_strand(random, X, on_A, k);
+    const PathStrand strand = random_strand(random, X, on_A, k);
     const auto finding = strand.path->finding(strand.ends(X), X, strand.kept.data());
     ASSERT_EQ(finding.outcome, WrappedPath::Outcome::kFound) << finding.wrap;
     if (touched(strand, X) == static_cast<int>(on_A.size())) ++all;
@@ -176,11 +176,11 @@ TEST(WrappedPathDerivatives, AnchoredEnds) {
     SCOPED_TRACE(k);
     const RigidTransform X = random.pose(20);
     const bool at_C = k % 2 == 0;
-    Strand strand;
+    PathStrand strand;
     strand.x_C = Vector3d(0, 0, at_C ? -0.5 : -4);
     const Vector3d x_D = Vector3d(50, 3, at_C ? -4 : -0.5);
     strand.s_D = X.inverse() * x_D;
-    const WrapShape shape = random_shape(random, k / 2 % 3);
+    const WrapShape shape = random_low_shape(random, k / 2 % 3);
     RigidTransform X_GS{random.rotation(), at_C ? strand.x_C : x_D};
     double top = 0;
     for (double z = 0; z < 40; z += 0.1)

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector3d;
 using test::Random;
 
-const WrapEllipsoid kEllipsoid{{30, 18, 12}};
+const WrapEllipsoid kFlatEllipsoid{{30, 18, 12}};
 const RigidTransform kBeside{Eigen::Matrix3d::Identity(), {30, -25, 0}};
 
 struct Case {
@@ -32,15 +32,15 @@ std::vector<Case> cases() {
   };
   const Vector3d X(-24, 20, 3), Y(22, -6, 15), inside(-6, 10, 9);
   const PathWrap second{"second", WrapSphere{12}, kBeside, true, Vector3d(30, -25, 20)};
-  return {{"ellipsoid on B", one(kEllipsoid, false), X, Y},
-          {"ellipsoid on A", one(kEllipsoid, true), X, Y},
+  return {{"ellipsoid on B", one(kFlatEllipsoid, false), X, Y},
+          {"ellipsoid on A", one(kFlatEllipsoid, true), X, Y},
           {"cylinder on B", one(WrapCylinder{13}, false), X, Y},
           {"sphere on A", one(WrapSphere{14}, true), X, Y},
           {"torus on B", one(WrapTorus{12, 8}, false), X, Y},
-          {"anchored at C", one(kEllipsoid, false), inside, Y},
-          {"anchored at D", one(kEllipsoid, true), Y, inside},
+          {"anchored at C", one(kFlatEllipsoid, false), inside, Y},
+          {"anchored at D", one(kFlatEllipsoid, true), Y, inside},
           {"off the surface", one(WrapSphere{5}, false), X, Y},
-          {"on both", {{"first", kEllipsoid, {}, false, {}}, second}, X, {40, -45, 5}}};
+          {"on both", {{"first", kFlatEllipsoid, {}, false, {}}, second}, X, {40, -45, 5}}};
 }
 
 RigidTransform moved(Random& random, double much) {

@@ -1,8 +1,7 @@
 #include "calibration/study_knee.h"
 
-#include <cmath>
-
 #include "condyle/elements/joint_table.h"
+#include "condyle/math/degree.h"
 #include "condyle/scene/ligament_bundles.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
@@ -10,7 +9,7 @@
 namespace condyle::calibration_study {
 namespace {
 
-constexpr double kDegree = M_PI / 180, kNewtonMetre = 1000;
+constexpr double kNewtonMetre = 1000;
 
 /// Along or about an axis of the tibia's frame, following the tibia, at the frame's origin.
 void add_load(Scene& scene, const std::string& name, const Eigen::Vector3d& axis, bool moment) {

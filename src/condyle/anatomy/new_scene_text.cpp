@@ -7,6 +7,7 @@
 #include <set>
 #include <variant>
 
+#include "condyle/math/degree.h"
 #include "condyle/math/rotation.h"
 #include "condyle/scene_file/scene_words.h"
 
@@ -16,11 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
-constexpr double kPerDegree = M_PI / 180;
-
 /// To a tenth, never "-0.0".
 std::string degrees(double angle) {
-  return fmt::format("{:.1f}", std::round(10 * angle / kPerDegree) / 10 + 0.0);
+  return fmt::format("{:.1f}", std::round(10 * angle / kDegree) / 10 + 0.0);
 }
 
 /// To 1e-4 mm, without the zeros behind.
@@ -98,7 +97,7 @@ class SceneText {
                     "{} degrees.",
                     degrees(-start.extended), start.shifted, degrees(start.tilted)));
     line("start.translation = {}", direction(start.X_FT.p));
-    line("start.rotation = {}", direction(log_rotation(start.X_FT.R) / kPerDegree));
+    line("start.rotation = {}", direction(log_rotation(start.X_FT.R) / kDegree));
   }
 
   void add_frame(const char* name, const RecognisedBone& bone) {

@@ -8,6 +8,7 @@
 
 #include "condyle/anatomy/new_scene_text.h"
 #include "condyle/input_error.h"
+#include "condyle/math/degree.h"
 #include "condyle/math/rotation.h"
 #include "condyle/scene/start_pose.h"
 #include "condyle/scene_file/read_scene.h"
@@ -22,7 +23,6 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kDegree = M_PI / 180;
 constexpr double kAsScanned = 5 * kDegree;  // flexion that is left as it is
 constexpr double kMostOverlap = 10;         // of bones that were scanned in one piece [mm]
 constexpr double kTouch = 0.02;             // [mm]

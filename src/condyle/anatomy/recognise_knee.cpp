@@ -14,13 +14,13 @@
 #include "condyle/anatomy/knee_side.h"
 #include "condyle/anatomy/tibial_frame.h"
 #include "condyle/input_error.h"
+#include "condyle/math/degree.h"
 
 namespace condyle {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = M_PI / 180;
 constexpr double kLeastConfidence = 0.8;
 // Features of one bone go together: all of them say half of what they would say if independent.
 constexpr double kIndependence = 0.5;

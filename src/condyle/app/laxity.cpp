@@ -14,13 +14,12 @@
 #include "condyle/app/reference_options.h"
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
+#include "condyle/math/degree.h"
 #include "condyle/results/run_view.h"
 #include "condyle/results/sweep_table.h"
 
 namespace condyle {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 struct LaxityCommand {
   Talk talk;

@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "condyle/app/tell.h"
+#include "condyle/math/degree.h"
 #include "condyle/report/summary_json.h"
 
 namespace condyle {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 void print_head() {
   tell("from the mesh to the patch:\n");

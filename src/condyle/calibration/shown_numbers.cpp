@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "condyle/calibration/told_units.h"
+#include "condyle/math/degree.h"
 
 namespace condyle {
 namespace {
-
-constexpr double kOneDegree = std::numbers::pi / 180;
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
@@ -52,7 +50,7 @@ std::string shown_unit(const std::string& units) {
 }
 
 std::string shown_degrees(double angle) {
-  return fmt::format("{:g}°", std::round(1e4 * angle / kOneDegree) / 1e4 + 0.0);
+  return fmt::format("{:g}°", std::round(1e4 * angle / kDegree) / 1e4 + 0.0);
 }
 
 double shown_value(const FreeParameter& parameter, double theta) {

@@ -1,11 +1,9 @@
 #include "condyle/calibration/told_units.h"
 
-#include <cmath>
+#include "condyle/math/degree.h"
 
 namespace condyle {
 namespace {
-
-constexpr double kPerDegree = M_PI / 180;
 
 bool is_strain(const FreeParameter& parameter) {
   if (parameter.moves.empty()) return false;
@@ -16,7 +14,7 @@ bool is_strain(const FreeParameter& parameter) {
 }  // namespace
 
 Unit unit_of_theta(const FreeParameter& parameter) {
-  if (parameter.units == "rad") return {"deg", kPerDegree};
+  if (parameter.units == "rad") return {"deg", kDegree};
   return {parameter.units, 1};
 }
 
@@ -37,7 +35,7 @@ Unit unit_of_level(const Scene& scene, int load) {
   const auto i = static_cast<std::size_t>(of->index);
   if (of->displacement_control) {
     const bool angle = i < scene.conditions.size() && is_angle(scene.conditions[i].kind);
-    return angle ? Unit{"deg", kPerDegree} : Unit{"mm", 1};
+    return angle ? Unit{"deg", kDegree} : Unit{"mm", 1};
   }
   const bool moment = i < scene.loads.size() && scene.loads[i].moment;
   return moment ? Unit{"N m", 1000} : Unit{"N", 1};

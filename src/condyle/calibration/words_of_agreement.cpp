@@ -6,11 +6,10 @@
 #include <cmath>
 
 #include "condyle/calibration/told_units.h"
+#include "condyle/math/degree.h"
 
 namespace condyle {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 std::string decimals(double value, int digits = 2) {
   return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, digits);

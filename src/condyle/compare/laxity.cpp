@@ -12,13 +12,13 @@
 #include "condyle/equilibrium/model_covers.h"
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/input_error.h"
+#include "condyle/math/degree.h"
 #include "condyle/reference/wismans_solver.h"
 #include "condyle/scene/start_pose.h"
 
 namespace condyle {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
 constexpr double kFlexionStep = 5 * kDegree, kLoadStep = 0.1;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 

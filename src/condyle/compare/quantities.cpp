@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "condyle/elements/joint_table.h"
+#include "condyle/math/degree.h"
 #include "condyle/scene/ligament_bundles.h"
 #include "condyle/scene/swept_quantity.h"
 
@@ -11,7 +12,6 @@ namespace condyle {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDegree = M_PI / 180;
 
 void add_joint(const Scene& scene, std::vector<Quantity>& quantities) {
   const bool flexion_is_swept = quantity_of_sweep(scene).flexion;

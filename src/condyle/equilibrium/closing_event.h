@@ -5,6 +5,7 @@
 /// where it was zero.
 
 #include <optional>
+#include <vector>
 
 #include "condyle/equilibrium/walker.h"
 
@@ -12,8 +13,9 @@ namespace condyle {
 
 /// The swept value at which the gap of a point that `after` carries with and `before` does not
 /// vanishes on the way through `earlier` and `before`, which have the same contacts; of several
-/// points the one nearest to `before`. Nothing where no such gap closes.
+/// points the one nearest to `before`. Nothing where no such gap closes. `searches`: one for each pair.
 [[nodiscard]] std::optional<double> closing_value(const Model& model,
+                                                  const std::vector<ContactSearch>& searches,
                                                   const SolvedPose& earlier,
                                                   const SolvedPose& before,
                                                   const SolvedPose& after);

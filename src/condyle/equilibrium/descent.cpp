@@ -19,18 +19,20 @@ constexpr std::size_t kMemorySize = 24;  // material points
 constexpr std::size_t kMostMinima = 12;  // of one pair
 
 // Lengths [L].
-constexpr double kNewtonReach = 0.05;   // a shorter step is worth an attempt of Newton
-constexpr double kLeastReach = 1e-4;    // of a step: below, nothing more is gained
-constexpr double kAtRest = 1e-6;        // nor where the programme asks for no more than this
-constexpr double kFarAway = 50;         // from the start: nothing carries the load
-constexpr double kHeldWithin = 20;      // a contact that is held closed is looked for
+constexpr double kNewtonReach = 0.05;  // a shorter step is worth an attempt of Newton
+constexpr double kLeastReach = 1e-4;   // of a step: below, nothing more is gained
+constexpr double kAtRest = 1e-6;       // nor where the programme asks for no more than this
+constexpr double kFarAway = 50;        // from the start: nothing carries the load
+constexpr double kHeldWithin = 20;     // a contact that is held closed is looked for
+constexpr double kSameRefused = 1e-6;  // two equilibria that were refused are one,
+constexpr double kThere = 0.01;        // and the descent has come to it
+constexpr double kLongestFree = 10;    // step where nothing is near
+
+// Of the length of the pair (ContactSearch::length).
 constexpr double kSameMinimum = 0.003;  // minima nearer than this are one constraint
 constexpr double kSamePoint = 0.01;     // a material point beside a minimum says nothing new,
 constexpr double kPointsApart = 0.02;   // nor one so near to another
 constexpr double kNearPoint = 0.02;     // a minimum with a smaller gap becomes a material point
-constexpr double kSameRefused = 1e-6;   // two equilibria that were refused are one,
-constexpr double kThere = 0.01;         // and the descent has come to it
-constexpr double kLongestFree = 10;     // step where nothing is near
 
 // Of a trust region [Nocedal and Wright 2006, ch. 4, 18.5].
 constexpr double kGrow = 2;           // of the reach after a step that gained,
@@ -204,10 +206,11 @@ void Descent::gather_within(double ahead,
     const ContactMode mode = model_.pairs[p].mode;
     if (mode == ContactMode::kOpen) continue;
     const bool held = mode == ContactMode::kClosed;
+    const double same = kSameMinimum * searches_[p].length(L);
     if (held)
-      searches_[p].find_nearest(X, kHeldWithin * L, minima_, kSameMinimum * L);
+      searches_[p].find_nearest(X, kHeldWithin * L, minima_, same);
     else
-      searches_[p].find(X, ahead, minima_, kSameMinimum * L);
+      searches_[p].find(X, ahead, minima_, same);
     ++searches_made_;
     minima_.resize(std::min(minima_.size(), kMostMinima));
     const std::size_t first = constraints.size();
@@ -227,16 +230,17 @@ void Descent::add_memory(int pair,
                          std::vector<Constraint>& constraints) {
   const Surface& on_A = *model_.pairs[pair].on_A;
   const Surface& on_B = *model_.pairs[pair].on_B;
+  const double same = kSamePoint * searches_[pair].length(model_.length);
   for (const auto& [owner, place] : memory_) {
     if (owner != pair) continue;
     const Eigen::Vector3d point = X * on_A.evaluate(place).c;
     const Place opposite = on_B.closest(point, on_B.seed(point));
     if (on_B.edge_distance(opposite) < 0) continue;
-    const bool isolated = std::all_of(constraints.begin() + static_cast<std::ptrdiff_t>(first),
-                                      constraints.end(), [&](const Constraint& c) {
-                                        return (X * on_A.evaluate(c.places.on_A).c - point).norm() >
-                                               kSamePoint * model_.length;
-                                      });
+    const bool isolated =
+        std::all_of(constraints.begin() + static_cast<std::ptrdiff_t>(first), constraints.end(),
+                    [&](const Constraint& c) {
+                      return (X * on_A.evaluate(c.places.on_A).c - point).norm() > same;
+                    });
     const Constraint constraint = constrain(pair, {opposite, place}, X);
     if (isolated && constraint.gap < kLookAhead * options_.longest_step * model_.length) {
       constraints.push_back(constraint);
@@ -247,12 +251,13 @@ void Descent::add_memory(int pair,
 void Descent::remember(const std::vector<Constraint>& constraints) {
   for (const Constraint& constraint : constraints) {
     const bool held = model_.pairs[constraint.pair].mode == ContactMode::kClosed;
-    if (held || !constraint.refined || constraint.gap > kNearPoint * model_.length) continue;
+    const double length = searches_[constraint.pair].length(model_.length);
+    if (held || !constraint.refined || constraint.gap > kNearPoint * length) continue;
     const Surface& on_A = *model_.pairs[constraint.pair].on_A;
     const Eigen::Vector3d c = on_A.evaluate(constraint.places.on_A).c;
     const bool known = std::any_of(memory_.begin(), memory_.end(), [&](const auto& entry) {
       return entry.first == constraint.pair &&
-             (on_A.evaluate(entry.second).c - c).norm() < kPointsApart * model_.length;
+             (on_A.evaluate(entry.second).c - c).norm() < kPointsApart * length;
     });
     if (known) continue;
     if (memory_.size() == kMemorySize) memory_.erase(memory_.begin());

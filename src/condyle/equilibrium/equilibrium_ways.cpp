@@ -225,12 +225,14 @@ bool EquilibriumSolver::solve_from_elsewhere(EquilibriumState& state, Attempt& a
 /// The descent from the carried start moved out and in along the normals of where the surfaces are nearest:
 /// of a first pose no other start is known, and one in some thousand comes to where nothing carries.
 bool EquilibriumSolver::descend_from_beside_start(EquilibriumState& state, Attempt& attempt) {
-  constexpr double kBeside = 0.05, kFar = 0.5, kSame = 0.01;  // of L
+  constexpr double kBeside = 0.05, kFar = 0.5;  // of L
+  constexpr double kSame = 0.01;                // of the length of the pair
   const RigidTransform start = carried(*model_, drive_, model_->start);
   Eigen::Vector3d out = Eigen::Vector3d::Zero();
   for (std::size_t p = 0; p < searches_.size(); ++p) {
     if (model_->pairs[p].mode == ContactMode::kOpen || !searches_[p].has_samples()) continue;
-    searches_[p].find(start, kFar * model_->length, minima_, kSame * model_->length);
+    const double L = model_->length;
+    searches_[p].find(start, kFar * L, minima_, kSame * searches_[p].length(L));
     if (!minima_.empty()) out += minima_.front().n;
   }
   if (!(out.norm() > 0)) return false;

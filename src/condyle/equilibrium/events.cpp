@@ -237,7 +237,8 @@ class EventSearch {
     const std::optional<SolvedPose> earlier =
         pose_at(before.value - std::copysign(length, after.value - before.value), before);
     if (!earlier || !same_contacts(earlier->result, before.result)) return middle;
-    return closing_value(walker_.model(), *earlier, before, after).value_or(middle);
+    return closing_value(walker_.model(), walker_.solver().searches(), *earlier, before, after)
+        .value_or(middle);
   }
 
  private:

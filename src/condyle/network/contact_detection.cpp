@@ -10,7 +10,7 @@
 namespace condyle {
 namespace {
 
-// Of L, 30 mm for a knee.
+// Of the length of the pair, 30 mm for a knee.
 constexpr double kNear = 0.1 / 30;       // gap below which a place is followed
 constexpr double kSamePlace = 0.5 / 30;  // between points of contact
 constexpr double kDouble = 1e-3 / 30;    // between those that have become one
@@ -69,7 +69,7 @@ std::string KneeContactDetection::lost_layer(const NetworkState& state) {
 void KneeContactDetection::detect_in_pair(int pair,
                                           NetworkState& state,
                                           DetectedContacts& detected) {
-  const double L = model_.length;
+  const double L = length_of(pair);
   drop_doubles(pair, state);
   set_known(pair, state);
   searches_[pair].find(state.bodies[0].X, kNear * L, minima_, kSamePlace * L, known_);
@@ -110,7 +110,7 @@ int KneeContactDetection::follower_of(int pair,
                                       const NetworkState& state) const {
   for (int i = 0; i < static_cast<int>(knee_.places.size()); ++i)
     if (knee_.places[i] == pair && state.contacts[i].followed &&
-        (point_of(i, state) - minimum.point_B).norm() < kSamePlace * model_.length)
+        (point_of(i, state) - minimum.point_B).norm() < kSamePlace * length_of(pair))
       return i;
   return -1;
 }
@@ -129,7 +129,7 @@ void KneeContactDetection::drop_doubles(int pair, NetworkState& state) const {
       MovingContact &first = state.contacts[i], &second = state.contacts[k];
       if (knee_.places[i] != pair || knee_.places[k] != pair) continue;
       if (!first.followed || !second.followed) continue;
-      if ((point_of(i, state) - point_of(k, state)).norm() > kDouble * model_.length) continue;
+      if ((point_of(i, state) - point_of(k, state)).norm() > kDouble * length_of(pair)) continue;
       MovingContact& dropped = second.closed && !first.closed ? first : second;
       dropped.closed = dropped.followed = false;
     }

@@ -28,6 +28,7 @@ class KneeContactDetection {
   void drop_doubles(int pair, NetworkState& state) const;
   [[nodiscard]] std::string lost_contact(const NetworkState& state) const;
   [[nodiscard]] std::string lost_layer(const NetworkState& state);
+  [[nodiscard]] double length_of(int pair) const { return searches_[pair].length(model_.length); }
   [[nodiscard]] Eigen::Vector3d point_of(int contact, const NetworkState& state) const;
 
   const Model& model_;

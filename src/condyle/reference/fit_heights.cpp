@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "condyle/input_error.h"
+#include "condyle/math/degree.h"
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/scene/start_pose.h"
 #include "condyle/scene/swept_quantity.h"
@@ -18,7 +19,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kDegree = M_PI / 180;
 constexpr double kSpacing = 1;  // [mm] of points on exact surfaces
 constexpr double kMargin = 20 * kDegree, kWidest = 70 * kDegree;
 

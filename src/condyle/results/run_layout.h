@@ -3,16 +3,15 @@
 /// Which dataset of a run file holds which number: one table each, used by writer and reader alike.
 
 #include <array>
-#include <cmath>
 
 #include "condyle/elements/joint_table.h"
 #include "condyle/equilibrium/pose_result.h"
+#include "condyle/math/degree.h"
 #include "condyle/scene/fitted_surface.h"
 
 namespace condyle {
 
 inline constexpr const char* kRunFormat = "condyle 1";
-inline constexpr double kDegree = M_PI / 180;
 
 /// A number of T under its name; the file holds it divided by `unit`.
 template <typename T>

@@ -2,12 +2,13 @@
 
 #include <functional>
 
+#include "condyle/math/degree.h"
+
 namespace condyle {
 namespace {
 
-constexpr double kKilogram = 1e-3;      // tonne
-constexpr double kJoule = 1e3;          // N mm
-constexpr double kDegree = M_PI / 180;  // rad
+constexpr double kKilogram = 1e-3;  // tonne
+constexpr double kJoule = 1e3;      // N mm
 
 class SimulationWriter {
  public:

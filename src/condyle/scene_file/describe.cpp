@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "condyle/math/degree.h"
 #include "condyle/scene/ligament_number.h"
 #include "condyle/scene/ligament_path.h"
 #include "condyle/scene/start_pose.h"
@@ -15,8 +16,6 @@ namespace condyle {
 namespace {
 
 using Out = std::back_insert_iterator<std::string>;
-
-constexpr double kDegree = M_PI / 180;
 
 const char* word(SurfaceKind kind) {
   switch (kind) {

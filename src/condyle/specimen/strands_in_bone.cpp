@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "condyle/math/degree.h"
 #include "condyle/scene/ligament_path.h"
 #include "condyle/specimen/bone_string.h"
 #include "condyle/specimen/fit_wraps.h"
@@ -13,8 +13,6 @@
 
 namespace condyle {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 bool wraps_on(const Scene& scene, const LigamentDescription& ligament, int body) {
   return std::any_of(ligament.path.wraps.begin(), ligament.path.wraps.end(), [&](int wrap) {
