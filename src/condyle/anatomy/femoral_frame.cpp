@@ -19,8 +19,8 @@ using Eigen::Vector3d;
 
 constexpr double kEnd =
     0.85;  // radius of the articular end about the middle of the axis, of its width
-constexpr double kShaftFirst = 0.5, kShaftLast = 0.76,
-                 kShaftLeast = 0.08;  // above the axis, of the width
+constexpr double kFemoralShaftFirst = 0.5, kFemoralShaftLast = 0.76,
+                 kFemoralShaftLeast = 0.08;  // above the axis, of the width
 // Where the sagittal outline lies 1.3 radii from the axis, seen from distal forward: eleven knees had
 // it 13 to 25 degrees in front of what their shafts say is distal.
 constexpr double kOutlineRadii = 1.3, kOutlineAngle = 17 * M_PI / 180;
@@ -172,10 +172,11 @@ Vector3d lean_forward(const BoneFrame& frame, double angle) {
 void set_proximal(FemoralShape& shape, const TriangleMesh& femur) {
   BoneFrame& frame = shape.frame;
   const double w = shape.width;
-  const auto line = find_shaft_line(femur, frame.origin, frame.proximal,
-                                    {kShaftFirst * w, kShaftLast * w, kShaftLeast * w});
+  const auto line =
+      find_shaft_line(femur, frame.origin, frame.proximal,
+                      {kFemoralShaftFirst * w, kFemoralShaftLast * w, kFemoralShaftLeast * w});
   shape.shaft = line ? line->length : 0;
-  shape.shaft_first = kShaftFirst * w;
+  shape.shaft_first = kFemoralShaftFirst * w;
   if (line) shape.lean = std::asin(line->direction.dot(frame.lateral));
   const Vector3d proximal =
       line ? line->direction : lean_forward(frame, kOutlineAngle - outline_angle(shape));

@@ -20,7 +20,8 @@ using Eigen::Vector3d;
 
 constexpr double kLeastCosine = 0.6, kFullCosine = 0.8;  // of a face's normal and the plateau's
 constexpr double kBelow = 6, kAbove = 10;  // what belongs to the plateau, from its plane [mm]
-constexpr double kScale = 2;  // beyond it a face loses its say in the plane: eminence and rims [mm]
+constexpr double kResidualScale =
+    2;  // beyond it a face loses its say in the plane: eminence and rims [mm]
 constexpr double kLeastPart = 0.3;  // of the largest linked part: less is no half of a plateau
 
 struct Face {
@@ -80,7 +81,7 @@ void fit_plane(Plateau& plateau, const std::vector<Face>& faces) {
     for (const Face& f : faces) {
       const Vector3d q = f.p - plateau.middle;
       const Vector3d row(1, u.dot(q), v.dot(q));
-      const double z = plateau.normal.dot(q), r = (z - row.dot(x)) / kScale;
+      const double z = plateau.normal.dot(q), r = (z - row.dot(x)) / kResidualScale;
       const double weight = f.weight / (1 + r * r);
       A += weight * row * row.transpose();
       b += weight * z * row;

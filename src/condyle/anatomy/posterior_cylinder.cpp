@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kFirst = 0.35, kLast = 1.92;  // of the arcs, 0 distal, + posterior [rad]
-constexpr double kScale = 1;                   // beyond it a sample loses its say [mm]
+constexpr double kDistanceScale = 1;           // beyond it a sample loses its say [mm]
 
 /// Directions at right angles to the axis.
 struct Cylinder {
@@ -63,7 +63,7 @@ void step(Cylinder& c, const std::vector<Sample>& samples) {
     const double r = across.norm() - c.radius;
     Vector5 row;
     row << -e.dot(c.distal), -e.dot(c.posterior), -z * e.dot(c.distal), -z * e.dot(c.posterior), -1;
-    const double weight = s.weight / std::sqrt(1 + r * r / (kScale * kScale));
+    const double weight = s.weight / std::sqrt(1 + r * r / (kDistanceScale * kDistanceScale));
     H += weight * row * row.transpose();
     g += weight * r * row;
   }

@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kShaftFirst = 0.6, kShaftLast = 0.95,
-                 kShaftLeast = 0.22;  // below the plateau, of its width
+constexpr double kTibialShaftFirst = 0.6, kTibialShaftLast = 0.95,
+                 kTibialShaftLeast = 0.22;  // below the plateau, of its width
 // Of plateaus against shafts: 3.9 to 7.5 degrees in ten knees, 7 in the literature.
 constexpr double kMeanSlope = 6.5 * M_PI / 180;
 
@@ -41,11 +41,12 @@ TibialShape find_tibial_frame(CleanMesh& tibia, const KneeEnds& ends, const Vect
   frame.proximal = upward * std::cos(kMeanSlope) + forward * std::sin(kMeanSlope);
   const double w = plateau.width;
   for (int iteration = 0; iteration < 4; ++iteration) {
-    const auto line = find_shaft_line(tibia.mesh, frame.origin, -frame.proximal,
-                                      {kShaftFirst * w, kShaftLast * w, kShaftLeast * w});
+    const auto line =
+        find_shaft_line(tibia.mesh, frame.origin, -frame.proximal,
+                        {kTibialShaftFirst * w, kTibialShaftLast * w, kTibialShaftLeast * w});
     if (!line) break;
     shape.shaft = line->length;
-    shape.shaft_first = kShaftFirst * w;
+    shape.shaft_first = kTibialShaftFirst * w;
     frame.proximal =
         -(line->direction - frame.lateral * frame.lateral.dot(line->direction)).normalized();
   }

@@ -10,7 +10,7 @@
 namespace condyle {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 using Poses = std::vector<PoseResult>;
 
 struct TouchColumn {
@@ -76,7 +76,7 @@ void write_path(const Hdf5Group& ligament,
   std::vector<int> touching(n * wraps, -1);
   std::array<std::vector<double>, kColumns.size()> values;
   for (std::size_t c = 0; c < kColumns.size(); ++c)
-    values[c].assign(n * wraps * kColumns[c].width, kNone);
+    values[c].assign(n * wraps * kColumns[c].width, kNoNumber);
   for (std::size_t i = 0; i < n; ++i) {
     const LigamentPath* path = path_at(poses[i], index);
     for (std::size_t w = 0; path != nullptr && w < path->touches.size(); ++w) {
