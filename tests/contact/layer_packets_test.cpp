@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "condyle/contact/layer_contact.h"
 #include "condyle/contact/layer_side.h"
 #include "condyle/math/rotation.h"
 #include "support/bumpy_patches.h"
@@ -168,6 +169,39 @@ TEST(LayerPackets, CornersCarryAsALatticeOfThem) {
       }
     }
   }
+}
+
+/// Is the lattice refined at that pose, of layers `factor` times as stiff?
+bool is_refined(Pressed pressed, double tolerance, double factor, double deeper) {
+  pressed.pair.elastic_B = pressed.pair.elastic_A = kThreeMillimetres;
+  LayerOptions options;
+  options.tolerance = tolerance;
+  const auto law = layer_contact(options)(pressed.pair);
+  RigidTransform X = pressed.poses[1];
+  X.p.z() += deeper;
+  law->soften(factor);
+  law->prepare(X);
+  const bool refined = !law->accepts(X);
+  ContactResult result;
+  (void)law->describe(X, result);
+  EXPECT_TRUE(result.layer.has_value());
+  if (deeper > 0 && result.layer) {
+    EXPECT_GT(result.layer->deepest, 3);
+  }
+  return refined;
+}
+
+// Layers that are softer on the way to an equilibrium, and those pressed deeper than they bear (half of 6 mm), had up to
+// thirty times as many points, and seconds went by.
+TEST(LayerPackets, LatticesAreRefinedForEquilibriaAlone) {
+  int refined = 0;
+  for (const double tolerance : {1e-3, 5e-4, 3e-4, 2e-4, 1e-4})
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+      refined += is_refined(Pressed(seed), tolerance, 1, 0) ? 1 : 0;
+      EXPECT_FALSE(is_refined(Pressed(seed), tolerance, 0.25, 0)) << tolerance;
+      EXPECT_FALSE(is_refined(Pressed(seed), tolerance, 1, 6)) << tolerance;
+    }
+  EXPECT_GT(refined, 0);
 }
 
 }  // namespace

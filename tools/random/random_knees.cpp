@@ -1,6 +1,6 @@
 /// condyle_random_knees: sweeps of made-up knees, sound ones and ill ones, each pose judged by other code.
 ///
-///     condyle_random_knees [SWEEPS] [--from K] [--threads N] [--seed S] [--rigid] [--only K -o FOLDER] [--wrong FILE]
+///     condyle_random_knees [SWEEPS] [--from K] [--threads N] [--seed S] [--rigid | --layers] [--only K -o FOLDER] [--wrong FILE]
 ///
 /// Prints the table of statuses. --only writes one knee as a scene file and as a run, and says all about
 /// it. Ends with 2 where a converged pose is false or anything but an InputError was thrown.
@@ -28,7 +28,7 @@ struct Options {
   std::uint64_t sweeps = 1000, from = 0, seed = 1, every = 10;
   int threads = 1;
   std::optional<std::uint64_t> only;
-  bool rigid = false;
+  bool rigid = false, layers = false;
   std::string folder = "out", wrong;
 };
 
@@ -63,7 +63,7 @@ void say_all(const Options& options) {
 
 std::optional<SweepOutcome> outcome_of(std::uint64_t k, const Options& options) {
   const RandomKnee knee = random_knee(options.seed, k);
-  if (options.rigid && has_layers(knee)) return std::nullopt;
+  if (has_layers(knee) ? options.rigid : options.layers) return std::nullopt;
   return sweep_and_judge(knee, look_at(k, options));
 }
 
@@ -90,6 +90,7 @@ int run(int argc, char** argv) {
   program.add_option("--every", options.every,
                      "which is looked at closely: pushes, second look; 0: none");
   program.add_flag("--rigid", options.rigid, "passes over knees with layers");
+  program.add_flag("--layers", options.layers, "passes over knees without layers")->excludes("--rigid");
   program.add_option("--only", options.only, "number of one knee that is told in full");
   program.add_option("-o,--output", options.folder, "folder for that one");
   program.add_option("--wrong", options.wrong, "file for what is wrong, a line each");

@@ -21,8 +21,8 @@ constexpr double kLongest = 5;  // step that is followed [mm]
 
 // Points of surfaces that are looked at in the same time, about:
 constexpr long kOfFour = 8;      // of four that are followed
-constexpr long kBySurface = 20;  // of one that a patch finds for itself
-constexpr long kExactly = 3;     // of one that an exact surface finds
+constexpr long kBySurface = 20;  // of one that a surface finds by iteration
+constexpr long kExactly = 3;     // of one that is told by a formula
 
 /// Places that are followed, and what the last step to each says: not 0 where it is well, the squared
 /// distance being convex enough for Newton and the step short.
@@ -183,7 +183,7 @@ unsigned LayerClosestPoints::follow(const FourPoints& p,
   return kAll & ~(found & ~lost);
 }
 
-long LayerClosestPoints::one_by_surface() const { return finds_in_fours() ? kBySurface : kExactly; }
+long LayerClosestPoints::one_by_surface() const { return surface_.bends_evenly() ? kExactly : kBySurface; }
 
 void LayerClosestPoints::find_by_surface(const FourPoints& p,
                                          int k,

@@ -207,9 +207,13 @@ class LayerContact final : public ContactPotential {
 
   void estimate_error(const RigidTransform& X_BA) override { error_ = lattice_error(X_BA); }
 
+  /// Softer layers are on the way to others, and what is pressed deeper than they bear is refused: neither
+  /// needs a finer lattice.
   bool accepts(const RigidTransform& X_BA) override {
+    if (factor_ < 1) return true;
     estimate_error(X_BA);
     if (error_ <= options_.tolerance || level_ + 1 == kLevels) return true;
+    if (sides().sums(X_BA, law_).deepest > law_.deepest()) return true;
     level_ = finer(level_, error_);
     return false;
   }

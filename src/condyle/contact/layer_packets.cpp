@@ -170,43 +170,49 @@ void place_all(const RigidTransform& X, const FourPoints& x, FourPoints& out) {
 }  // namespace
 
 LayerPackets::LayerPackets(const LayerLattice& points, const LayerClosestPoints& find)
-    : find_(find) {
-  packets_.reserve(points.x.size() / 4 + points.blocks.size());
+    : lattice_(points), find_(find) {
   for (std::size_t b = 0; b < points.blocks.size(); ++b) {
     const LayerBlock& block = points.blocks[b];
-    const auto first = static_cast<std::uint32_t>(packets_.size());
-    for (std::size_t i = 0; i < block.count; ++i) {
-      if (i % 4 == 0) packets_.emplace_back();
-      LayerPacket& packet = packets_.back();
-      const std::size_t point = block.first + i;
-      for (int k = static_cast<int>(i % 4); k < 4; ++k) {
-        set_point(points.x[point], k, packet.x);
-        set_point(points.n[point], k, packet.normal);
-        packet.area[k] = k == static_cast<int>(i % 4) ? points.area[point] : 0;
-        packet.point[k] = static_cast<std::uint32_t>(point);
-      }
-    }
+    most_ += (block.count + 3) / 4;
     for (int k = static_cast<int>(b % 4); k < 4; ++k) {
       if (b % 4 == 0 && k == 0) blocks_.emplace_back();
       BlockPacket& four = blocks_.back();
       set_point(block.center, k, four.center);
       four.radius[k] = block.radius;
-      const bool own = k == static_cast<int>(b % 4);
-      four.first[k] = own ? first : 0;
-      four.end[k] = own ? static_cast<std::uint32_t>(packets_.size()) : 0;
+      four.first[k] = k == static_cast<int>(b % 4) ? kNotMade : 0;
+      four.end[k] = 0;
     }
   }
-  for (const LayerPacket& packet : packets_) {
-    Bound bound;
-    for (int k = 0; k < 4; ++k) bound.center += 0.25 * point_of(packet.x, k);
-    for (int k = 0; k < 4; ++k)
-      bound.radius = std::max(bound.radius, (point_of(packet.x, k) - bound.center).norm());
-    bounds_.push_back(bound);
-  }
-  pressed_.reserve(packets_.size());
-  candidates_.reserve(packets_.size());
+  packets_.reserve(most_);
+  bounds_.reserve(most_);
+  pressed_.reserve(most_);
+  candidates_.reserve(most_);
   for (const Vector3d& x : points.x) center_ += x / static_cast<double>(points.x.size());
   for (const Vector3d& x : points.x) reach_ = std::max(reach_, (x - center_).norm());
+}
+
+/// There is room for the packets of all blocks, of which most never come near.
+void LayerPackets::make(const LayerBlock& block, std::uint32_t& first, std::uint32_t& end) {
+  first = static_cast<std::uint32_t>(packets_.size());
+  for (std::size_t i = 0; i < block.count; ++i) {
+    if (i % 4 == 0) packets_.emplace_back();
+    LayerPacket& packet = packets_.back();
+    const std::size_t point = block.first + i;
+    for (int k = static_cast<int>(i % 4); k < 4; ++k) {
+      set_point(lattice_.x[point], k, packet.x);
+      set_point(lattice_.n[point], k, packet.normal);
+      packet.area[k] = k == static_cast<int>(i % 4) ? lattice_.area[point] : 0;
+      packet.point[k] = static_cast<std::uint32_t>(point);
+    }
+  }
+  end = static_cast<std::uint32_t>(packets_.size());
+  for (std::uint32_t i = first; i < end; ++i) {
+    Bound bound;
+    for (int k = 0; k < 4; ++k) bound.center += 0.25 * point_of(packets_[i].x, k);
+    for (int k = 0; k < 4; ++k)
+      bound.radius = std::max(bound.radius, (point_of(packets_[i].x, k) - bound.center).norm());
+    bounds_.push_back(bound);
+  }
 }
 
 void LayerPackets::reset() {
@@ -242,13 +248,16 @@ unsigned LayerPackets::near(BlockPacket& blocks, const RigidTransform& X, double
 /// says true.
 template <typename Each>
 bool LayerPackets::any_near(const RigidTransform& X, double margin, const Each& each) {
-  if (!std::exchange(is_charged_, true)) looked_at_ += kMade * static_cast<long>(packets_.size());
-  for (BlockPacket& blocks : blocks_) {
+  if (!std::exchange(is_charged_, true)) looked_at_ += kMade * static_cast<long>(most_);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    BlockPacket& blocks = blocks_[b];
     const unsigned found = near(blocks, X, margin);
-    for (int k = 0; k < 4; ++k) {
+    for (std::size_t k = 0; k < 4; ++k) {
       if ((found >> k & 1U) == 0) continue;
+      if (blocks.first[k] == kNotMade)
+        make(lattice_.blocks[4 * b + k], blocks.first[k], blocks.end[k]);
       for (std::uint32_t i = blocks.first[k]; i < blocks.end[k]; ++i)
-        if (each(i, [&] { return blocks.closest.repeated(k); })) return true;
+        if (each(i, [&] { return blocks.closest.repeated(static_cast<int>(k)); })) return true;
     }
   }
   return false;

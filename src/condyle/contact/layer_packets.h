@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "condyle/contact/layer_closest.h"
@@ -68,9 +69,11 @@ class LayerPackets {
   struct alignas(32) BlockPacket {
     FourPoints center;               ///< [mm]
     double radius[4];                ///< [mm]
-    std::uint32_t first[4], end[4];  ///< packets of each
+    std::uint32_t first[4], end[4];  ///< packets of each, which are made when it first comes near
     FourClosestPoints closest;
   };
+  static constexpr std::uint32_t kNotMade = std::numeric_limits<std::uint32_t>::max();
+  void make(const LayerBlock& block, std::uint32_t& first, std::uint32_t& end);
   [[nodiscard]] unsigned near(BlockPacket& blocks, const RigidTransform& X, double margin);
   /// No point of a packet is nearer than φ less the way w that it went, which is that of the centre
   /// and what the body has turned since by the radius. Nor is a point outside nearer than
@@ -98,8 +101,10 @@ class LayerPackets {
   [[nodiscard]] double way_from_candidates(const RigidTransform& X) const;
   void press(std::uint32_t packet, const RigidTransform& X, LayerCare care);
 
+  const LayerLattice& lattice_;
   const LayerClosestPoints& find_;
   std::vector<BlockPacket> blocks_;
+  std::size_t most_ = 0;  ///< packets of all blocks
   std::vector<LayerPacket> packets_;
   std::vector<Bound> bounds_;           ///< of packets
   std::vector<std::uint32_t> pressed_;  ///< packets, at X_; with room for all
