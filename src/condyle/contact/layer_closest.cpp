@@ -183,7 +183,9 @@ unsigned LayerClosestPoints::follow(const FourPoints& p,
   return kAll & ~(found & ~lost);
 }
 
-long LayerClosestPoints::one_by_surface() const { return surface_.bends_evenly() ? kExactly : kBySurface; }
+long LayerClosestPoints::one_by_surface() const {
+  return surface_.bends_evenly() ? kExactly : kBySurface;
+}
 
 void LayerClosestPoints::find_by_surface(const FourPoints& p,
                                          int k,
