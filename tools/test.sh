@@ -61,12 +61,12 @@ case "$way" in
     run_tests build "$@"
     ;;&
   all | selection)
-    TARGET="condyle $(printf 'condyle_%s_tests ' "${selection[@]}")" sanitized build-sanitize address -DCONDYLE_PICTURES=OFF
+    TARGET="condyle $(printf 'condyle_%s_tests ' "${selection[@]}")" sanitized build-sanitize address
     run_tests build-sanitize --label-regex "^($(IFS='|' && echo "${selection[*]}"))\$" "$@"
     told "AddressSanitizer and UndefinedBehaviorSanitizer, rooms ${selection[*]}"
     ;;
   sanitize)
-    sanitized build-sanitize address -DCONDYLE_PICTURES=ON
+    sanitized build-sanitize address
     run_tests build-sanitize "$@"
     told "AddressSanitizer and UndefinedBehaviorSanitizer, all tests"
     ;;
