@@ -9,6 +9,7 @@
 
 #include "anatomy/carried_errors.h"
 #include "condyle/anatomy/recognise_knee.h"
+#include "support/specimens.h"
 
 namespace condyle {
 namespace {
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
 const fs::path kSource = CONDYLE_SOURCE_DIR;
-const fs::path kSpecimens = kSource.parent_path() / "shared" / "specimens";
+using test::kSpecimens;
 const fs::path kMean = kSpecimens / "clouthier2019_ssm" / "knee.toml";
 const fs::path kLenhart = kSpecimens / "lenhart2015" / "knee.toml";
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "anatomy/knee_variants.h"
+#include "support/specimens.h"
 
 namespace condyle {
 namespace {
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 using Eigen::Vector3d;
 using test::angle_between;
 
-const fs::path kShared = fs::path(CONDYLE_SOURCE_DIR) / "../shared/specimens";
+using test::kSpecimens;
 
 /// Frame of the files, one for both bones: anterior, proximal, lateral.
 struct Specimen {
@@ -35,8 +36,8 @@ Eigen::Matrix3d axes_of(const Vector3d& anterior,
 
 std::vector<Specimen> specimens() {
   const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ();
-  const fs::path lenhart = kShared / "lenhart2015", oai = kShared / "oai_pymskt",
-                 ssm = kShared / "clouthier2019_ssm";
+  const fs::path lenhart = kSpecimens / "lenhart2015", oai = kSpecimens / "oai_pymskt",
+                 ssm = kSpecimens / "clouthier2019_ssm";
   std::vector<Specimen> all = {
       {"Lenhart", lenhart / "lenhart2015-R-femur-subchondral-bone.stl",
        lenhart / "lenhart2015-R-tibia-subchondral-bone.stl", axes_of(x, y, z), 1000},
@@ -52,7 +53,7 @@ std::vector<Specimen> specimens() {
 KneeMeshes read(const Specimen& s) {
   const auto mesh = [&](const fs::path& file) {
     return test::mapped(clean_mesh(load_mesh(file, s.to_mm)).mesh,
-                           [&](const Vector3d& p) { return Vector3d(p / s.to_mm); });
+                        [&](const Vector3d& p) { return Vector3d(p / s.to_mm); });
   };
   return {mesh(s.femur), mesh(s.tibia), {}, {}};
 }
@@ -77,7 +78,7 @@ void print_against(const std::string& name, const RecognisedBone& bone, const Bo
 }  // namespace
 
 TEST(RecognisedSpecimens, AreRightKneesAndTheirMirrorImagesLeftOnes) {
-  if (!fs::exists(kShared)) GTEST_SKIP() << "no specimens here";
+  if (!fs::exists(kSpecimens)) GTEST_SKIP() << "no specimens here";
   for (const Specimen& s : specimens()) {
     SCOPED_TRACE(s.name);
     const KneeMeshes meshes = read(s);
@@ -100,7 +101,7 @@ TEST(RecognisedSpecimens, AreRightKneesAndTheirMirrorImagesLeftOnes) {
 }
 
 TEST(RecognisedSpecimens, LenhartsFramesAreThoseOfTheModel) {
-  if (!fs::exists(kShared / "lenhart2015")) GTEST_SKIP() << "no specimens here";
+  if (!fs::exists(kSpecimens / "lenhart2015")) GTEST_SKIP() << "no specimens here";
   const Specimen s = specimens()[0];
   const RecognisedKnee knee = recognise_knee(read(s));
   test::expect_frame(knee.femur.frame, given(s), 3, 4);

@@ -10,12 +10,11 @@
 #include "condyle/contact/layer_contact.h"
 #include "condyle/contact/layer_side.h"
 #include "condyle/math/rotation.h"
+#include "contact/cartilage.h"
 #include "support/bumpy_patches.h"
 
 namespace condyle {
 namespace {
-
-constexpr ElasticSurface kThreeMillimetres{10, 0.45, 3};
 
 /// A pair that is pressed by some tenths of a millimetre, and poses about it: of each three the first
 /// is half a millimetre on, as in a sweep, the others nearer and nearer, as Newton's are.
@@ -41,7 +40,7 @@ struct Pressed {
 
 /// W of one point of A at depth -φ, its closest point searched from where it is seeded.
 double energy_of(const Pressed& of, const LayerLattice& points, const RigidTransform& X) {
-  const LayerLaw law(kThreeMillimetres, kThreeMillimetres, PressureLaw::kLinear);
+  const LayerLaw law(kCartilage, kCartilage, PressureLaw::kLinear);
   const Surface& into = *of.pair.on_B;
   double energy = 0;
   for (std::size_t i = 0; i < points.x.size(); ++i) {
@@ -101,7 +100,7 @@ TEST(LayerPackets, APoseFarFromTheLastOneIsLookedAtAsTheFirst) {
 }
 
 TEST(LayerPackets, NothingDependsOnThePosesBefore) {
-  const LayerLaw law(kThreeMillimetres, kThreeMillimetres, PressureLaw::kLinear);
+  const LayerLaw law(kCartilage, kCartilage, PressureLaw::kLinear);
   for (unsigned seed = 1; seed <= 6; ++seed) {
     const Pressed pressed(seed);
     const LayerLattice lattice = layer_lattice(*pressed.pair.on_A, 3);
@@ -128,7 +127,7 @@ TEST(LayerPackets, NothingDependsOnThePosesBefore) {
 }
 
 TEST(LayerPackets, AfterAResetNoBitDoes) {
-  const LayerLaw law(kThreeMillimetres, kThreeMillimetres, PressureLaw::kLinear);
+  const LayerLaw law(kCartilage, kCartilage, PressureLaw::kLinear);
   const Pressed pressed(3);
   const LayerLattice lattice = layer_lattice(*pressed.pair.on_A, 2);
   const LayerClosestPoints into(*pressed.pair.on_B);
@@ -149,7 +148,7 @@ TEST(LayerPackets, AfterAResetNoBitDoes) {
 // contact: there they lie beside cells that are not pressed.
 TEST(LayerPackets, CornersCarryAsALatticeOfThem) {
   for (const PressureLaw pressure : {PressureLaw::kLinear, PressureLaw::kLogarithmic}) {
-    const LayerLaw law(kThreeMillimetres, kThreeMillimetres, pressure);
+    const LayerLaw law(kCartilage, kCartilage, pressure);
     for (unsigned seed = 1; seed <= 4; ++seed) {
       const Pressed pressed(seed);
       const Surface& surface = *pressed.pair.on_A;
@@ -173,7 +172,7 @@ TEST(LayerPackets, CornersCarryAsALatticeOfThem) {
 
 /// Is the lattice refined at that pose, of layers `factor` times as stiff?
 bool is_refined(Pressed pressed, double tolerance, double factor, double deeper) {
-  pressed.pair.elastic_B = pressed.pair.elastic_A = kThreeMillimetres;
+  pressed.pair.elastic_B = pressed.pair.elastic_A = kCartilage;
   LayerOptions options;
   options.tolerance = tolerance;
   const auto law = layer_contact(options)(pressed.pair);

@@ -16,6 +16,7 @@
 
 #include "condyle/contact/layer_side.h"
 #include "condyle/surface/exact_surfaces.h"
+#include "contact/cartilage.h"
 #include "support/layer_fixture.h"
 #include "support/numerical_jacobian.h"
 
@@ -24,8 +25,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-constexpr ElasticSurface kCartilage{10, 0.45, 3};
 
 LayerLaw law_of(PressureLaw pressure, double modulus = 10) {
   const ElasticSurface layer{modulus, 0.45, 3};

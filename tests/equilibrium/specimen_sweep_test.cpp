@@ -17,12 +17,13 @@
 #include "condyle/specimen/fit_surfaces.h"
 #include "equilibrium/without_events.h"
 #include "support/random.h"
+#include "support/specimens.h"
 
 namespace condyle {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kSpecimens = fs::path(CONDYLE_SOURCE_DIR) / "../shared/specimens";
+using test::kSpecimens;
 
 /// Knees whose scene is our own; that of the others lies beside their meshes.
 fs::path scene_of(const std::string& name) {

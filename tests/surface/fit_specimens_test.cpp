@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "condyle/scene_file/read_scene.h"
+#include "support/specimens.h"
 #include "surface/fitted_knee.h"
 
 namespace condyle {
@@ -17,7 +18,7 @@ using test::KneeFiles;
 using test::rim_of;
 namespace fs = std::filesystem;
 
-const fs::path kSpecimens = fs::path(CONDYLE_SOURCE_DIR) / "../shared/specimens";
+using test::kSpecimens;
 
 struct Limits {
   double rms, max, normal_degrees;

@@ -26,8 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-using test::fitted_wrap_scene;
 using test::ellipsoid_solid;
+using test::fitted_wrap_scene;
 
 const RigidTransform kPlace{exp_rotation({0.2, -0.5, 0.3}), {6, 5, -2}};
 
@@ -166,7 +166,7 @@ TEST(StrandsInBone, AreNamedWithTheirDepthAndAWrapIsProposed) {
   // Of open sheets and of several parts nothing is said.
   TriangleMesh two = bone;
   test::append(two, placed(ellipsoid_solid(Vector3d::Constant(4), 0.5),
-                              {Eigen::Matrix3d::Identity(), {60, 0, 0}}));
+                           {Eigen::Matrix3d::Identity(), {60, 0, 0}}));
   EXPECT_TRUE(strands_in_bone(scene, {TriangleMesh{}, two}).empty());
 }
 

@@ -10,11 +10,11 @@
 
 #include "condyle/results/run_file.h"
 #include "support/scratch_folder.h"
+#include "support/specimens.h"
 
 namespace condyle::test {
 
 inline const std::filesystem::path kSource = CONDYLE_SOURCE_DIR;
-inline const std::filesystem::path kSpecimens = kSource / "../shared/specimens";
 
 /// `command` of the program on a scene, read back; poses that did not succeed are the test's to
 /// look at.

@@ -7,9 +7,9 @@
 /// `width`. Measures are those before it is sized: sagittal radii come out times `depth`, coronal
 /// ones times width²/depth.
 
-namespace condyle::phantom {
+#include "condyle/math/degree.h"
 
-inline constexpr double kDegree = 3.14159265358979323846 / 180;
+namespace condyle::phantom {
 
 /// Factors on a bone's coordinates.
 struct Size {

@@ -90,7 +90,8 @@ int run(int argc, char** argv) {
   program.add_option("--every", options.every,
                      "which is looked at closely: pushes, second look; 0: none");
   program.add_flag("--rigid", options.rigid, "passes over knees with layers");
-  program.add_flag("--layers", options.layers, "passes over knees without layers")->excludes("--rigid");
+  program.add_flag("--layers", options.layers, "passes over knees without layers")
+      ->excludes("--rigid");
   program.add_option("--only", options.only, "number of one knee that is told in full");
   program.add_option("-o,--output", options.folder, "folder for that one");
   program.add_option("--wrong", options.wrong, "file for what is wrong, a line each");

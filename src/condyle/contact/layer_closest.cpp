@@ -21,8 +21,8 @@ constexpr double kLongest = 5;  // step that is followed [mm]
 
 // Points of surfaces that are looked at in the same time, about:
 constexpr long kOfFour = 8;      // of four that are followed
-constexpr long kBySurface = 20;  // of one that a surface finds by iteration
-constexpr long kExactly = 3;     // of one that is told by a formula
+constexpr long kBySurface = 20;  // of one that a surface finds, mostly by iteration
+constexpr long kExactly = 3;     // of one on a plane, a sphere or a cylinder
 
 /// Places that are followed, and what the last step to each says: not 0 where it is well, the squared
 /// distance being convex enough for Newton and the step short.

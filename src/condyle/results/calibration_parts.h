@@ -5,16 +5,14 @@
 
 #include <Eigen/Core>
 
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "condyle/calibration/calibration.h"
 #include "condyle/results/hdf5_file.h"
+#include "condyle/results/no_number.h"
 
 namespace condyle {
-
-inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// How much of the unit used inside one of `units` is: of "deg" π/180, else 1.
 [[nodiscard]] double inside(const std::string& units);

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
+#include "condyle/results/no_number.h"
 #include "condyle/results/run_view.h"
 
 namespace condyle {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 using Poses = std::vector<PoseResult>;
 
 /// Numbers of an estimate that lie side by side.
@@ -45,7 +44,7 @@ template <class PointsOf>
 void write_hertz(const Hdf5Group& group, const Poses& poses, Shape shape, const PointsOf& of) {
   const std::size_t slots = shape.size() > 1 ? shape[1] : 1;
   for (const HertzColumn& column : kHertzColumns) {
-    std::vector<double> values(poses.size() * slots * column.width, kNone);
+    std::vector<double> values(poses.size() * slots * column.width, kNoNumber);
     for (std::size_t i = 0; i < poses.size(); ++i) {
       if (!poses[i].solved()) continue;
       std::size_t k = i * slots;
@@ -74,7 +73,7 @@ void write_matrix(const Hdf5Group& joint,
                   const char* units,
                   const Poses& poses,
                   Matrix matrix) {
-  std::vector<double> values(36 * poses.size(), kNone);
+  std::vector<double> values(36 * poses.size(), kNoNumber);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (!poses[i].solved() || !poses[i].joint_stiffness) continue;
     for (std::size_t k = 0; k < 36; ++k)
@@ -120,7 +119,7 @@ void write_contact_estimates(const Hdf5Group& contact,
                              std::size_t index) {
   const std::size_t n = poses.size();
   std::vector<int> shapes;
-  std::vector<double> resultants(3 * n, kNone);
+  std::vector<double> resultants(3 * n, kNoNumber);
   std::size_t slots = 1;
   for (std::size_t i = 0; i < n; ++i) {
     const bool known = poses[i].solved();

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+
+#include "condyle/results/no_number.h"
 
 namespace condyle {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 using Poses = std::vector<PoseResult>;
 
 /// Numbers of a layered contact that lie side by side.
@@ -70,7 +70,7 @@ void write_rows(const Hdf5Group& contact,
                 const Poses& poses,
                 std::size_t index,
                 const Fill& fill) {
-  std::vector<double> values(width * poses.size(), kNone);
+  std::vector<double> values(width * poses.size(), kNoNumber);
   for (std::size_t i = 0; i < poses.size(); ++i)
     if (pressed(poses[i], index)) fill(poses[i], &values[width * i]);
   contact.write(name, values, with_width({poses.size()}, width), units);

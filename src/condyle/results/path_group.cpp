@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
+#include "condyle/results/no_number.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/scene/ligament_path.h"
 
 namespace condyle {
 namespace {
 
-constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 using Poses = std::vector<PoseResult>;
 
 struct TouchColumn {

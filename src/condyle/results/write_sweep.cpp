@@ -5,6 +5,7 @@
 
 #include "condyle/results/estimates.h"
 #include "condyle/results/layer_group.h"
+#include "condyle/results/no_number.h"
 #include "condyle/results/path_group.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/sweep_group.h"
@@ -13,13 +14,12 @@
 namespace condyle {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 using Poses = std::vector<PoseResult>;
 
 // One row of `width` numbers for each pose; one without equilibrium has NaN.
 using FillRow = std::function<void(const PoseResult& pose, double* row)>;
 std::vector<double> rows(const Poses& poses, std::size_t width, const FillRow& fill) {
-  std::vector<double> out(poses.size() * width, kNone);
+  std::vector<double> out(poses.size() * width, kNoNumber);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (poses[i].solved()) fill(poses[i], &out[i * width]);
   }
@@ -82,12 +82,11 @@ void write_pose(const Hdf5Group& sweep, const Scene& scene, const Poses& poses) 
 }
 
 ContactPointResult no_point() {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   ContactPointResult point;
-  point.point_ground.setConstant(kNaN);
+  point.point_ground.setConstant(kNoNumber);
   point.point_moving = point.normal_ground = point.point_ground;
   point.gap = std::numeric_limits<double>::infinity();
-  point.relative_curvature = {kNaN, kNaN};
+  point.relative_curvature = {kNoNumber, kNoNumber};
   return point;
 }
 
@@ -162,7 +161,7 @@ using LigamentNumbers = std::array<std::vector<double>, kLigamentColumns.size()>
 
 std::vector<LigamentNumbers> ligament_numbers(const Poses& poses, std::size_t ligaments) {
   LigamentNumbers none;
-  none.fill(std::vector<double>(poses.size(), kNone));
+  none.fill(std::vector<double>(poses.size(), kNoNumber));
   std::vector<LigamentNumbers> numbers(ligaments, none);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (!poses[i].solved()) continue;
