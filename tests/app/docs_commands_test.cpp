@@ -20,8 +20,46 @@ using test::Outcome;
 
 const fs::path kRoot = CONDYLE_SOURCE_DIR;
 
+/// The pages that a reader has before the reference.
+std::vector<fs::path> pages() {
+  std::vector<fs::path> pages = {kRoot / "README.md"};
+  for (const auto& entry : fs::directory_iterator(kRoot / "docs"))
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  std::sort(pages.begin(), pages.end());
+  return pages;
+}
+
+struct Command {
+  std::string line;
+  int code;  ///< 2 where a comment behind it says "exit code 2", else 0
+};
+
+/// Indented lines "condyle ..." without comments and pipes, but for synopses (SCENE, DIR ...).
+std::vector<Command> commands_of(const fs::path& page) {
+  static const std::regex command(R"(^    (?:build/)?condyle ([a-z].*?)(?:   .*| \|.*|  #.*)?$)");
+  static const std::regex synopsis(R"(\b[A-Z]{3,}|^journal |\w\|\w)");
+  static const std::regex failing(R"(  # .*\bexit code 2\b)");
+  std::vector<Command> found;
+  std::istringstream lines(contents(page));
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch match;
+    if (!std::regex_match(line, match, command)) continue;
+    if (std::regex_search(line, synopsis) || std::regex_search(match[1].str(), synopsis)) continue;
+    found.push_back({match[1], std::regex_search(line, failing) ? 2 : 0});
+  }
+  return found;
+}
+
+/// Those that show commands.
+std::vector<fs::path> pages_with_commands() {
+  std::vector<fs::path> shown;
+  for (const fs::path& page : pages())
+    if (!commands_of(page).empty()) shown.push_back(page);
+  return shown;
+}
+
 /// In a folder that has what a reader would have: the shipped data, a scene, a model, earlier runs.
-class DocsCommands : public CommandLine {
+class DocsCommands : public CommandLine, public testing::WithParamInterface<fs::path> {
  protected:
   void SetUp() override {
     CommandLine::SetUp();
@@ -46,56 +84,38 @@ class DocsCommands : public CommandLine {
     for (const char* name : {"intact.h5", "cut.h5"})
       fs::copy_file(folder_ / "run.h5", folder_ / name);
   }
-
-  struct Command {
-    std::string line;
-    int code;  ///< 2 where a comment behind it says "exit code 2", else 0
-  };
-
-  /// Indented lines "condyle ..." without comments and pipes, but for synopses (SCENE, DIR ...).
-  [[nodiscard]] static std::vector<Command> commands_of(const fs::path& page) {
-    static const std::regex command(R"(^    (?:build/)?condyle ([a-z].*?)(?:   .*| \|.*|  #.*)?$)");
-    static const std::regex synopsis(R"(\b[A-Z]{3,}|^journal |\w\|\w)");
-    static const std::regex failing(R"(  # .*\bexit code 2\b)");
-    std::vector<Command> found;
-    std::istringstream lines(contents(page));
-    for (std::string line; std::getline(lines, line);) {
-      std::smatch match;
-      if (!std::regex_match(line, match, command)) continue;
-      if (std::regex_search(line, synopsis) || std::regex_search(match[1].str(), synopsis))
-        continue;
-      found.push_back({match[1], std::regex_search(line, failing) ? 2 : 0});
-    }
-    return found;
-  }
 };
 
-TEST_F(DocsCommands, RunAsTheyStandThere) {
-  std::vector<fs::path> pages = {kRoot / "README.md"};
-  for (const auto& entry : fs::directory_iterator(kRoot / "docs"))
-    if (entry.path().extension() == ".md") pages.push_back(entry.path());
-  std::sort(pages.begin(), pages.end());
-  int count = 0;
-  for (const fs::path& page : pages) {
-    for (const Command& command : commands_of(page)) {
-      const Outcome outcome = run(command.line);
-      EXPECT_EQ(outcome.code, command.code) << page << ": condyle " << command.line << "\n"
-                                            << outcome.err;
-      ++count;
-    }
+TEST_P(DocsCommands, RunAsTheyStandThere) {
+  for (const Command& command : commands_of(GetParam())) {
+    const Outcome outcome = run(command.line);
+    EXPECT_EQ(outcome.code, command.code) << "condyle " << command.line << "\n" << outcome.err;
   }
-  EXPECT_GT(count, 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pages,
+                         DocsCommands,
+                         testing::ValuesIn(pages_with_commands()),
+                         [](const testing::TestParamInfo<fs::path>& page) {
+                           std::string name = page.param.stem().string();
+                           std::replace_if(
+                               name.begin(), name.end(),
+                               [](unsigned char c) { return !std::isalnum(c); }, '_');
+                           return name;
+                         });
+
+TEST(DocsPages, ShowCommands) {
+  std::size_t count = 0;
+  for (const fs::path& page : pages()) count += commands_of(page).size();
+  EXPECT_GT(count, 20U);
 }
 
 // Links within the project and files in backquotes are those that there are; a name without ending is not looked at.
 TEST(DocsPages, NameOnlyFilesThatAreThere) {
   static const std::regex link(R"(\]\(([^)#:\s]+)(?:#[^)]*)?\))");
   static const std::regex file(R"(`((?:src|tests|tools|data|docs|meshes)/[\w./-]+\.\w+)`)");
-  std::vector<fs::path> pages = {kRoot / "README.md"};
-  for (const auto& entry : fs::directory_iterator(kRoot / "docs"))
-    if (entry.path().extension() == ".md") pages.push_back(entry.path());
   int count = 0;
-  for (const fs::path& page : pages) {
+  for (const fs::path& page : pages()) {
     const std::string text = contents(page);
     for (const auto& [pattern, from] : {std::pair{&link, page.parent_path()}, {&file, kRoot}})
       for (std::sregex_iterator it(text.begin(), text.end(), *pattern), end; it != end; ++it) {
@@ -133,11 +153,8 @@ std::set<std::string> anchors_of(const fs::path& page) {
 
 TEST(DocsPages, NameOnlyPlacesThatAreThere) {
   static const std::regex link(R"(\]\(([^)#:\s]*)#([^)\s]+)\))");
-  std::vector<fs::path> pages = {kRoot / "README.md"};
-  for (const auto& entry : fs::directory_iterator(kRoot / "docs"))
-    if (entry.path().extension() == ".md") pages.push_back(entry.path());
   int count = 0;
-  for (const fs::path& page : pages) {
+  for (const fs::path& page : pages()) {
     const std::string text = contents(page);
     for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it) {
       const std::string file = (*it)[1].str(), anchor = (*it)[2].str();

@@ -20,7 +20,7 @@ using test::Move;
 using test::MovedScene;
 using test::to;
 
-constexpr const char* kData = CONDYLE_SOURCE_DIR "/data/";
+const std::filesystem::path kShipped = CONDYLE_SOURCE_DIR "/data";
 constexpr double kLength = 1e-8, kAngle = 1e-8 * M_PI / 180;  // [mm], [rad]
 constexpr double kForce = 1e-8;                               // of 1 N or of the force
 constexpr double kOfMotion =
@@ -55,7 +55,7 @@ void expect_same(const SweepResult& a,
 }
 
 TEST(ComparedPlaces, OfFilesHaveNoSayInAComparison) {
-  Scene scene = read_scene(std::filesystem::path(kData) / "wismans-type/knee.toml");
+  Scene scene = read_scene(kShipped / "wismans-type/knee.toml");
   const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
   SweepOptions plain;
   plain.events = plain.stability = false;
@@ -81,7 +81,7 @@ TEST(ComparedPlaces, OfFilesHaveNoSayInAComparison) {
 }
 
 TEST(ComparedPlaces, OfFilesHaveNoSayInATestOfLaxity) {
-  Scene scene = read_scene(std::filesystem::path(kData) / "wismans-type/drawer.toml");
+  Scene scene = read_scene(kShipped / "wismans-type/drawer.toml");
   scene.laxity->flexions = {0, M_PI / 3};
   const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
   const LaxityResult expected = test_laxity(scene, surfaces);
@@ -97,7 +97,7 @@ TEST(ComparedPlaces, OfFilesHaveNoSayInATestOfLaxity) {
 
 // Not turned: the integrator weighs components.
 TEST(ComparedPlaces, OfFilesHaveNoSayInAMotion) {
-  Scene scene = read_scene(std::filesystem::path(kData) / "phantom/pendulum.toml");
+  Scene scene = read_scene(kShipped / "phantom/pendulum.toml");
   scene.simulation->time = 0.1;
   const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
   const MovedScene moved(scene, kFar);

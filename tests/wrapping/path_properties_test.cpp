@@ -44,12 +44,12 @@ TEST(WrappedPath, HasThePublishedLengths) {
 TEST(WrappedPath, LiftsOffACylinderSmoothly) {
   StringOver string({WrapCylinder{10}});
   const auto at = [&](double h) { return string.ends({-40, h, 0}, {40, h, 0}); };
-  struct Row {
+  struct Height {
     double h, L, slope;
   };
-  for (const Row& row : {Row{9, 80.02504838951451, -0.05014144397706},
-                         Row{9.9, 80.0002500517168, -0.005001547835291},
-                         Row{9.99, 80.00000250005205, -0.00050001561035}}) {
+  for (const Height& row : {Height{9, 80.02504838951451, -0.05014144397706},
+                         Height{9.9, 80.0002500517168, -0.005001547835291},
+                         Height{9.99, 80.00000250005205, -0.00050001561035}}) {
     const test::StringEnds ends = at(row.h);
     EXPECT_NEAR(ends.length, row.L, 1e-12);
     EXPECT_NEAR(ends.e_Y.y() - ends.e_X.y(), row.slope, 1e-12);

@@ -1,10 +1,11 @@
 #include "condyle/calibration/identifiability.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/SVD>
 
 #include <cassert>
 #include <cmath>
+
+#include "condyle/math/decompositions.h"
 
 namespace condyle {
 namespace {
@@ -40,10 +41,9 @@ Identifiability identifiability(const Eigen::MatrixXd& J,
   if (k > 0) {
     Eigen::MatrixXd V = Eigen::MatrixXd::Identity(k, k);
     if (S.rows() > 0) {
-      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(S, Eigen::ComputeFullV);
-      const Eigen::Index found = svd.singularValues().size();  // min(rows, k)
-      result.singular_values.head(found) = svd.singularValues();
-      V = svd.matrixV();
+      const SingularValues svd = singular_values(S);
+      result.singular_values.head(svd.values.size()) = svd.values;
+      V = svd.V;
     }
     result.directions(free, Eigen::seqN(0, k)) = V;
     // (SᵀS + I)⁻¹ = V (Σ² + I)⁻¹ Vᵀ

@@ -1,13 +1,11 @@
 #include "condyle/equilibrium/admissible_motions.h"
 
-#include <Eigen/QR>
-
 #include <algorithm>
+
+#include "condyle/math/decompositions.h"
 
 namespace condyle {
 namespace {
-
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
 constexpr double kDependent = 1e-9;  // of constraint directions
 
@@ -33,10 +31,8 @@ Motions admissible_motions(const Linearization& at) {
   for (std::size_t k = 0; k < count; ++k)
     columns.col(static_cast<Eigen::Index>(k)) = constraint_direction(at, k);
   if (count == 0 || !columns.allFinite()) return SmallMatrix::Identity(6, 6);
-  Eigen::ColPivHouseholderQR<SmallMatrix> qr(columns);
-  qr.setThreshold(kDependent);
-  const SmallMatrix Q = qr.householderQ() * SmallMatrix::Identity(6, 6);
-  return Q.rightCols(6 - qr.rank());
+  const PivotedBasis basis = pivoted_basis(columns, kDependent);
+  return basis.Q.rightCols(6 - basis.rank);
 }
 
 }  // namespace condyle

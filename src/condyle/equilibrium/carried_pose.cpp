@@ -1,9 +1,8 @@
 #include "condyle/equilibrium/carried_pose.h"
 
-#include <Eigen/QR>
-
 #include <cmath>
 
+#include "condyle/math/decompositions.h"
 #include "condyle/math/rotation.h"
 
 namespace condyle {
@@ -58,7 +57,7 @@ bool step_to_conditions(const Model& model, const Drive& drive, RigidTransform& 
     off[i] = w * k.k;
   }
   if (off.norm() < 1e-12 * L) return false;
-  const Eigen::VectorXd step = rows.completeOrthogonalDecomposition().solve(-off);
+  const Eigen::VectorXd step = least_norm_solution(rows, -off).x;
   if (!step.allFinite()) return false;
   X.p += step.head<3>();
   X.R = exp_rotation(step.tail<3>() / L) * X.R;

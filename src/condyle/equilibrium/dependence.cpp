@@ -1,12 +1,11 @@
 #include "condyle/equilibrium/dependence.h"
 
-#include <Eigen/SVD>
-
 #include <algorithm>
 #include <cmath>
 
 #include "condyle/equilibrium/admissible_motions.h"
 #include "condyle/equilibrium/motion_name.h"
+#include "condyle/math/decompositions.h"
 
 namespace condyle {
 namespace {
@@ -56,17 +55,17 @@ Dependence find_dependence(const Linearization& at) {
   for (std::size_t k = 0; k < count; ++k)
     columns.col(static_cast<Eigen::Index>(k)) = constraint_direction(at, k);
   if (count == 0 || !columns.allFinite()) return {};
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeFullV);
+  const SingularValues svd = singular_values(columns);
   // Constraints that cannot all be met end where they oppose each other, as closely as the descent
   // gets there.
   const bool unmet = at.system.largest_distance() > kUnmet * at.model.length;
-  const double tolerance = (unmet ? kNear : kExact) * svd.singularValues()[0];
+  const double tolerance = (unmet ? kNear : kExact) * svd.values[0];
   Dependence dependence;
-  for (Eigen::Index j = 0; j < svd.matrixV().cols(); ++j) {
-    if (j < svd.singularValues().size() && svd.singularValues()[j] > tolerance) continue;
+  for (Eigen::Index j = 0; j < svd.V.cols(); ++j) {
+    if (j < svd.values.size() && svd.values[j] > tolerance) continue;
     double sum = 0;
     for (std::size_t k = 0; k < count; ++k) {
-      const double share = svd.matrixV()(static_cast<Eigen::Index>(k), j);
+      const double share = svd.V(static_cast<Eigen::Index>(k), j);
       sum += share * violation(at, k);
       if (std::abs(share) > kShare) dependence.culprits.push_back(k);
     }

@@ -5,13 +5,13 @@
 #include <algorithm>
 
 #include "condyle/equilibrium/admissible_motions.h"
+#include "condyle/math/decompositions.h"
 
 namespace condyle {
 namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
 constexpr double kSingular = 1e-9;  // relative, of pivots
 

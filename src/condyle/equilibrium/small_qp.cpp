@@ -1,20 +1,12 @@
 #include "condyle/equilibrium/small_qp.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "condyle/math/decompositions.h"
+
 namespace condyle {
-namespace {
-
-/// At most 6 x 6, on the stack.
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
-
-}  // namespace
 
 Eigen::VectorXd solve_complementarity(const Eigen::MatrixXd& M, const Eigen::VectorXd& q) {
   const Eigen::Index n = q.size();
@@ -31,8 +23,8 @@ Eigen::VectorXd solve_complementarity(const Eigen::MatrixXd& M, const Eigen::Vec
         right[i] = -q[active[i]];
         for (Eigen::Index j = 0; j < k; ++j) sub(i, j) = M(active[i], active[j]);
       }
-      const Eigen::VectorXd solution = sub.partialPivLu().solve(right);
-      for (Eigen::Index i = 0; i < k; ++i) z[active[i]] = solution[i];
+      const Eigen::VectorXd of_active = solution(sub, right);
+      for (Eigen::Index i = 0; i < k; ++i) z[active[i]] = of_active[i];
     }
     const Eigen::VectorXd w = M * z + q;
     // The least index that is infeasible, either way, changes side.
@@ -54,47 +46,43 @@ Eigen::VectorXd solve_complementarity(const Eigen::MatrixXd& M, const Eigen::Vec
 
 SmallQpSolution solve_qp(const SmallQp& qp) {
   const Eigen::Index m = qp.C.rows(), n = qp.A.rows();
-  SmallQpSolution solution;
+  SmallQpSolution solved;
   Eigen::Matrix<double, 6, 1> x0 = Eigen::Matrix<double, 6, 1>::Zero();
   SmallMatrix Z = SmallMatrix::Identity(6, 6);
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> of_C;
   if (m > 0) {
-    of_C.compute(Eigen::MatrixXd(qp.C));
-    x0 = of_C.solve(qp.b);
-    Eigen::HouseholderQR<Eigen::MatrixXd> basis(Eigen::MatrixXd(qp.C.transpose()));
-    const Eigen::MatrixXd Q = basis.householderQ();
-    Z = Q.rightCols(6 - std::min<Eigen::Index>(of_C.rank(), 6));
+    const LeastNormSolution at_C = least_norm_solution(qp.C, qp.b);
+    x0 = at_C.x;
+    const Eigen::MatrixXd Q = orthogonal_factor(qp.C.transpose());
+    Z = Q.rightCols(6 - std::min<Eigen::Index>(at_C.rank, 6));
   }
   const Eigen::Index free = Z.cols();
   Eigen::VectorXd y = Eigen::VectorXd::Zero(free);
-  solution.lambda = Eigen::VectorXd::Zero(n);
+  solved.lambda = Eigen::VectorXd::Zero(n);
   if (free > 0) {
-    const Eigen::SelfAdjointEigenSolver<SmallMatrix> eigen(SmallMatrix(Z.transpose() * qp.H * Z));
-    const Eigen::VectorXd inverse =
-        eigen.eigenvalues().cwiseAbs().cwiseMax(qp.floor).cwiseInverse();
-    const Eigen::MatrixXd W =
-        eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+    const SymmetricEigenvalues eigen = symmetric_eigenvalues(Z.transpose() * qp.H * Z);
+    const Eigen::VectorXd inverse = eigen.values.cwiseAbs().cwiseMax(qp.floor).cwiseInverse();
+    const Eigen::MatrixXd W = eigen.vectors * inverse.asDiagonal() * eigen.vectors.transpose();
     const Eigen::VectorXd g = Z.transpose() * (qp.g + qp.H * x0);
     if (n > 0) {
       const Eigen::MatrixXd A = qp.A * Z;
       Eigen::MatrixXd M = A * W * A.transpose();
       M.diagonal().array() += qp.compliance * std::max(M.diagonal().maxCoeff(), 1e-300);
       const Eigen::VectorXd q = -(A * (W * g)) - (qp.d - qp.A * x0);
-      solution.lambda = solve_complementarity(M, q);
-      y = W * (A.transpose() * solution.lambda - g);
+      solved.lambda = solve_complementarity(M, q);
+      y = W * (A.transpose() * solved.lambda - g);
     } else {
       y = -W * g;
     }
   }
-  solution.x = x0 + Z * y;
-  solution.nu = Eigen::VectorXd::Zero(m);
+  solved.x = x0 + Z * y;
+  solved.nu = Eigen::VectorXd::Zero(m);
   if (m > 0) {
     // H x + g = Aᵀ λ + Cᵀ ν in the least-squares sense.
-    Eigen::VectorXd right = qp.H * solution.x + qp.g;
-    if (n > 0) right -= qp.A.transpose() * solution.lambda;
-    solution.nu = Eigen::MatrixXd(qp.C.transpose()).completeOrthogonalDecomposition().solve(right);
+    Eigen::VectorXd right = qp.H * solved.x + qp.g;
+    if (n > 0) right -= qp.A.transpose() * solved.lambda;
+    solved.nu = least_norm_solution(qp.C.transpose(), right).x;
   }
-  return solution;
+  return solved;
 }
 
 }  // namespace condyle

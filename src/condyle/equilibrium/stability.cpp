@@ -1,18 +1,15 @@
 #include "condyle/equilibrium/stability.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "condyle/equilibrium/dependence.h"
 #include "condyle/equilibrium/motion_name.h"
+#include "condyle/math/decompositions.h"
 
 namespace condyle {
 namespace {
-
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
 constexpr double kNeutral = 1e-9;  // of the largest stiffness
 
@@ -29,14 +26,14 @@ Stability stability(const Linearization& at) {
   result.dependent = static_cast<std::size_t>(6 - Z.cols()) < at.constraints();
   const SmallMatrix reduced = Z.transpose() * K * Z;
   if (Z.cols() == 0 || !reduced.allFinite()) return result;
-  const Eigen::SelfAdjointEigenSolver<SmallMatrix> eigen(reduced);
-  result.lowest_stiffness = eigen.eigenvalues()[0];
-  result.motion = Z * eigen.eigenvectors().col(0);
+  const SymmetricEigenvalues eigen = symmetric_eigenvalues(reduced);
+  result.lowest_stiffness = eigen.values[0];
+  result.motion = Z * eigen.vectors.col(0);
   result.neutral = std::abs(result.lowest_stiffness) <= kNeutral * largest;
   if (!result.neutral) return result;
   Eigen::Index free = 0;
-  while (free < Z.cols() && eigen.eigenvalues()[free] <= kNeutral * largest) ++free;
-  result.free = Z * eigen.eigenvectors().leftCols(free);
+  while (free < Z.cols() && eigen.values[free] <= kNeutral * largest) ++free;
+  result.free = Z * eigen.vectors.leftCols(free);
   return result;
 }
 

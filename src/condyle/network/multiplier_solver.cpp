@@ -1,8 +1,8 @@
 #include "condyle/network/multiplier_solver.h"
 
-#include <Eigen/QR>
-
 #include <cmath>
+
+#include "condyle/math/decompositions.h"
 
 namespace condyle {
 
@@ -38,12 +38,7 @@ Eigen::VectorXd MultiplierSolver::solve(const Eigen::VectorXd& right_side) const
   const Eigen::Index n = right_side.size();
   Eigen::VectorXd x(n);
   for (Eigen::Index i = 0; i < n; ++i) x[i] = scale_[i] * right_side[i];
-  if (!independent_) {
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-    solver.setThreshold(1e-11);
-    solver.compute(scaled_);
-    return scale_.cwiseProduct(solver.solve(x));
-  }
+  if (!independent_) return scale_.cwiseProduct(least_norm_solution(scaled_, x, 1e-11).x);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index k = 0; k < i; ++k) x[i] -= cholesky_(i, k) * x[k];
     x[i] *= cholesky_(i, i);

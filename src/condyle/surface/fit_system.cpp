@@ -1,13 +1,12 @@
 #include "condyle/surface/fit_system.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "condyle/input_error.h"
+#include "condyle/math/decompositions.h"
 #include "condyle/surface/bspline_basis.h"
 
 namespace condyle {
@@ -95,7 +94,7 @@ LocalMatrix cell_polynomials(int degree) {
     const BasisValues b = basis(knots, degree, x, 0);
     for (int i = 0; i <= degree; ++i) powers(k, i) = std::pow(x, i), values(k, i) = b.d[0][i];
   }
-  const Eigen::MatrixXd solved = powers.fullPivLu().solve(values);
+  const Eigen::MatrixXd solved = fully_pivoted_solution(powers, values);
   LocalMatrix polynomials{};
   for (int a = 0; a <= degree; ++a)
     for (int i = 0; i <= degree; ++i) polynomials[a][i] = solved(i, a);

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "condyle/math/decompositions.h"
 #include "condyle/math/simd.h"
 #include "condyle/surface/bspline_basis.h"
 #include "condyle/surface/knot_span.h"
@@ -119,7 +120,7 @@ Patch::Direction Patch::make_direction(const std::vector<double>& knots, int deg
       const BasisValues b = basis(knots, degree, direction.breaks[s] + x * width, 0);
       for (int j = 0; j < m; ++j) values(k, j) = b.d[0][j];
     }
-    const Eigen::MatrixXd polynomial = powers.fullPivLu().solve(values);
+    const Eigen::MatrixXd polynomial = fully_pivoted_solution(powers, values);
     for (int k = 0; k < m; ++k)
       for (int j = 0; j < m; ++j)
         direction.coefficients[(static_cast<std::size_t>(s) * m + k) * m + j] =

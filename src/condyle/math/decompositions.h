@@ -1,0 +1,55 @@
+#pragma once
+
+/// Decompositions of dense matrices of a few rows, each instantiated in one place: what Eigen makes of one for a type of
+/// matrix takes seconds to compile. For what is done once a pose or more rarely; the Newton loop has small_lu.h.
+
+#include <Eigen/Core>
+
+#include <optional>
+
+namespace condyle {
+
+/// At most 6 x 6, on the stack.
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+
+struct LeastNormSolution {
+  Eigen::VectorXd x;
+  Eigen::Index rank = 0;  ///< of A
+};
+/// Of all x with the least |A x - b| the shortest. Pivots up to `threshold` times the largest count as nothing; without
+/// one those that round-off makes.
+[[nodiscard]] LeastNormSolution least_norm_solution(const Eigen::MatrixXd& A,
+                                                    const Eigen::VectorXd& b,
+                                                    std::optional<double> threshold = std::nullopt);
+
+/// The square orthogonal Q of A = Q R: its first columns span those of A, the others are orthogonal to them where A has
+/// full rank.
+[[nodiscard]] Eigen::MatrixXd orthogonal_factor(const Eigen::MatrixXd& A);
+
+struct PivotedBasis {
+  SmallMatrix Q;  ///< square and orthogonal; its first `rank` columns span those of A
+  Eigen::Index rank = 0;
+};
+/// Pivots up to `threshold` times the largest count as nothing.
+[[nodiscard]] PivotedBasis pivoted_basis(const SmallMatrix& A, double threshold);
+
+struct SingularValues {
+  Eigen::VectorXd values;  ///< min(rows, columns) of them, the largest first
+  Eigen::MatrixXd V;       ///< square; a column of each, and those of nothing
+};
+[[nodiscard]] SingularValues singular_values(const Eigen::MatrixXd& A);
+
+struct SymmetricEigenvalues {
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> values;  ///< the least first
+  SmallMatrix vectors;                                       ///< a column of each
+};
+/// Of a symmetric matrix. Allocates nothing, as pivoted_basis does not: every pose asks for both.
+[[nodiscard]] SymmetricEigenvalues symmetric_eigenvalues(const SmallMatrix& A);
+
+/// x with A x = b for a regular A, by elimination with partial pivoting.
+[[nodiscard]] Eigen::VectorXd solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+/// X with A X = B by elimination with full pivoting, where A may be close to singular.
+[[nodiscard]] Eigen::MatrixXd fully_pivoted_solution(const Eigen::MatrixXd& A,
+                                                     const Eigen::MatrixXd& B);
+
+}  // namespace condyle

@@ -1,0 +1,72 @@
+#include "condyle/math/decompositions.h"
+
+#include <gtest/gtest.h>
+
+namespace condyle {
+namespace {
+
+constexpr double kExactly = 1e-14;
+
+/// Two rows say the same, and the last column counts for nothing.
+Eigen::MatrixXd deficient() { return Eigen::MatrixXd{{1, 2, 0}, {2, 4, 0}, {0, 1, 0}}; }
+
+TEST(Decompositions, TheLeastNormSolutionIsTheShortestThatComesNearest) {
+  const LeastNormSolution found = least_norm_solution(deficient(), Eigen::Vector3d(1, 2, 1));
+  EXPECT_EQ(found.rank, 2);
+  EXPECT_LT((found.x - Eigen::Vector3d(-1, 1, 0)).norm(), kExactly);
+  // What the rows contradict each other by is shared: 5 a + 10 b = 1 + 2 * 3.
+  const LeastNormSolution nearest = least_norm_solution(deficient(), Eigen::Vector3d(1, 3, 0));
+  EXPECT_LT((nearest.x - Eigen::Vector3d(1.4, 0, 0)).norm(), kExactly);
+}
+
+TEST(Decompositions, APivotUpToTheThresholdCountsAsNothing) {
+  const Eigen::MatrixXd A{{1, 0}, {0, 1e-8}};
+  EXPECT_EQ(least_norm_solution(A, Eigen::Vector2d(1, 1)).rank, 2);
+  const LeastNormSolution found = least_norm_solution(A, Eigen::Vector2d(1, 1), 1e-6);
+  EXPECT_EQ(found.rank, 1);
+  EXPECT_LT((found.x - Eigen::Vector2d(1, 0)).norm(), kExactly);
+}
+
+TEST(Decompositions, TheOrthogonalFactorIsSquareAndBeginsWithTheColumns) {
+  const Eigen::MatrixXd A{{3, 0}, {4, 0}, {0, 2}};
+  const Eigen::MatrixXd Q = orthogonal_factor(A);
+  ASSERT_EQ(Q.rows(), 3);
+  ASSERT_EQ(Q.cols(), 3);
+  EXPECT_LT((Q.transpose() * Q - Eigen::Matrix3d::Identity()).norm(), kExactly);
+  EXPECT_LT((Q.col(2).transpose() * A).norm(), kExactly);
+}
+
+TEST(Decompositions, ThePivotedBasisLeavesWhatDependentColumnsDoNotReach) {
+  const PivotedBasis basis = pivoted_basis(SmallMatrix(deficient().transpose()), 1e-9);
+  EXPECT_EQ(basis.rank, 2);
+  ASSERT_EQ(basis.Q.cols(), 3);
+  EXPECT_LT((deficient() * basis.Q.col(2)).norm(), kExactly);
+  EXPECT_EQ(pivoted_basis(SmallMatrix{{1, 0}, {0, 1e-10}}, 1e-9).rank, 1);
+}
+
+TEST(Decompositions, SingularValuesHaveAColumnForWhatTheMatrixDoesNotSee) {
+  const Eigen::MatrixXd A{{3, 0, 0}, {0, 2, 0}};
+  const SingularValues found = singular_values(A);
+  ASSERT_EQ(found.values.size(), 2);
+  EXPECT_LT((found.values - Eigen::Vector2d(3, 2)).norm(), kExactly);
+  ASSERT_EQ(found.V.cols(), 3);
+  EXPECT_LT((A * found.V.col(2)).norm(), kExactly);
+}
+
+TEST(Decompositions, EigenvaluesComeTheLeastFirst) {
+  const SymmetricEigenvalues found = symmetric_eigenvalues(SmallMatrix{{2, 1}, {1, 2}});
+  EXPECT_LT((found.values - Eigen::Vector2d(1, 3)).norm(), kExactly);
+  EXPECT_NEAR(found.vectors(0, 0), -found.vectors(1, 0), kExactly);
+}
+
+TEST(Decompositions, SolutionsSolve) {
+  const Eigen::MatrixXd A{{0, 2}, {1, 1}};
+  EXPECT_LT((solution(A, Eigen::Vector2d(2, 3)) - Eigen::Vector2d(2, 1)).norm(), kExactly);
+  EXPECT_LT(
+      (A * fully_pivoted_solution(A, Eigen::Matrix2d::Identity()) - Eigen::Matrix2d::Identity())
+          .norm(),
+      kExactly);
+}
+
+}  // namespace
+}  // namespace condyle
