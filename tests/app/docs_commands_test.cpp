@@ -20,7 +20,7 @@ using test::Outcome;
 
 const fs::path kRoot = CONDYLE_SOURCE_DIR;
 
-/// The pages that a reader has before the reference.
+/// README and the pages of docs.
 std::vector<fs::path> pages() {
   std::vector<fs::path> pages = {kRoot / "README.md"};
   for (const auto& entry : fs::directory_iterator(kRoot / "docs"))
@@ -168,10 +168,9 @@ TEST(DocsPages, NameOnlyPlacesThatAreThere) {
 
 TEST(DocsPages, AreAllInTheNavigationOfTheSite) {
   const std::string site = contents(kRoot / "tools/docs/mkdocs.yml");
-  for (const auto& entry : fs::directory_iterator(kRoot / "docs")) {
-    if (entry.path().extension() != ".md") continue;
-    EXPECT_NE(site.find(": " + entry.path().filename().string() + "\n"), std::string::npos)
-        << entry.path();
+  for (const fs::path& page : pages()) {
+    if (page.filename() == "README.md") continue;
+    EXPECT_NE(site.find(": " + page.filename().string() + "\n"), std::string::npos) << page;
   }
 }
 

@@ -48,8 +48,8 @@ TEST(WrappedPath, LiftsOffACylinderSmoothly) {
     double h, L, slope;
   };
   for (const Height& row : {Height{9, 80.02504838951451, -0.05014144397706},
-                         Height{9.9, 80.0002500517168, -0.005001547835291},
-                         Height{9.99, 80.00000250005205, -0.00050001561035}}) {
+                            Height{9.9, 80.0002500517168, -0.005001547835291},
+                            Height{9.99, 80.00000250005205, -0.00050001561035}}) {
     const test::StringEnds ends = at(row.h);
     EXPECT_NEAR(ends.length, row.L, 1e-12);
     EXPECT_NEAR(ends.e_Y.y() - ends.e_X.y(), row.slope, 1e-12);

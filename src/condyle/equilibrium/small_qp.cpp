@@ -23,8 +23,8 @@ Eigen::VectorXd solve_complementarity(const Eigen::MatrixXd& M, const Eigen::Vec
         right[i] = -q[active[i]];
         for (Eigen::Index j = 0; j < k; ++j) sub(i, j) = M(active[i], active[j]);
       }
-      const Eigen::VectorXd of_active = solution(sub, right);
-      for (Eigen::Index i = 0; i < k; ++i) z[active[i]] = of_active[i];
+      const Eigen::VectorXd solution = partially_pivoted_solution(sub, right);
+      for (Eigen::Index i = 0; i < k; ++i) z[active[i]] = solution[i];
     }
     const Eigen::VectorXd w = M * z + q;
     // The least index that is infeasible, either way, changes side.
@@ -46,7 +46,7 @@ Eigen::VectorXd solve_complementarity(const Eigen::MatrixXd& M, const Eigen::Vec
 
 SmallQpSolution solve_qp(const SmallQp& qp) {
   const Eigen::Index m = qp.C.rows(), n = qp.A.rows();
-  SmallQpSolution solved;
+  SmallQpSolution solution;
   Eigen::Matrix<double, 6, 1> x0 = Eigen::Matrix<double, 6, 1>::Zero();
   SmallMatrix Z = SmallMatrix::Identity(6, 6);
   if (m > 0) {
@@ -57,7 +57,7 @@ SmallQpSolution solve_qp(const SmallQp& qp) {
   }
   const Eigen::Index free = Z.cols();
   Eigen::VectorXd y = Eigen::VectorXd::Zero(free);
-  solved.lambda = Eigen::VectorXd::Zero(n);
+  solution.lambda = Eigen::VectorXd::Zero(n);
   if (free > 0) {
     const SymmetricEigenvalues eigen = symmetric_eigenvalues(Z.transpose() * qp.H * Z);
     const Eigen::VectorXd inverse = eigen.values.cwiseAbs().cwiseMax(qp.floor).cwiseInverse();
@@ -68,21 +68,21 @@ SmallQpSolution solve_qp(const SmallQp& qp) {
       Eigen::MatrixXd M = A * W * A.transpose();
       M.diagonal().array() += qp.compliance * std::max(M.diagonal().maxCoeff(), 1e-300);
       const Eigen::VectorXd q = -(A * (W * g)) - (qp.d - qp.A * x0);
-      solved.lambda = solve_complementarity(M, q);
-      y = W * (A.transpose() * solved.lambda - g);
+      solution.lambda = solve_complementarity(M, q);
+      y = W * (A.transpose() * solution.lambda - g);
     } else {
       y = -W * g;
     }
   }
-  solved.x = x0 + Z * y;
-  solved.nu = Eigen::VectorXd::Zero(m);
+  solution.x = x0 + Z * y;
+  solution.nu = Eigen::VectorXd::Zero(m);
   if (m > 0) {
     // H x + g = Aᵀ λ + Cᵀ ν in the least-squares sense.
-    Eigen::VectorXd right = qp.H * solved.x + qp.g;
-    if (n > 0) right -= qp.A.transpose() * solved.lambda;
-    solved.nu = least_norm_solution(qp.C.transpose(), right).x;
+    Eigen::VectorXd right = qp.H * solution.x + qp.g;
+    if (n > 0) right -= qp.A.transpose() * solution.lambda;
+    solution.nu = least_norm_solution(qp.C.transpose(), right).x;
   }
-  return solved;
+  return solution;
 }
 
 }  // namespace condyle

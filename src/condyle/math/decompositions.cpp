@@ -36,7 +36,7 @@ SymmetricEigenvalues symmetric_eigenvalues(const SmallMatrix& A) {
   return {eigen.eigenvalues(), eigen.eigenvectors()};
 }
 
-Eigen::VectorXd solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+Eigen::VectorXd partially_pivoted_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   return A.partialPivLu().solve(b);
 }
 

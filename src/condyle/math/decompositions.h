@@ -1,7 +1,7 @@
 #pragma once
 
 /// Decompositions of dense matrices of a few rows, each instantiated in one place: what Eigen makes of one for a type of
-/// matrix takes seconds to compile. For what is done once a pose or more rarely; the Newton loop has small_lu.h.
+/// matrix takes seconds to compile. Most of them allocate: the Newton loop has small_lu.h.
 
 #include <Eigen/Core>
 
@@ -47,7 +47,8 @@ struct SymmetricEigenvalues {
 [[nodiscard]] SymmetricEigenvalues symmetric_eigenvalues(const SmallMatrix& A);
 
 /// x with A x = b for a regular A, by elimination with partial pivoting.
-[[nodiscard]] Eigen::VectorXd solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+[[nodiscard]] Eigen::VectorXd partially_pivoted_solution(const Eigen::MatrixXd& A,
+                                                         const Eigen::VectorXd& b);
 /// X with A X = B by elimination with full pivoting, where A may be close to singular.
 [[nodiscard]] Eigen::MatrixXd fully_pivoted_solution(const Eigen::MatrixXd& A,
                                                      const Eigen::MatrixXd& B);
