@@ -1,9 +1,9 @@
 #include "condyle/results/journal_line.h"
 
 #include <cmath>
-#include <limits>
 
 #include "condyle/results/journal_words.h"
+#include "condyle/results/no_number.h"
 
 namespace condyle {
 namespace {
@@ -163,7 +163,7 @@ void write_journal_line(const KnownPose& known, std::string& out) {
   put_word(out, pose.conditions.size());
   for (const ConditionResult& condition : pose.conditions) put_word(out, condition.multiplier);
   put_contacts(out, pose.contacts);
-  put_word(out, known.from.value_or(std::numeric_limits<double>::quiet_NaN()));
+  put_word(out, known.from.value_or(kNoNumber));
   put_word(out, known.events.size());
   for (const Event& event : known.events) {
     put_word(out, event.value);

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "condyle/equilibrium/pose_output.h"
+#include "condyle/results/no_number.h"
 #include "condyle/results/study_groups.h"
 #include "condyle/study/summarise.h"
 
@@ -39,7 +39,7 @@ SummaryGroups open_groups(const Hdf5Group& parent) {
 std::vector<double> nominal_values(const StudyPlan& plan,
                                    const StudyOutput& output,
                                    const SweepResult& sweep) {
-  std::vector<double> values(plan.values.size(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> values(plan.values.size(), kNoNumber);
   for (std::size_t p = 0; p < values.size() && p < sweep.poses.size(); ++p)
     if (sweep.poses[p].converged())
       values[p] = value_of(output.output, sweep.poses[p]) / output.unit.factor;

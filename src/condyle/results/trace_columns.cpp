@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "condyle/results/no_number.h"
 
 namespace condyle {
 namespace {
@@ -51,7 +52,7 @@ void write_history(const Hdf5Group& newton, const Poses& poses) {
   std::size_t width = 1;
   for (const PoseResult& pose : poses)
     width = std::max(width, static_cast<std::size_t>(pose.trace.residuals.size()));
-  std::vector<double> rows(poses.size() * width, std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> rows(poses.size() * width, kNoNumber);
   for (std::size_t i = 0; i < poses.size(); ++i)
     std::copy(poses[i].trace.residuals.begin(), poses[i].trace.residuals.end(), &rows[i * width]);
   newton.write("history", rows, {poses.size(), width}, "1");
