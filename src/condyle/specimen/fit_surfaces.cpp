@@ -5,7 +5,6 @@
 #include <cassert>
 #include <chrono>
 #include <exception>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -14,12 +13,10 @@
 
 #include "condyle/input_error.h"
 #include "condyle/mesh/clean_mesh.h"
-#include "condyle/mesh/drop_flat_vertices.h"
-#include "condyle/mesh/mesh_measures.h"
 #include "condyle/mesh_files/load_mesh.h"
 #include "condyle/specimen/check_layers.h"
+#include "condyle/specimen/patch_sources.h"
 #include "condyle/start_threads.h"
-#include "condyle/surface/bone_check.h"
 #include "condyle/surface/exact_surfaces.h"
 #include "condyle/surface/fit_figures.h"
 #include "condyle/surface/fit_patch.h"
@@ -29,168 +26,12 @@
 namespace condyle {
 namespace {
 
-/// A mesh that patches of one body are cut from, with what all of them need to know about it. All
-/// is computed about the middle of the mesh, so that it does not matter where the file has its
-/// origin; only what fit_one hands out is in the file's frame again.
-struct Source {
-  MeshFile file;
-  int body = -1;
-  std::vector<int> surfaces;                         ///< indices into Scene::surfaces
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of the mesh, in the file's frame [mm]
-  CleanMesh mesh;                                    ///< about the middle, as the axis
-  TriangleMesh shape;                                ///< the same without flat vertices
-  std::optional<CondylarAxis> axis;
-  bool turned = false;  ///< some of the mesh was turned to face out of the bone
-  std::vector<std::string> notes;
-};
-
-std::string place_of(const Scene& scene, const SurfaceDescription& surface) {
-  return fmt::format("{}: surface \"{}\"", scene.file.string(), surface.name);
-}
-
-MeshFile mesh_of(const Scene& scene, const SurfaceDescription& surface) {
-  if (surface.patch.mesh) return *surface.patch.mesh;
-  const BodyDescription& body = scene.bodies[surface.body];
-  if (body.mesh) return *body.mesh;
-  throw InputError(fmt::format(
-      "{}: kind = \"patch\" needs a mesh: neither the surface nor its body \"{}\" names one",
-      place_of(scene, surface), body.name));
-}
-
-void check_patch(const Scene& scene, const SurfaceDescription& surface) {
-  const std::string place = place_of(scene, surface);
-  if (!surface.patch.compartment && surface.patch.region_box) return;
-  if (!surface.patch.compartment)
-    throw InputError(fmt::format(
-        "{}: a patch needs compartment = \"medial\" or \"lateral\", or region = {{ box = ... }}",
-        place));
-  if (!scene.joint)
-    throw InputError(fmt::format("{}: compartment is found from [joint], which is missing", place));
-  if (surface.body != scene.joint->femur.body && surface.body != scene.joint->tibia.body)
-    throw InputError(fmt::format("{}: body \"{}\" is neither the femur nor the tibia of [joint]",
-                                 place, scene.bodies[surface.body].name));
-}
-
-/// Patches by mesh, so that each file is read once per body.
-std::vector<Source> collect_sources(const Scene& scene) {
-  std::vector<Source> sources;
-  for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
-    const SurfaceDescription& surface = scene.surfaces[i];
-    if (surface.kind != SurfaceKind::kPatch) continue;
-    check_patch(scene, surface);
-    const MeshFile file = mesh_of(scene, surface);
-    auto source = std::find_if(sources.begin(), sources.end(), [&](const Source& s) {
-      return s.body == surface.body && s.file.path == file.path && s.file.to_mm == file.to_mm;
-    });
-    if (source == sources.end()) {
-      sources.push_back({.file = file,
-                         .body = surface.body,
-                         .surfaces = {},
-                         .middle = Eigen::Vector3d::Zero(),
-                         .mesh = {},
-                         .shape = {},
-                         .axis = {},
-                         .turned = false,
-                         .notes = {}});
-      source = sources.end() - 1;
-    }
-    source->surfaces.push_back(static_cast<int>(i));
-  }
-  return sources;
-}
-
-/// About the middle of the mesh.
-BoneFrame bone_frame(const AnatomicalFrame& frame, const Source& source) {
-  return {.origin = frame.origin - source.middle,
-          .lateral = frame.lateral,
-          .anterior = frame.anterior,
-          .proximal = frame.proximal};
-}
-
-bool is_femur(const Scene& scene, const Source& source) {
-  return scene.joint && source.body == scene.joint->femur.body;
-}
-bool is_tibia(const Scene& scene, const Source& source) {
-  return scene.joint && source.body == scene.joint->tibia.body;
-}
-
-bool needs_compartments(const Scene& scene, const Source& source) {
-  return std::any_of(source.surfaces.begin(), source.surfaces.end(),
-                     [&](int i) { return scene.surfaces[i].patch.compartment.has_value(); });
-}
-bool needs_axis(const Scene& scene, const Source& source) {
-  return is_femur(scene, source) && needs_compartments(scene, source);
-}
-
-/// The medial plateau is deeper from front to back than the lateral one, by 12 % on average
-/// [Cheng 2009]: the other way round, the knee may be one of the other side.
-void suspect_side(const Scene& scene, const TriangleMesh& mesh, Source& source) {
-  constexpr double kSuspicious = 0.95;
-  const double ratio = plateau_depth_ratio(mesh, bone_frame(scene.joint->tibia, source));
-  if (ratio > 0 && ratio < kSuspicious)
-    source.notes.push_back(
-        fmt::format("warning: the medial plateau is {:.2f} times as deep from front to back as the "
-                    "lateral one, "
-                    "expected about 1.1: is this a {} knee, or a mirrored mesh?",
-                    ratio, scene.joint->side == Side::kRight ? "left" : "right"));
-}
-
-/// In whole millimetres, so that moving there and back costs none of the digits of a usual file.
-Eigen::Vector3d middle_of(const TriangleMesh& mesh) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : mesh.vertices) sum += p;
-  sum /= std::max<double>(1, static_cast<double>(mesh.vertices.size()));
-  return sum.array().round();
-}
-
-void move(TriangleMesh& mesh, const Eigen::Vector3d& d) {
-  for (Eigen::Vector3d& p : mesh.vertices) p += d;
-}
-
-void load_source(const Scene& scene, const MeshReader& read, Source& source) {
-  TriangleMesh as_read = read(source.file);
-  source.middle = middle_of(as_read);
-  move(as_read, -source.middle);
-  source.mesh = clean_mesh(std::move(as_read));
-  source.notes = describe(source.mesh.report);
-  const auto all = static_cast<int>(source.mesh.mesh.triangles.size());
-  if (source.mesh.report.flipped_triangles > 0.9 * all)
-    source.notes.push_back(fmt::format(
-        "warning: {} of {} triangles faced into the bone, as after mirroring: check the side",
-        source.mesh.report.flipped_triangles, all));
-  int turned = 0;
-  if (is_femur(scene, source))
-    turned = face_out_of_femur(source.mesh, bone_frame(scene.joint->femur, source));
-  if (is_tibia(scene, source))
-    turned = face_out_of_tibia(source.mesh, bone_frame(scene.joint->tibia, source));
-  source.turned = turned > 0;
-  if (source.turned)
-    source.notes.push_back(fmt::format("{} of {} sheets faced into the bone and were turned",
-                                       turned, source.mesh.closed.size()));
-  source.shape = drop_flat_vertices(source.mesh.mesh);
-  const TriangleMesh& mesh = source.shape;
-  if (is_tibia(scene, source)) suspect_side(scene, mesh, source);
-  try {
-    if (is_femur(scene, source)) check_one_knee(mesh, bone_frame(scene.joint->femur, source));
-    if (is_tibia(scene, source) && needs_compartments(scene, source)) {
-      check_one_knee(mesh, bone_frame(scene.joint->tibia, source));
-      check_is_no_femur(source.mesh, bone_frame(scene.joint->tibia, source));
-    }
-    if (!needs_axis(scene, source)) return;
-    source.axis =
-        fit_condylar_axis(mesh, vertex_normals(mesh), bone_frame(scene.joint->femur, source));
-    check_is_femur(*source.axis);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", source.file.path.string(), error.what()));
-  }
-}
-
 /// That the known part of a patch with a layer goes on beyond that of one with points of contact,
 /// but for limits that the scene sets: an area spreads from where a point would be [mm].
 constexpr double kAreaBeyondPoint = 4;
 
 ArticularRegion find_region(const Scene& scene,
-                            const Source& source,
+                            const PatchSource& source,
                             const PatchDescription& patch,
                             bool layered) {
   const TriangleMesh& mesh = source.shape;
@@ -264,7 +105,7 @@ std::string move_out(double offset, ArticularRegion& region, PatchFit& fit) {
       offset, moved.rms, moved.max);
 }
 
-FittedSurface fit_one(const Scene& scene, const Source& source, int index) {
+FittedSurface fit_one(const Scene& scene, const PatchSource& source, int index) {
   const SurfaceDescription& surface = scene.surfaces[index];
   const auto start = std::chrono::steady_clock::now();
   try {
@@ -285,7 +126,7 @@ FittedSurface fit_one(const Scene& scene, const Source& source, int index) {
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     for (Eigen::Vector3d& p : fit.patch.control_points) p += source.middle;
-    move(region.mesh, source.middle);
+    shift(region.mesh, source.middle);
     return {std::make_shared<const Patch>(std::move(fit.patch)),
             std::move(report),
             std::move(region.mesh),
@@ -298,7 +139,7 @@ FittedSurface fit_one(const Scene& scene, const Source& source, int index) {
 
 void fit_source(const Scene& scene,
                 const MeshReader& read,
-                Source& source,
+                PatchSource& source,
                 std::vector<FittedSurface>& surfaces,
                 const std::function<void()>& on_patch) {
   load_source(scene, read, source);
@@ -307,7 +148,7 @@ void fit_source(const Scene& scene,
     on_patch();
   }
   if (source.turned) return;
-  move(source.mesh.mesh, source.middle);
+  shift(source.mesh.mesh, source.middle);
   const auto bone = std::make_shared<const TriangleMesh>(std::move(source.mesh.mesh));
   for (const int i : source.surfaces)
     if (!scene.surfaces[i].patch.mesh) surfaces[i].bone = bone;
@@ -317,13 +158,13 @@ void fit_source(const Scene& scene,
 /// own places in `surfaces`.
 void fit_sources(const Scene& scene,
                  const MeshReader& read,
-                 std::vector<Source>& sources,
+                 std::vector<PatchSource>& sources,
                  std::vector<FittedSurface>& surfaces,
                  const OnProgress& on_patch,
                  int threads) {
   std::vector<std::exception_ptr> errors(sources.size());
   int done = 0, total = 0;
-  for (const Source& source : sources) total += static_cast<int>(source.surfaces.size());
+  for (const PatchSource& source : sources) total += static_cast<int>(source.surfaces.size());
   std::mutex one_at_a_time;
   const auto tell = [&] {
     const std::lock_guard lock(one_at_a_time);
@@ -375,7 +216,7 @@ std::vector<FittedSurface> fit_surfaces(const Scene& scene,
                                         const OnProgress& on_patch,
                                         const MeshReader& read,
                                         int threads) {
-  std::vector<Source> sources = collect_sources(scene);
+  std::vector<PatchSource> sources = collect_sources(scene);
   std::vector<FittedSurface> surfaces(scene.surfaces.size());
   const MeshReader from_file = [](const MeshFile& file) {
     return load_mesh(file.path, file.to_mm);

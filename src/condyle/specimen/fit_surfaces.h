@@ -3,7 +3,6 @@
 /// From the described surfaces of a scene to surfaces that can be evaluated: exact kinds are made,
 /// patches are fitted to the meshes (loaded, cleaned, the articular region found, fitted).
 
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -11,15 +10,13 @@
 #include "condyle/on_progress.h"
 #include "condyle/scene/fitted_surface.h"
 #include "condyle/scene/scene.h"
+#include "condyle/specimen/mesh_reader.h"
 #include "condyle/surface/surface.h"
 
 namespace condyle {
 
 /// A described surface of any kind but a patch.
 [[nodiscard]] std::unique_ptr<Surface> make_exact_surface(const SurfaceDescription& surface);
-
-/// What stands in for reading a mesh file, from either of two threads: a mesh in memory, in mm.
-using MeshReader = std::function<TriangleMesh(const MeshFile&)>;
 
 /// One entry per Scene::surfaces, in the frames of the scene; where these have their origins does
 /// not matter. Throws InputError for meshes that cannot be used and layers that have no room. `on_patch` is told of each patch
