@@ -68,6 +68,20 @@ TEST(GlbRun, EndsItsLigamentsOnTheirInsertions) {
   }
 }
 
+TEST(GlbRun, TurnsALigamentUpsideDown) {
+  condyle::Run run = phantom_run();
+  const PoseResult& pose = run.sweep.poses[0];
+  LigamentDescription& ligament = run.scene.ligaments[0];
+  ligament.ends[1] = ligament.ends[0];
+  ligament.ends[1].at -=
+      body_pose(run.scene, pose.X_BA, ligament.ends[0].body).R.transpose() * Vector3d(0, 20, 0);
+  const GlbReader glb(glb_of_run(run, "run.h5"));
+  const Eigen::Affine3d place = glb.place(glb.node("ligament " + ligament.name), 0);
+  const Vector3d a = 1e-3 * insertion(run.scene, pose, ligament.ends[0]);
+  EXPECT_LT((place * Vector3d(0, 0, 0) - a).norm(), 3 * kFloat);
+  EXPECT_LT((place * Vector3d(0, 1, 0) - (a - Vector3d(0, 0.02, 0))).norm(), 3 * kFloat);
+}
+
 TEST(GlbRun, NeverTurnsAQuaternionToItsOpposite) {
   const GlbReader glb(glb_of_run(phantom_run(), "run.h5"));
   for (std::size_t node = 0; node < glb.json["nodes"].size(); ++node) {

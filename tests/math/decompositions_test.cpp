@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace condyle {
 namespace {
 
@@ -44,6 +46,12 @@ TEST(Decompositions, ThePivotedBasisLeavesWhatDependentColumnsDoNotReach) {
   EXPECT_EQ(pivoted_basis(SmallMatrix{{1, 0}, {0, 1e-10}}, 1e-9).rank, 1);
 }
 
+TEST(Decompositions, ThePivotedBasisTakesTheLongestColumnFirst) {
+  const PivotedBasis basis = pivoted_basis(SmallMatrix{{1, 0, 0}, {0, 3, 2}}, 0);
+  EXPECT_EQ(basis.order[0], 1);
+  EXPECT_EQ(basis.order[1], 0);  // nothing is left of the third
+}
+
 TEST(Decompositions, SingularValuesHaveAColumnForWhatTheMatrixDoesNotSee) {
   const Eigen::MatrixXd A{{3, 0, 0}, {0, 2, 0}};
   const SingularValues found = singular_values(A);
@@ -57,6 +65,33 @@ TEST(Decompositions, EigenvaluesComeTheLeastFirst) {
   const SymmetricEigenvalues found = symmetric_eigenvalues(SmallMatrix{{2, 1}, {1, 2}});
   EXPECT_LT((found.values - Eigen::Vector2d(1, 3)).norm(), kExactly);
   EXPECT_NEAR(found.vectors(0, 0), -found.vectors(1, 0), kExactly);
+}
+
+TEST(Decompositions, EigenvaluesOfThePlaneAreThoseOfTheGeneralWay) {
+  for (const Eigen::Matrix2d& A :
+       {Eigen::Matrix2d{{2, 1}, {1, 2}}, Eigen::Matrix2d{{-3, 0.5}, {0.5, 7}},
+        Eigen::Matrix2d{{4, 0}, {0, 4}}, Eigen::Matrix2d{{1, 1e-9}, {1e-9, 1}}}) {
+    const PlaneEigenvalues found = plane_eigenvalues(A);
+    EXPECT_LT((found.values - Eigen::Vector2d(symmetric_eigenvalues(A).values)).norm(), kExactly);
+    EXPECT_LT((A * found.vectors - found.vectors * found.values.asDiagonal()).norm(), kExactly);
+    EXPECT_LT((found.vectors.transpose() * found.vectors - Eigen::Matrix2d::Identity()).norm(),
+              kExactly);
+  }
+}
+
+TEST(Decompositions, NormalEquationsAreSolvedByTheirSymmetry) {
+  const Eigen::MatrixXd A{{4, 2, 0}, {2, 5, 1}, {0, 1, 3}}, X{{1, 0}, {-2, 3}, {0.5, 1}};
+  EXPECT_LT((symmetric_solution(A, A * X) - X).norm(), kExactly);
+}
+
+TEST(Decompositions, OnlyWhatIsRegularHasAnInverse) {
+  const SmallMatrix A{{0, 2}, {1, 1}};
+  const std::optional<SmallMatrix> inverse = regular_inverse(A, 1e-9);
+  ASSERT_TRUE(inverse);
+  EXPECT_LT((A * *inverse - Eigen::Matrix2d::Identity()).norm(), kExactly);
+  EXPECT_FALSE(regular_inverse(SmallMatrix{{1, 2}, {2, 4}}, 1e-9));
+  EXPECT_FALSE(regular_inverse(SmallMatrix{{1, 0}, {0, 1e-10}}, 1e-9));
+  EXPECT_FALSE(regular_inverse(SmallMatrix{{1, 0}, {0, std::nan("")}}, 1e-9));
 }
 
 TEST(Decompositions, SolutionsSolve) {

@@ -3,7 +3,7 @@
 /// A calibration that nobody computed: the knee of Wismans' type with a drawer and a varus test, five
 /// numbers free, predictions linear in them, so that covariance and singular values belong to the rows.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <cmath>
 #include <filesystem>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "condyle/calibration/calibration.h"
+#include "condyle/math/decompositions.h"
 #include "condyle/math/degree.h"
 #include "condyle/scene_file/read_scene.h"
 
@@ -148,10 +149,10 @@ inline void fill_rows(CalibrationResult& result, const Eigen::MatrixXd& S) {
 }
 
 inline Identifiability known(const Eigen::MatrixXd& S, const Eigen::VectorXd& prior_sd) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(S, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const SingularValues of_S = singular_values(S);
   Identifiability known;
-  known.singular_values = svd.singularValues();
-  known.directions = svd.matrixV();
+  known.singular_values = of_S.values;
+  known.directions = of_S.V.leftCols(of_S.values.size());
   known.determined = static_cast<int>((known.singular_values.array() > 1).count());
   const Eigen::ArrayXd squares = known.singular_values.array().square();
   known.effective = (squares / (1 + squares)).sum();

@@ -3,7 +3,7 @@
 /// Calibrations of any size that nobody computed, for pictures of them: parameters, tests of five
 /// coordinates each, bands, profiles and suggestions by smooth formulae.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <cmath>
 #include <string>

@@ -1,4 +1,4 @@
-#include <Eigen/SVD>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,7 @@
 #include "condyle/equilibrium/path_system.h"
 #include "condyle/equilibrium/restore_state.h"
 #include "condyle/equilibrium/sweep.h"
+#include "condyle/math/decompositions.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "support/hard_cases.h"
@@ -62,7 +63,7 @@ double condition_number(const Model& model, const EquilibriumState& state, const
   Eigen::MatrixXd dense(size, size);
   for (int i = 0; i < size; ++i)
     for (int j = 0; j < size; ++j) dense(i, j) = matrix(i, j);
-  const Eigen::VectorXd values = dense.jacobiSvd().singularValues();
+  const Eigen::VectorXd values = singular_values(dense).values;
   return values[0] / values[size - 1];
 }
 

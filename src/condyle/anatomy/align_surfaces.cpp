@@ -1,11 +1,11 @@
 #include "condyle/anatomy/align_surfaces.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/math/decompositions.h"
 #include "condyle/math/rotation.h"
 
 namespace condyle {
@@ -64,7 +64,7 @@ void step(const std::vector<SurfacePair>& pairs, double rms, double proportion, 
   A *= weight;
   b *= weight;
   add_expected(now, proportion, A, b);
-  const Vector9d x = A.ldlt().solve(b);
+  const Vector9d x = symmetric_solution(A, b);
   now.shift += x.head<3>();
   now.turn = exp_rotation(x.segment<3>(3)) * now.turn;
   now.size = now.size.array() * x.tail<3>().array().exp();

@@ -1,11 +1,10 @@
 #include "condyle/anatomy/knee_side.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "condyle/math/decompositions.h"
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/surface/bone_check.h"
 
@@ -63,7 +62,7 @@ double hollowness(const TibialShape& tibia,
     A += areas[i] * row * row.transpose();
     b += areas[i] * q.y() * row;
   }
-  return 2 * A.ldlt().solve(b)[3];
+  return 2 * symmetric_solution(A, b)(3);
 }
 
 /// How much farther the bone below the plateau reaches laterally than medially, of the plateau's width: head

@@ -1,13 +1,12 @@
 #include "condyle/anatomy/plateau.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 
 #include "condyle/input_error.h"
+#include "condyle/math/decompositions.h"
 #include "condyle/math/disjoint_sets.h"
 #include "condyle/mesh/mesh_measures.h"
 
@@ -86,7 +85,7 @@ void fit_plane(Plateau& plateau, const std::vector<Face>& faces) {
       A += weight * row * row.transpose();
       b += weight * z * row;
     }
-    x = A.ldlt().solve(b);
+    x = symmetric_solution(A, b);
   }
   plateau.middle += x[0] * plateau.normal;
   plateau.normal = (plateau.normal - x[1] * u - x[2] * v).normalized();
@@ -107,8 +106,8 @@ void fit_outline(Plateau& plateau, const std::vector<Face>& faces) {
     second += f.weight * q * q.transpose();
   }
   first /= area;
-  const Eigen::SelfAdjointEigenSolver<Matrix2d> axes(second / area - first * first.transpose());
-  const Vector2d longest = axes.eigenvectors().col(1);
+  const Vector2d longest =
+      plane_eigenvalues(second / area - first * first.transpose()).vectors.col(1);
   plateau.area = area;
   plateau.middle += u * first.x() + v * first.y();
   plateau.across = (longest.x() * u + longest.y() * v) * (longest.x() < 0 ? -1 : 1);

@@ -1,12 +1,12 @@
 #include "condyle/anatomy/posterior_cylinder.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 
 #include "condyle/input_error.h"
+#include "condyle/math/decompositions.h"
 #include "condyle/mesh/mesh_measures.h"
 
 namespace condyle {
@@ -67,7 +67,7 @@ void step(Cylinder& c, const std::vector<Sample>& samples) {
     H += weight * row * row.transpose();
     g += weight * r * row;
   }
-  const Vector5 x = -H.ldlt().solve(g);
+  const Vector5 x = -symmetric_solution(H, g);
   c.point += c.distal * x[0] + c.posterior * x[1];
   c.along = (c.along + c.distal * x[2] + c.posterior * x[3]).normalized();
   c.distal = (c.distal - c.along * c.along.dot(c.distal)).normalized();

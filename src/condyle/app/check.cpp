@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
@@ -12,6 +11,7 @@
 #include "condyle/app/commands.h"
 #include "condyle/app/start_run.h"
 #include "condyle/app/tell.h"
+#include "condyle/math/decompositions.h"
 #include "condyle/network/simulate.h"
 #include "condyle/report/summary_json.h"
 #include "condyle/results/output_file.h"
@@ -62,8 +62,7 @@ void print_meshes(const Scene& scene, const std::vector<TriangleMesh>& bones) {
 /// Of the moving body, from its numbers or its mesh; throws where a motion has no use for it.
 void print_mass(const Scene& scene) {
   const MassProperties mass = moving_mass(scene);
-  const Eigen::Vector3d moments =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mass.inertia).eigenvalues();
+  const Eigen::Vector3d moments = symmetric_eigenvalues(mass.inertia).values;
   constexpr double kKilogram = 1e-3;  // tonne
   tell(
       "mass       {}: {:.4g} kg, centre ({:.4g}, {:.4g}, {:.4g}) mm, principal moments {:.4g}, "

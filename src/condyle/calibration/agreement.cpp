@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "condyle/elements/joint_table.h"
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 namespace {
 
 constexpr double kNormal975 = 1.959963984540054;  // 97.5 % quantile of the normal distribution
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Root of a mean of squares; NaN of none.
 struct Rms {
@@ -21,7 +20,7 @@ struct Rms {
     sum += x * x;
     ++count;
   }
-  [[nodiscard]] double value() const { return count > 0 ? std::sqrt(sum / count) : kNaN; }
+  [[nodiscard]] double value() const { return count > 0 ? std::sqrt(sum / count) : kNoNumber; }
 };
 
 Agreement agreement_of(const std::string& name,
@@ -51,7 +50,7 @@ Agreement agreement_of(const std::string& name,
   }
   agreement.before = before.value();
   agreement.after = after.value();
-  agreement.covered = after.count > 0 ? static_cast<double>(covered) / after.count : kNaN;
+  agreement.covered = after.count > 0 ? static_cast<double>(covered) / after.count : kNoNumber;
   agreement.length_before = lengths[0].value();
   agreement.length_after = lengths[1].value();
   agreement.angle_before = angles[0].value();
@@ -77,8 +76,8 @@ std::vector<CalibratedRow> calibrated_rows(const PredictedRows& before,
     CalibratedRow& row = rows[static_cast<std::size_t>(i)];
     row.before = before.y[i];
     row.after = after.y[i];
-    row.prior_sd = std::isfinite(before.y[i]) ? prior_of[i] : kNaN;
-    row.after_sd = std::isfinite(after.y[i]) ? after_of[i] : kNaN;
+    row.prior_sd = std::isfinite(before.y[i]) ? prior_of[i] : kNoNumber;
+    row.after_sd = std::isfinite(after.y[i]) ? after_of[i] : kNoNumber;
     row.sd = sd[i];
   }
   return rows;
@@ -111,7 +110,7 @@ std::vector<Agreement> agreement_by_test(const MeasurementTable& table,
 }
 
 double reduced_chi_square_limit(double degrees_of_freedom) {
-  if (!(degrees_of_freedom >= 1)) return kNaN;
+  if (!(degrees_of_freedom >= 1)) return kNoNumber;
   const double v = 2 / (9 * degrees_of_freedom);
   return std::pow(1 - v + kNormal975 * std::sqrt(v), 3);
 }

@@ -1,10 +1,9 @@
 #include "condyle/calibration/hull_step.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <limits>
+
+#include "condyle/math/decompositions.h"
 
 namespace condyle {
 namespace {
@@ -27,7 +26,7 @@ VectorXd level_weights(const MatrixXd& Q,
     K(i, k) = K(k, i) = 1;
     right[i] = c[of[static_cast<std::size_t>(i)]];
   }
-  const VectorXd solved = K.fullPivLu().solve(right);
+  const VectorXd solved = fully_pivoted_solution(K, right);
   VectorXd weights = VectorXd::Zero(c.size());
   for (Index i = 0; i < k; ++i) weights[of[static_cast<std::size_t>(i)]] = solved[i];
   level = solved[k];
@@ -97,7 +96,7 @@ HullStep step_with(const Pieces& pieces, const Held& held) {
   const MatrixXd gradients = pieces.gradients.colwise() + pull;
   const MatrixXd G = gradients(free, Eigen::all);
   const VectorXd cost = pieces.cost + pieces.gradients.transpose() * fixed;
-  const MatrixXd back = free.empty() ? G : MatrixXd(pieces.H(free, free).ldlt().solve(G));
+  const MatrixXd back = free.empty() ? G : symmetric_solution(pieces.H(free, free), G);
   HullStep found;
   found.weights = hull_weights(G.transpose() * back, cost);
   found.step = fixed;

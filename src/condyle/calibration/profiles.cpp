@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
+
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 namespace {
@@ -14,7 +15,6 @@ using Eigen::VectorXd;
 
 constexpr int kValues = 20;   // even: the least is none of them
 constexpr double kReach = 3;  // posterior sds
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// All but component j.
 VectorXd without(const VectorXd& v, Index j) {
@@ -80,7 +80,7 @@ Profile empty_profile(const LeastSquaresProblem& rows,
   profile.parameter = parameter;
   for (int k = 0; k < kValues; ++k)
     profile.theta.push_back(first + (last - first) * k / (kValues - 1));
-  profile.chi_square.assign(kValues, kNaN);
+  profile.chi_square.assign(kValues, kNoNumber);
   return profile;
 }
 

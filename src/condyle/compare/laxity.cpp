@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "condyle/elements/joint_table.h"
@@ -13,6 +12,7 @@
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/input_error.h"
 #include "condyle/math/degree.h"
+#include "condyle/math/no_number.h"
 #include "condyle/reference/wismans_solver.h"
 #include "condyle/scene/start_pose.h"
 
@@ -20,7 +20,6 @@ namespace condyle {
 namespace {
 
 constexpr double kFlexionStep = 5 * kDegree, kLoadStep = 0.1;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// From one value to another in steps of at most `step`, both ends included.
 std::vector<double> way(double from, double to, double step) {
@@ -109,7 +108,8 @@ std::size_t least_load(const std::vector<PoseResult>& poses) {
 
 double coordinate(const Scene& scene, const PoseResult& pose) {
   const std::size_t k = loaded_coordinate(scene);
-  return pose.converged() ? pose.joint.*kJointCoordinates[k].member / (k < 3 ? kDegree : 1) : kNone;
+  return pose.converged() ? pose.joint.*kJointCoordinates[k].member / (k < 3 ? kDegree : 1)
+                          : kNoNumber;
 }
 
 }  // namespace
@@ -185,7 +185,7 @@ std::vector<double> displacements(const Scene& scene, const SweepResult& sweep) 
 }
 
 double laxity_of(const Scene& scene, const SweepResult& sweep) {
-  if (sweep.poses.empty()) return kNone;
+  if (sweep.poses.empty()) return kNoNumber;
   return coordinate(scene, sweep.poses.back()) - coordinate(scene, sweep.poses.front());
 }
 

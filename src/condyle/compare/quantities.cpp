@@ -1,17 +1,15 @@
 #include "condyle/compare/quantities.h"
 
 #include <cmath>
-#include <limits>
 
 #include "condyle/elements/joint_table.h"
 #include "condyle/math/degree.h"
+#include "condyle/math/no_number.h"
 #include "condyle/scene/ligament_bundles.h"
 #include "condyle/scene/swept_quantity.h"
 
 namespace condyle {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 void add_joint(const Scene& scene, std::vector<Quantity>& quantities) {
   const bool flexion_is_swept = quantity_of_sweep(scene).flexion;
@@ -30,7 +28,7 @@ double place_on_tibia(const Scene& scene,
                       bool anterior) {
   const ContactResult& contact = pose.contacts.at(index);
   const ContactPointResult* best = strongest_point(contact);
-  if (!contact.closed || best == nullptr) return kNone;
+  if (!contact.closed || best == nullptr) return kNoNumber;
   const AnatomicalFrame& tibia = scene.joint->tibia;
   const bool moves = tibia.body == scene.moving_body();
   const Eigen::Vector3d at = (moves ? best->point_moving : best->point_ground) - tibia.origin;
@@ -79,7 +77,7 @@ std::vector<Quantity> compared_quantities(const Scene& scene) {
 std::vector<double> series(const Quantity& quantity, const SweepResult& sweep) {
   std::vector<double> values;
   for (const PoseResult& pose : sweep.poses)
-    values.push_back(pose.converged() ? quantity.of(pose) : kNone);
+    values.push_back(pose.converged() ? quantity.of(pose) : kNoNumber);
   return values;
 }
 

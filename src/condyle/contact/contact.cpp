@@ -169,6 +169,10 @@ CONDYLE_INLINE ContactLinearization linearize(const SurfacePair& surfaces,
 
 }  // namespace
 
+Eigen::Matrix3d ContactLinearization::D1() const { return T * S1; }
+Eigen::Matrix3d ContactLinearization::D2() const { return T * S2; }
+Eigen::Vector3d ContactLinearization::D0() const { return T * S0; }
+
 CONDYLE_FMA_CLONE
 ContactLinearization linearize_contact(const SurfacePair& surfaces,
                                        const ContactPlaces& places,

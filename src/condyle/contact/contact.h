@@ -39,10 +39,10 @@ struct ContactLinearization {
   double across = 0;  ///< γ [mm]: 0 where the points are to touch
 
   [[nodiscard]] double gap() const { return B.n.dot(g); }
-  [[nodiscard]] Eigen::Matrix3d D1() const { return T * S1; }  ///< ∂c/∂a
-  [[nodiscard]] Eigen::Matrix3d D2() const { return T * S2; }  ///< ∂c/∂π
+  [[nodiscard]] Eigen::Matrix3d D1() const;  ///< ∂c/∂a
+  [[nodiscard]] Eigen::Matrix3d D2() const;  ///< ∂c/∂π
   /// What brings the two points together at a fixed pose [mm].
-  [[nodiscard]] Eigen::Vector3d D0() const { return T * S0; }
+  [[nodiscard]] Eigen::Vector3d D0() const;
 };
 
 /// Below this magnitude [1/mm] a principal relative curvature counts as zero: the contact is a line

@@ -1,9 +1,10 @@
 #include "condyle/contact/gap_paraboloid.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <cmath>
+
+#include "condyle/math/decompositions.h"
 
 namespace condyle {
 namespace {
@@ -26,15 +27,14 @@ std::optional<PredictedMinimum> predict_minimum(const Eigen::Vector3d& p,
   const Eigen::Vector3d K0 = -(opposite.K * e0 + K * e0), K1 = -(opposite.K * e1 + K * e1);
   Eigen::Matrix2d H;
   H << e0.dot(K0), e0.dot(K1), e0.dot(K1), e1.dot(K1);
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal;
-  principal.computeDirect(H);
-  if (!(principal.eigenvalues()[1] > 0)) return std::nullopt;
+  const PlaneEigenvalues principal = plane_eigenvalues(H);
+  if (!(principal.values[1] > 0)) return std::nullopt;
   const Eigen::Vector2d gradient(e0.dot(slope), e1.dot(slope));
 
   PredictedMinimum minimum{p, gap};
   for (const int k : {0, 1}) {
-    const Eigen::Vector2d along = principal.eigenvectors().col(k);
-    const double bend = principal.eigenvalues()[k], rise = along.dot(gradient);
+    const Eigen::Vector2d along = principal.vectors.col(k);
+    const double bend = principal.values[k], rise = along.dot(gradient);
     if (!(std::abs(bend) * reach > kFlat)) return std::nullopt;
     double step = -std::copysign(0.5 * reach, rise);
     if (bend > 0) {

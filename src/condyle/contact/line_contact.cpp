@@ -1,6 +1,5 @@
 #include "condyle/contact/line_contact.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #include "condyle/contact/settle_places.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
+
+#include "condyle/math/decompositions.h"
 
 namespace condyle {
 namespace {
@@ -24,10 +24,10 @@ Eigen::Vector2d downhill(const ContactLinearization& contact, const RigidTransfo
   const Eigen::Matrix2d Q = T.transpose() * (contact.K_T + Kr_T);
   const Eigen::Vector3d beside = contact.g - contact.across * contact.B.n;
   const Eigen::Vector2d mismatch = T.transpose() * contact.h + Kr_T.transpose() * beside;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(Q);
-  const Eigen::Vector2d size = principal.eigenvalues().cwiseAbs();
+  const SymmetricEigenvalues principal = symmetric_eigenvalues(Q);
+  const Eigen::Vector2d size = principal.values.cwiseAbs();
   const Eigen::Vector2d bend = size.cwiseMax(kLeastBend * size.maxCoeff());
-  const Eigen::Matrix2d& V = principal.eigenvectors();
+  const Eigen::Matrix2d V = principal.vectors;
   return -(V * (V.transpose() * mismatch).cwiseQuotient(bend));
 }
 

@@ -163,4 +163,11 @@ int SurfaceCover::nearest_within(const Eigen::Vector3d& point,
   return nearest.sample;
 }
 
+int SurfaceCover::nearer(const Eigen::Vector3d& point, int one, int another) const {
+  if (one < 0 || another < 0 || one == another) return std::max(one, another);
+  return (sample(one).c - point).squaredNorm() < (sample(another).c - point).squaredNorm()
+             ? one
+             : another;
+}
+
 }  // namespace condyle

@@ -71,12 +71,7 @@ class SurfaceCover {
                                    long& looked_at) const;
 
   /// Of two samples the nearer one; the other where one is -1.
-  [[nodiscard]] int nearer(const Eigen::Vector3d& point, int one, int another) const {
-    if (one < 0 || another < 0 || one == another) return std::max(one, another);
-    return (sample(one).c - point).squaredNorm() < (sample(another).c - point).squaredNorm()
-               ? one
-               : another;
-  }
+  [[nodiscard]] int nearer(const Eigen::Vector3d& point, int one, int another) const;
 
   /// All cells; samples at an edge stand for what lies between them and the edge as well.
   [[nodiscard]] const CellColumns& columns() const { return columns_; }

@@ -18,18 +18,10 @@ struct Wrench {
 };
 
 /// (f, m/L) [N], L [mm].
-[[nodiscard]] inline Eigen::Matrix<double, 6, 1> scaled_wrench(const Wrench& w, double L) {
-  Eigen::Matrix<double, 6, 1> scaled;
-  scaled << w.f, w.m / L;
-  return scaled;
-}
+[[nodiscard]] Eigen::Matrix<double, 6, 1> scaled_wrench(const Wrench& w, double L);
 
 /// -∂(f, m/L) with respect to (da, L dπ) [N/mm], L [mm]: the tangent stiffness with rotations as
 /// lengths. Symmetric at equilibrium for loads that have a potential.
-[[nodiscard]] inline Eigen::Matrix<double, 6, 6> scaled_stiffness(const Wrench& w, double L) {
-  Eigen::Matrix<double, 6, 6> K;
-  K << w.F1, w.F2 / L, w.M1 / L, w.M2 / (L * L);
-  return -K;
-}
+[[nodiscard]] Eigen::Matrix<double, 6, 6> scaled_stiffness(const Wrench& w, double L);
 
 }  // namespace condyle

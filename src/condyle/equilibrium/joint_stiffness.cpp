@@ -1,7 +1,5 @@
 #include "condyle/equilibrium/joint_stiffness.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 
 #include "condyle/equilibrium/admissible_motions.h"
@@ -23,11 +21,6 @@ constexpr std::array<ConditionKind, 6> kCoordinates = {
 Vector6 rotation_scale(double L) { return (Vector6() << 1, 1, 1, L, L, L).finished(); }
 /// The same for joint coordinates: angles come first.
 Vector6 angle_scale(double L) { return (Vector6() << L, L, L, 1, 1, 1).finished(); }
-
-template <class Matrix>
-bool invertible(const Eigen::FullPivLU<Matrix>& lu, double scale) {
-  return lu.matrixLU().allFinite() && lu.matrixLU().diagonal().cwiseAbs().minCoeff() > scale;
-}
 
 }  // namespace
 
@@ -53,18 +46,17 @@ std::optional<JointStiffness> joint_stiffness(const Linearization& at) {
   const Matrix6 K = scaled_stiffness(at.wrench(), L);
   const double largest = std::max(K.cwiseAbs().maxCoeff(), at.force_scale() / L);
 
-  const Eigen::FullPivLU<Matrix6> J_lu(J);
-  if (!K.allFinite() || !invertible(J_lu, 1e-6)) return std::nullopt;
-  const Matrix6 J_inverse = J_lu.inverse();
+  const std::optional<SmallMatrix> regular = regular_inverse(J, 1e-6);
+  if (!K.allFinite() || !regular) return std::nullopt;
+  const Matrix6 J_inverse = *regular;
 
   const Motions Z = admissible_motions(at);
   Matrix6 yielding = Matrix6::Zero();
   if (Z.cols() > 0) {
-    const SmallMatrix reduced = Z.transpose() * K * Z;
-    const Eigen::FullPivLU<SmallMatrix> lu(reduced);
-    if (!invertible(lu, kSingular * largest)) return std::nullopt;
-    const SmallMatrix inner = lu.inverse();
-    yielding = Z * inner * Z.transpose();
+    const std::optional<SmallMatrix> inner =
+        regular_inverse(Z.transpose() * K * Z, kSingular * largest);
+    if (!inner) return std::nullopt;
+    yielding = Z * *inner * Z.transpose();
   }
   JointStiffness joint;
   joint.stiffness =

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <array>
 #include <cmath>
 
+#include "condyle/math/decompositions.h"
 #include "condyle/math/rotation.h"
 
 namespace condyle {
@@ -50,11 +49,10 @@ Motions joint_shares(const Model& model, const RigidTransform& X, const Motions&
 
 std::string name_by_joint(const Model& model, const RigidTransform& X, const Motions& motions) {
   const Motions shares = joint_shares(model, X, motions);
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 6, 0, 6, 6>;
-  const Eigen::ColPivHouseholderQR<Rows> qr(Rows(shares.transpose()));
+  const PivotedBasis basis = pivoted_basis(shares.transpose(), 0);
   std::vector<bool> chosen(6, false);
-  for (Eigen::Index k = 0; k < motions.cols(); ++k)
-    chosen[static_cast<std::size_t>(qr.colsPermutation().indices()[k])] = true;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(motions.cols()); ++k)
+    chosen[static_cast<std::size_t>(basis.order[k])] = true;
   if (motions.cols() == 1) {
     const double largest = shares.col(0).cwiseAbs().maxCoeff();
     int second = -1;

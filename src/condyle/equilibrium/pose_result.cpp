@@ -69,6 +69,10 @@ const char* name(EventKind kind) {
   return "unknown";
 }
 
+bool PoseResult::solved() const {
+  return (converged() || status == PoseStatus::kLeftPatch) && X_BA.p.allFinite();
+}
+
 void clear(PoseResult& result) {
   result.ligaments.clear();
   result.conditions.clear();

@@ -71,9 +71,7 @@ struct PoseResult {
   double event_seconds = 0;  ///< spent on the events between the solved pose before it and this one
   [[nodiscard]] bool converged() const { return status == PoseStatus::kConverged; }
   /// In equilibrium, with all its numbers: converged, or with a contact beyond its patch.
-  [[nodiscard]] bool solved() const {
-    return (converged() || status == PoseStatus::kLeftPatch) && X_BA.p.allFinite();
-  }
+  [[nodiscard]] bool solved() const;
 };
 
 /// An empty result that keeps the memory of the one before.

@@ -54,6 +54,15 @@ const ContactPointResult* farthest_beyond(const ContactResult& contact) {
   return farthest;
 }
 
+/// The least rotation that takes the unit vector a along b.
+Quaterniond shortest_turn(const Vector3d& a, const Vector3d& b) {
+  constexpr double kOpposite = 1e-12;
+  const Vector3d to = b.stableNormalized();
+  const double real = 1 + a.dot(to);
+  const Vector3d axis = real > kOpposite ? Vector3d(a.cross(to)) : a.unitOrthogonal();
+  return Quaterniond(std::max(real, 0.0), axis.x(), axis.y(), axis.z()).normalized();
+}
+
 class GlbRun {
  public:
   GlbRun(const Run& run, const std::vector<ShownPose>& shown)
@@ -175,7 +184,7 @@ class GlbRun {
       for (std::size_t k = 0; k < pieces; ++k) {
         const Vector3d ab = places[k + 1] - places[k];
         const Vector3d along = turned[k] * Vector3d::UnitY();
-        turned[k] = (Quaterniond::FromTwoVectors(along, ab) * turned[k]).normalized();
+        turned[k] = (shortest_turn(along, ab) * turned[k]).normalized();
         tracks[k].push_back({kMetre * places[k], turned[k], {1, kMetre * ab.norm(), 1}});
       }
     }

@@ -1,9 +1,12 @@
 #include "condyle/math/decompositions.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+
+#include <algorithm>
 
 namespace condyle {
 
@@ -23,7 +26,10 @@ Eigen::MatrixXd orthogonal_factor(const Eigen::MatrixXd& A) {
 PivotedBasis pivoted_basis(const SmallMatrix& A, double threshold) {
   Eigen::ColPivHouseholderQR<SmallMatrix> qr(A);
   qr.setThreshold(threshold);
-  return {qr.householderQ() * SmallMatrix::Identity(A.rows(), A.rows()), qr.rank()};
+  PivotedBasis basis{qr.householderQ() * SmallMatrix::Identity(A.rows(), A.rows()), qr.rank(), {}};
+  const auto& order = qr.colsPermutation().indices();
+  std::copy(order.begin(), order.end(), basis.order.begin());
+  return basis;
 }
 
 SingularValues singular_values(const Eigen::MatrixXd& A) {
@@ -36,12 +42,29 @@ SymmetricEigenvalues symmetric_eigenvalues(const SmallMatrix& A) {
   return {eigen.eigenvalues(), eigen.eigenvectors()};
 }
 
+PlaneEigenvalues plane_eigenvalues(const Eigen::Matrix2d& A) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
+  eigen.computeDirect(A);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
 Eigen::VectorXd partially_pivoted_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   return A.partialPivLu().solve(b);
 }
 
 Eigen::MatrixXd fully_pivoted_solution(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
   return A.fullPivLu().solve(B);
+}
+
+Eigen::MatrixXd symmetric_solution(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+  return A.ldlt().solve(B);
+}
+
+std::optional<SmallMatrix> regular_inverse(const SmallMatrix& A, double least) {
+  const Eigen::FullPivLU<SmallMatrix> lu(A);
+  if (!lu.matrixLU().allFinite() || !(lu.matrixLU().diagonal().cwiseAbs().minCoeff() > least))
+    return std::nullopt;
+  return lu.inverse();
 }
 
 }  // namespace condyle

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <optional>
 
 namespace condyle {
@@ -29,6 +30,7 @@ struct LeastNormSolution {
 struct PivotedBasis {
   SmallMatrix Q;  ///< square and orthogonal; its first `rank` columns span those of A
   Eigen::Index rank = 0;
+  std::array<int, 6> order{};  ///< of the columns of A, the largest pivot first
 };
 /// Pivots up to `threshold` times the largest count as nothing.
 [[nodiscard]] PivotedBasis pivoted_basis(const SmallMatrix& A, double threshold);
@@ -43,8 +45,15 @@ struct SymmetricEigenvalues {
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> values;  ///< the least first
   SmallMatrix vectors;                                       ///< a column of each
 };
-/// Of a symmetric matrix. Allocates nothing, as pivoted_basis does not: every pose asks for both.
+/// Of a symmetric matrix. Allocates nothing: every pose asks for some.
 [[nodiscard]] SymmetricEigenvalues symmetric_eigenvalues(const SmallMatrix& A);
+
+struct PlaneEigenvalues {
+  Eigen::Vector2d values;   ///< the lesser first
+  Eigen::Matrix2d vectors;  ///< a column of each
+};
+/// Of a symmetric matrix in closed form.
+[[nodiscard]] PlaneEigenvalues plane_eigenvalues(const Eigen::Matrix2d& A);
 
 /// x with A x = b for a regular A, by elimination with partial pivoting.
 [[nodiscard]] Eigen::VectorXd partially_pivoted_solution(const Eigen::MatrixXd& A,
@@ -52,5 +61,10 @@ struct SymmetricEigenvalues {
 /// X with A X = B by elimination with full pivoting, where A may be close to singular.
 [[nodiscard]] Eigen::MatrixXd fully_pivoted_solution(const Eigen::MatrixXd& A,
                                                      const Eigen::MatrixXd& B);
+/// X with A X = B for a symmetric A, that of normal equations say, by L D Lᵀ with pivoting.
+[[nodiscard]] Eigen::MatrixXd symmetric_solution(const Eigen::MatrixXd& A,
+                                                 const Eigen::MatrixXd& B);
+/// By elimination with full pivoting; none where A has no number or a pivot up to `least`.
+[[nodiscard]] std::optional<SmallMatrix> regular_inverse(const SmallMatrix& A, double least);
 
 }  // namespace condyle

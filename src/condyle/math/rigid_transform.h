@@ -12,13 +12,9 @@ struct RigidTransform {
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
 
   /// A point, [mm].
-  [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
-    return R * point + p;
-  }
-  [[nodiscard]] RigidTransform operator*(const RigidTransform& other) const {
-    return {R * other.R, R * other.p + p};
-  }
-  [[nodiscard]] RigidTransform inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
+  [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& point) const;
+  [[nodiscard]] RigidTransform operator*(const RigidTransform& other) const;
+  [[nodiscard]] RigidTransform inverse() const;
 };
 
 }  // namespace condyle

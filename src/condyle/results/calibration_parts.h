@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "condyle/calibration/calibration.h"
+#include "condyle/math/no_number.h"
 #include "condyle/results/hdf5_file.h"
-#include "condyle/results/no_number.h"
 
 namespace condyle {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "condyle/results/no_number.h"
+#include "condyle/math/no_number.h"
 #include "condyle/results/run_view.h"
 
 namespace condyle {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "condyle/math/no_number.h"
 #include "condyle/results/journal_words.h"
-#include "condyle/results/no_number.h"
 
 namespace condyle {
 namespace {

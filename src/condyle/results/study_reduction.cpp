@@ -6,7 +6,7 @@
 #include <set>
 
 #include "condyle/equilibrium/pose_output.h"
-#include "condyle/results/no_number.h"
+#include "condyle/math/no_number.h"
 #include "condyle/results/study_groups.h"
 #include "condyle/study/summarise.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "condyle/results/no_number.h"
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 namespace {

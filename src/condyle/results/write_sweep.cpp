@@ -3,9 +3,9 @@
 #include <functional>
 #include <limits>
 
+#include "condyle/math/no_number.h"
 #include "condyle/results/estimates.h"
 #include "condyle/results/layer_group.h"
-#include "condyle/results/no_number.h"
 #include "condyle/results/path_group.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/sweep_group.h"

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "condyle/math/decompositions.h"
 #include "condyle/math/rotation.h"
 #include "condyle/scene_file/read_sections.h"
 
@@ -19,8 +19,8 @@ Eigen::Matrix3d read_inertia(const Section& section, const Scene& scene) {
   Eigen::Matrix3d inertia;
   for (int i = 0; i < 3; ++i) inertia.row(i) = rows[static_cast<std::size_t>(i)].transpose();
   const double size = inertia.cwiseAbs().maxCoeff();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(inertia, Eigen::EigenvaluesOnly);
-  if (!inertia.isApprox(inertia.transpose(), 1e-9) || principal.eigenvalues()[0] <= 1e-12 * size) {
+  if (!inertia.isApprox(inertia.transpose(), 1e-9) ||
+      symmetric_eigenvalues(inertia).values[0] <= 1e-12 * size) {
     section.fail("inertia", "a symmetric positive definite matrix");
   }
   return kKilogram * scene.length_to_mm * scene.length_to_mm * inertia;

@@ -1,10 +1,9 @@
 #include "condyle/specimen/fit_ellipsoid.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/math/decompositions.h"
 #include "condyle/math/rotation.h"
 #include "condyle/surface/exact_surfaces.h"
 
@@ -85,7 +84,7 @@ EllipsoidFit fit_ellipsoid(const std::vector<Vector3d>& points,
   for (int i = 0; i < kIterations && !fit.found; ++i) {
     Matrix9d A = now.JJ;
     A.diagonal() += damping * (now.JJ.diagonal().array() + 1e-9).matrix();
-    Vector9d step = -A.ldlt().solve(now.Jd);
+    Vector9d step = -symmetric_solution(A, now.Jd);
     const bool small = step.tail<6>().cwiseAbs().maxCoeff() < kLongest;
     const Ellipsoid next = small ? changed(e, step) : e;
     const Distances there = small ? measured(points, next) : now;

@@ -4,19 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/input_error.h"
+#include "condyle/math/no_number.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/study/rough_mesh.h"
 
 namespace condyle {
 namespace {
-
-constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// A patch taken for the truth, where its mesh has its vertices.
 struct SmoothPatch {

@@ -2,13 +2,13 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <limits>
+
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNormal95 = 1.959963984540054;
 constexpr double kLeastDeviation =
     1e-9;  ///< of the largest value: what a solver's tolerance leaves
@@ -84,12 +84,12 @@ SobolIndices sobol_indices(const double* y,
                            std::size_t parameters,
                            std::size_t stride) {
   const Eigen::ArrayXXd rows = complete_rows(y, points, parameters + 2, stride);
-  const IndexEstimate none{kNaN, kNaN, kNaN};
+  const IndexEstimate none{kNoNumber, kNoNumber, kNoNumber};
   SobolIndices indices;
   indices.first.assign(parameters, none);
   indices.total.assign(parameters, none);
   indices.points = static_cast<long>(rows.rows());
-  indices.mean = indices.variance = kNaN;
+  indices.mean = indices.variance = kNoNumber;
   if (rows.rows() == 0) return indices;
 
   const auto a = rows.col(0), b = rows.col(1);

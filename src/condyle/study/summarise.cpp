@@ -4,20 +4,18 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "condyle/calibration/in_parallel.h"
 #include "condyle/design/permutation.h"
+#include "condyle/math/no_number.h"
 #include "condyle/study/quantiles.h"
 #include "condyle/study/sobol_indices.h"
 
 namespace condyle {
 
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Fewer values than these are told before a thread is there.
 constexpr std::size_t kWorthAThread = 50000;
@@ -46,7 +44,7 @@ std::vector<double> known_values(const OutputSamples& samples, std::size_t pose)
 
 /// In two passes: about the mean. NaN of fewer than two.
 double deviation(const std::vector<double>& values, double mean) {
-  if (values.size() < 2) return kNaN;
+  if (values.size() < 2) return kNoNumber;
   double squares = 0;
   for (const double value : values) squares += (value - mean) * (value - mean);
   return std::sqrt(squares / static_cast<double>(values.size() - 1));

@@ -1,6 +1,5 @@
 #include "condyle/surface/articular_region.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "condyle/input_error.h"
+#include "condyle/math/decompositions.h"
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/mesh/orient_mesh.h"
 #include "condyle/surface/condyle_chart.h"
@@ -374,8 +374,7 @@ ArticularRegion box_region(const TriangleMesh& mesh, const std::array<Vector3d, 
       const Vector3d flat = q - height * height.dot(q);
       spread += flat * flat.transpose();
     }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(spread);
-  Vector3d forward = principal.eigenvectors().col(2);
+  Vector3d forward = symmetric_eigenvalues(spread).vectors.col(2);
   double third = 0;  // moment: an axis has no sense of its own
   for (std::size_t t = 0; t < keep.size(); ++t)
     if (keep[t]) third += std::pow(forward.dot(mesh.vertices[mesh.triangles[t][0]] - center), 3);

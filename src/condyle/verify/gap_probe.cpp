@@ -137,7 +137,8 @@ double GapProbe::bound_by_bending(const Node& node, const Reading& at, Search& s
       r = std::max(r, way.norm());
     }
   if (!H.allFinite() || !std::isfinite(departs)) return -INFINITY;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(H);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal;
+  principal.computeDirect(H);
   double bound = at.gap - kMoreThanSeen * departs * r;
   for (int i = 0; i < 2; ++i) {
     const double slope = std::abs(principal.eigenvectors().col(i).dot(g)),
