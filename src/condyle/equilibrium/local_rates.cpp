@@ -1,5 +1,7 @@
 #include "condyle/equilibrium/local_rates.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 
 #include "condyle/equilibrium/joint_stiffness.h"

@@ -4,17 +4,15 @@
 
 #include <Eigen/Geometry>
 
-#include <limits>
 #include <stdexcept>
 
 #include "condyle/equilibrium/contact_shape.h"
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void refuse(const std::string& words) { throw std::invalid_argument(words); }
 
@@ -145,19 +143,21 @@ double value_of(const PoseOutput& output, const PoseResult& pose) {
       return pose.contacts.at(i).resultant_ground[output.component];
     case OutputKind::kPointForce:
       if (const ContactPointResult* point = told_point(output, pose)) return point->force;
-      return kNone;
+      return kNoNumber;
     case OutputKind::kPointGround:
       if (const ContactPointResult* point = told_point(output, pose))
         return point->point_ground[output.component];
-      return kNone;
+      return kNoNumber;
     case OutputKind::kPointMoving:
       if (const ContactPointResult* point = told_point(output, pose))
         return point->point_moving[output.component];
-      return kNone;
+      return kNoNumber;
     case OutputKind::kLayerForce:
-      return pose.contacts.at(i).layer ? pose.contacts[i].layer->force[output.component] : kNone;
+      return pose.contacts.at(i).layer ? pose.contacts[i].layer->force[output.component]
+                                       : kNoNumber;
     case OutputKind::kLayerMoment:
-      return pose.contacts.at(i).layer ? pose.contacts[i].layer->moment[output.component] : kNone;
+      return pose.contacts.at(i).layer ? pose.contacts[i].layer->moment[output.component]
+                                       : kNoNumber;
     case OutputKind::kLigamentLength:
       return pose.ligaments.at(i).length;
     case OutputKind::kLigamentStrain:
@@ -167,7 +167,7 @@ double value_of(const PoseOutput& output, const PoseResult& pose) {
     case OutputKind::kMultiplier:
       return pose.conditions.at(i).multiplier;
   }
-  return kNone;
+  return kNoNumber;
 }
 
 void find_row(const PoseOutput& output, LocalRates& rates, OutputRow& row) {

@@ -32,7 +32,7 @@ struct PivotedBasis {
   Eigen::Index rank = 0;
   std::array<int, 6> order{};  ///< of the columns of A, the largest pivot first
 };
-/// Pivots up to `threshold` times the largest count as nothing.
+/// Pivots up to `threshold` times the largest count as nothing. Allocates nothing.
 [[nodiscard]] PivotedBasis pivoted_basis(const SmallMatrix& A, double threshold);
 
 struct SingularValues {
@@ -64,7 +64,7 @@ struct PlaneEigenvalues {
 /// X with A X = B for a symmetric A, that of normal equations say, by L D Lᵀ with pivoting.
 [[nodiscard]] Eigen::MatrixXd symmetric_solution(const Eigen::MatrixXd& A,
                                                  const Eigen::MatrixXd& B);
-/// By elimination with full pivoting; none where A has no number or a pivot up to `least`.
+/// By elimination with full pivoting, without allocation; none where A has no number or a pivot up to `least`.
 [[nodiscard]] std::optional<SmallMatrix> regular_inverse(const SmallMatrix& A, double least);
 
 }  // namespace condyle

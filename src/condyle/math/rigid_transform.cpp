@@ -2,6 +2,9 @@
 
 namespace condyle {
 
+// No inline functions: each of some 200 sources would instantiate them. What does so hundreds of times a pose writes
+// R x + p itself.
+
 Eigen::Vector3d RigidTransform::operator*(const Eigen::Vector3d& point) const {
   return R * point + p;
 }

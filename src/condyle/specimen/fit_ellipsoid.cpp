@@ -1,5 +1,7 @@
 #include "condyle/specimen/fit_ellipsoid.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 

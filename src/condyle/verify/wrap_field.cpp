@@ -1,5 +1,6 @@
 #include "condyle/verify/wrap_field.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>
