@@ -28,12 +28,14 @@ export ASAN_OPTIONS=${ASAN_OPTIONS:-strict_string_checks=1:detect_stack_use_afte
 export LSAN_OPTIONS=${LSAN_OPTIONS:-suppressions=$PWD/tools/sanitize/leaks.supp:print_suppressions=0}
 export TSAN_OPTIONS=${TSAN_OPTIONS:-halt_on_error=1}
 
+sanitizer_packages=(clang libclang-rt-14-dev)
+
 # sanitized FOLDER SANITIZER [CMAKE ARGUMENT...]: Clang's cost a fifth of GCC's. What is measured or bundled is no part.
 sanitized() {
   local folder=$1 sanitizer=$2
   shift 2
   SECONDS=0
-  install_where_possible clang libclang-rt-14-dev
+  install_where_possible "${sanitizer_packages[@]}"
   if command -v clang++ >/dev/null; then export CC=clang CXX=clang++; fi
   build "$folder" -DCMAKE_BUILD_TYPE=Release -DCONDYLE_SANITIZE="$sanitizer" -DCONDYLE_BENCHMARKS=OFF -DCONDYLE_VIEWER=OFF "$@"
   built=$SECONDS
@@ -55,9 +57,13 @@ install_packages
 case "$way" in
   all | plain)
     install_npm_where_possible
-    install_where_possible chromium mandoc  # what tests look at reports and at the manual page with
     install_where_possible libopenmpi-dev openmpi-bin  # condyle-mpi
+    # What tests look at reports and at the manual page with, and the sanitizers, come while the build goes on.
+    looks=(chromium mandoc)
+    [ "$way" = plain ] || looks+=("${sanitizer_packages[@]}")
+    install_where_possible "${looks[@]}" &
     build build -DCMAKE_BUILD_TYPE=Release
+    wait
     run_tests build "$@"
     ;;&
   all | selection)

@@ -199,7 +199,7 @@ INSTANTIATE_TEST_SUITE_P(Data,
                                          "simulate phantom/pendulum.toml",
                                          "simulate phantom/blow.toml",
                                          "simulate phantom/decaying-sine.toml",
-                                         "study studies/roughness.toml",
+                                         "study --samples 4 studies/roughness.toml",
                                          "sweep wismans-type/knee.toml",
                                          "compare wismans-type/knee.toml",
                                          "laxity wismans-type/drawer.toml"));

@@ -16,6 +16,7 @@
 #include "condyle/calibration/suggest_tests.h"
 #include "condyle/elements/joint_table.h"
 #include "condyle/input_error.h"
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 namespace {
@@ -183,7 +184,7 @@ void find_unseen_rows(const Scene& scene,
 /// those poses are found from the start pose, too.
 void look_at_poses(const Scene& scene, KneeFit& knee, CalibrationResult& result) {
   if (!reach(knee.worker(), result.fit.theta)) {
-    result.cold_difference = std::numeric_limits<double>::quiet_NaN();
+    result.cold_difference = kNoNumber;
     return;
   }
   const std::vector<double> forces = knee.predictions().largest_ligament_forces();

@@ -5,10 +5,10 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <sstream>
 
 #include "condyle/input_error.h"
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 namespace {
@@ -123,7 +123,7 @@ double csv_number(const std::string& field) {
   double number = 0;
   const auto [stop, error] = std::from_chars(begin, end, number);
   const bool whole = error == std::errc() && stop == end && begin != end;
-  return whole && std::isfinite(number) ? number : std::numeric_limits<double>::quiet_NaN();
+  return whole && std::isfinite(number) ? number : kNoNumber;
 }
 
 }  // namespace condyle

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "condyle/calibration/told_units.h"
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 namespace {
 
 double entry(const Eigen::VectorXd& v, Eigen::Index at) {
-  return at < v.size() ? v[at] : std::numeric_limits<double>::quiet_NaN();
+  return at < v.size() ? v[at] : kNoNumber;
 }
 
 /// By how much two deviations may differ, relative: 10 %, or what so many samples leave open.

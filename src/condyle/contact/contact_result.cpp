@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "condyle/contact/contact.h"
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 
@@ -43,7 +44,7 @@ void clear(ContactResult& contact) {
   contact.force = 0;
   contact.layer.reset();
   contact.pressures.clear();
-  contact.resultant_ground.setConstant(std::numeric_limits<double>::quiet_NaN());
+  contact.resultant_ground.setConstant(kNoNumber);
 }
 
 }  // namespace condyle

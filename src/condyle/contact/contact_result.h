@@ -10,6 +10,8 @@
 #include <optional>
 #include <vector>
 
+#include "condyle/math/no_number.h"
+
 namespace condyle {
 
 struct ContactLinearization;
@@ -83,8 +85,7 @@ struct ContactResult {
   double force = 0;  ///< sum over the points [N]
   /// Where the resultant of the points acts, ground frame [mm]; of an open contact the nearest
   /// point.
-  Eigen::Vector3d resultant_ground =
-      Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  Eigen::Vector3d resultant_ground = Eigen::Vector3d::Constant(kNoNumber);
   std::vector<ContactPointResult>
       points;                        ///< closed: those that carry; open: the nearest one, force 0
   std::optional<LayerResult> layer;  ///< of a pair of elastic layers, closed

@@ -252,7 +252,7 @@ bool ContactSearch::is_clear_of_closest(const SurfaceCell& cluster,
                                         const RigidTransform& X_from_to,
                                         double cutoff,
                                         Closest& closest) {
-  const Eigen::Vector3d p = X_from_to.R * cluster.at.c + X_from_to.p;
+  const Eigen::Vector3d p = X_from_to * cluster.at.c;
   const double r = cluster.radius, way = kWay * r;
   const Facing facing = face_closest(p, r, closest);
   const double gap = gap_over(facing);
@@ -272,7 +272,7 @@ bool ContactSearch::is_clear(int index, const RigidTransform& X_from_to, double 
   const SurfaceCover::Cluster& cluster = sampled().cluster(index);
   Closest& closest = cluster_closest_[static_cast<std::size_t>(index)];
   if (!other().bends_evenly()) {
-    const Eigen::Vector3d p = X_from_to.R * cluster.center + X_from_to.p;
+    const Eigen::Vector3d p = X_from_to * cluster.center;
     if (closest.from < 0 && cluster.parent >= 0)
       closest.from = cluster_closest_[static_cast<std::size_t>(cluster.parent)].from;
     closest.near = nearest_of_other().find(p, closest.from, looked_at_);
@@ -326,7 +326,7 @@ void ContactSearch::estimate(int sample,
                              double cutoff) {
   ++looked_at_;
   const SurfacePoint& own = sampled().sample(sample);
-  const Eigen::Vector3d p = X_from_to.R * own.c + X_from_to.p;
+  const Eigen::Vector3d p = X_from_to * own.c;
   const double r = sampled().cell_radius(sample);
   Closest& there = closest(sample);
   Facing facing;
@@ -361,7 +361,7 @@ void ContactSearch::measure(int sample, const RigidTransform& X_from_to) {
   Seen& now = seen(sample);
   if (now.measured) return;
   Closest& there = closest(sample);
-  const Eigen::Vector3d p = X_from_to.R * sampled().sample(sample).c + X_from_to.p;
+  const Eigen::Vector3d p = X_from_to * sampled().sample(sample).c;
   Facing facing = face_closest(p, 0, there);
   now.faces = faces_known_part(p, 0, there, facing);
   now.gap = gap_over(facing);

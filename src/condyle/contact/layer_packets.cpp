@@ -270,7 +270,7 @@ void LayerPackets::choose_candidates(const RigidTransform& X) {
   any_near(X, kMargin, [&](std::uint32_t i, const auto& closest) {
     if (bounds_[i].known && is_clear(i, X, kMargin)) return false;
     // Its block was looked for at this pose; it itself perhaps at one long ago.
-    const Vector3d way = X.R * bounds_[i].center + X.p - bounds_[i].at;
+    const Vector3d way = X * bounds_[i].center - bounds_[i].at;
     const bool fresh = bounds_[i].known && way.squaredNorm() < kFollowed * kFollowed;
     if (!fresh) find_anew(i, closest(), X);
     if (fresh || !is_clear(i, X, kMargin)) candidates_.push_back(i);
@@ -302,7 +302,7 @@ void LayerPackets::find_anew(std::uint32_t index,
 void LayerPackets::keep_bound(std::uint32_t index, const RigidTransform& X) {
   const LayerPacket& packet = packets_[index];
   Bound& bound = bounds_[index];
-  bound.at = X.R * bound.center + X.p;
+  bound.at = X * bound.center;
   bound.phi = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 4; ++k)
     bound.phi =
@@ -341,7 +341,7 @@ bool LayerPackets::is_clear(std::uint32_t index, const RigidTransform& X, double
   const Bound& bound = bounds_[index];
   const double turn = (turned_ - bound.turned) * bound.radius, rest = bound.phi - margin - turn;
   if (!(rest > 0) && !(bound.reach > 0)) return false;
-  const Vector3d w = X.R * bound.center + X.p - bound.at;
+  const Vector3d w = X * bound.center - bound.at;
   const double square = w.squaredNorm();
   if (rest > 0 && square < rest * rest) return true;
   const double way = std::sqrt(square) + turn;

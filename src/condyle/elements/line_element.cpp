@@ -2,8 +2,9 @@
 
 #include <Eigen/Geometry>
 
-#include <limits>
 #include <variant>
+
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 namespace {
@@ -93,7 +94,7 @@ std::size_t path_numbers(const std::vector<LineElement>& elements) {
 
 KeptPaths::KeptPaths(const std::vector<LineElement>& elements, std::vector<double>& kept) {
   const std::size_t numbers = path_numbers(elements);
-  if (kept.size() != numbers) kept.assign(numbers, std::numeric_limits<double>::quiet_NaN());
+  if (kept.size() != numbers) kept.assign(numbers, kNoNumber);
   next_ = kept.data();
 }
 

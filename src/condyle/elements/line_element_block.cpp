@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <variant>
 
 #include "condyle/elements/surely_slack.h"
+#include "condyle/math/no_number.h"
 #include "condyle/math/simd.h"
 
 namespace condyle {
@@ -156,7 +156,7 @@ void LineElementBlock::add_curved(const RigidTransform& X_BA,
   if (kept.size() == paths_.size())
     paths_ = kept;
   else
-    std::fill(paths_.begin(), paths_.end(), std::numeric_limits<double>::quiet_NaN());
+    std::fill(paths_.begin(), paths_.end(), kNoNumber);
   for (Curved& curved : curved_) {
     double* numbers = paths_.data() + curved.numbers;
     curved.passed_over = is_surely_slack(*curved.element, X_BA, numbers);

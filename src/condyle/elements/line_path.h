@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "condyle/elements/wrench.h"
+#include "condyle/math/no_number.h"
 #include "condyle/math/rigid_transform.h"
 
 namespace condyle {
@@ -137,7 +138,7 @@ inline constexpr int kMostPathNumbers = 80;
 /// Numbers of a path of which nothing is known.
 [[nodiscard]] inline std::array<double, kMostPathNumbers> unknown_path() {
   std::array<double, kMostPathNumbers> kept;
-  kept.fill(std::numeric_limits<double>::quiet_NaN());
+  kept.fill(kNoNumber);
   return kept;
 }
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "condyle/elements/line_element.h"
 #include "condyle/elements/strain.h"
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 namespace {
@@ -80,11 +80,11 @@ void clear(PoseResult& result) {
   result.status = PoseStatus::kNotComputed;
   result.reason.clear();
   result.remark.clear();
-  result.X_BA.p.setConstant(std::numeric_limits<double>::quiet_NaN());
+  result.X_BA.p.setConstant(kNoNumber);
   result.event_seconds = 0;
   result.joint = JointCoordinates();
   result.stability = -1;
-  result.lowest_stiffness = std::numeric_limits<double>::quiet_NaN();
+  result.lowest_stiffness = kNoNumber;
   result.joint_stiffness.reset();
 }
 

@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "condyle/elements/joint_coordinates.h"
 #include "condyle/elements/line_path.h"
 #include "condyle/equilibrium/pose_trace.h"
+#include "condyle/math/no_number.h"
 #include "condyle/math/rigid_transform.h"
 
 namespace condyle {
@@ -61,8 +61,7 @@ struct PoseResult {
   std::vector<ConditionResult> conditions;  ///< as in Scene::conditions
   std::vector<LigamentPath> paths;          ///< as in Scene::ligaments; none where all are straight
   int stability = -1;                       ///< 1 stable, 0 neutral or unstable, -1 not computed
-  double lowest_stiffness =
-      std::numeric_limits<double>::quiet_NaN();   ///< of the reduced stiffness [N/mm]
+  double lowest_stiffness = kNoNumber;      ///< of the reduced stiffness [N/mm]
   std::optional<JointStiffness> joint_stiffness;  ///< on request; needs joint frames
   int iterations = 0;                             ///< Newton iterations
   double residual = 0;  ///< largest out-of-balance force [N], moments divided by the model's length

@@ -1,7 +1,8 @@
 #include "condyle/equilibrium/restore_state.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 namespace {
@@ -19,7 +20,7 @@ Place place_on(const Surface& surface, const Eigen::Vector3d& point) {
 
 /// What the paths of ligaments kept, where the pose tells how they lay.
 std::vector<double> kept_paths(const Model& model, const PoseResult& pose) {
-  std::vector<double> kept(path_numbers(model.elements), std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> kept(path_numbers(model.elements), kNoNumber);
   if (kept.empty() || pose.paths.size() != model.elements.size()) return kept;
   const RigidTransform X = model.origins.into_model(pose.X_BA);
   KeptPaths next(model.elements, kept);

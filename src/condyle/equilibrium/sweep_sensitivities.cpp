@@ -1,6 +1,5 @@
 #include "condyle/equilibrium/sweep_sensitivities.h"
 
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -8,6 +7,7 @@
 #include "condyle/equilibrium/build_model.h"
 #include "condyle/equilibrium/restore_state.h"
 #include "condyle/equilibrium/sensitivity.h"
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 namespace {
@@ -46,9 +46,9 @@ class PoseSensitivities {
 
   /// NaN where there are none.
   Eigen::MatrixXd at(const PoseResult& pose, std::string& one_sided) {
-    Eigen::MatrixXd J = Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(outputs_.size()),
-                                                  static_cast<Eigen::Index>(parameters_.size()),
-                                                  std::numeric_limits<double>::quiet_NaN());
+    Eigen::MatrixXd J =
+        Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(outputs_.size()),
+                                  static_cast<Eigen::Index>(parameters_.size()), kNoNumber);
     if (!pose.converged() || !can_restore(model_, pose)) return J;
     EquilibriumState state = restore_state(model_, pose);
     const Drive drive = swept_.with(drive_of(model_), pose.value);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "condyle/equilibrium/sweep_sensitivities.h"
+#include "condyle/math/no_number.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/sensitivity_group.h"
 #include "condyle/study/mesh_uncertainty.h"
@@ -89,7 +90,7 @@ class Columns {
                [&](const PoseResult& p) { return force_place(p.contacts[i]); });
     add("contact", name, "gap", "mm", [&](const PoseResult& p) {
       const ContactPointResult* point = strongest_point(p.contacts[i]);
-      return point ? point->gap : std::numeric_limits<double>::quiet_NaN();
+      return point ? point->gap : kNoNumber;
     });
     add("contact", name, "beyond_edge", "mm",
         [&](const PoseResult& p) { return beyond_edge(p.contacts[i]); });
@@ -102,7 +103,7 @@ class Columns {
                                 double LayerResult::*member) {
       add("contact", scene_.contacts[i].name, component, unit, [&, member](const PoseResult& p) {
         const std::optional<LayerResult>& layer = p.contacts[i].layer;
-        return layer ? (*layer).*member : std::numeric_limits<double>::quiet_NaN();
+        return layer ? (*layer).*member : kNoNumber;
       });
     };
     add_number("area", "mm^2", &LayerResult::area);

@@ -11,8 +11,11 @@ struct RigidTransform {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
 
-  /// A point, [mm].
-  [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& point) const;
+  /// A point, [mm]. A template, so only sources that move points instantiate it, and theirs is inline.
+  template <int = 0>
+  [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
+    return R * point + p;
+  }
   [[nodiscard]] RigidTransform operator*(const RigidTransform& other) const;
   [[nodiscard]] RigidTransform inverse() const;
 };

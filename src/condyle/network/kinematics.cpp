@@ -32,7 +32,7 @@ void Kinematics::place(const NetworkState& state) {
     const BodyState& body = state.bodies[b];
     twists_.segment<6>(static_cast<Eigen::Index>(6 * b)) << body.v, body.omega;
     poses_[b] = body.X;
-    references_[b] = body.X.R * network_.bodies[b].reference + body.X.p;
+    references_[b] = body.X * network_.bodies[b].reference;
   }
   for (std::size_t v = 1; v < graph_.vertices.size(); ++v) {
     const NetworkVertex& vertex = graph_.vertices[v];

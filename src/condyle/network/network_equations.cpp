@@ -4,10 +4,10 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <limits>
 
 #include "condyle/elements/line_element.h"
 #include "condyle/input_error.h"
+#include "condyle/math/no_number.h"
 #include "condyle/math/simd.h"
 
 namespace condyle {
@@ -181,7 +181,7 @@ void NetworkEquations::set_inertia(const NetworkState& state) {
   for (std::size_t b = 0; b < network_.bodies.size(); ++b) {
     const NetworkBody& body = network_.bodies[b];
     if (!body.mass) {
-      inverse_P_[b].setConstant(std::numeric_limits<double>::quiet_NaN());
+      inverse_P_[b].setConstant(kNoNumber);
       continue;
     }
     const Eigen::Matrix3d& R = state.bodies[b].X.R;

@@ -2,9 +2,8 @@
 
 #include <Eigen/Geometry>
 
-#include <limits>
-
 #include "condyle/elements/line_path.h"
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 
@@ -14,7 +13,7 @@ PathLines::PathLines(const Network& network) : network_(network) {
     first_.push_back(numbers);
     if (line.path) numbers += static_cast<std::size_t>(line.path->numbers());
   }
-  kept_.assign(numbers, std::numeric_limits<double>::quiet_NaN());
+  kept_.assign(numbers, kNoNumber);
 }
 
 PathLines::Pull PathLines::pull(std::size_t line, const Kinematics& at) {

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <limits>
 
 #include <pybind11/numpy.h>
 
+#include "condyle/math/no_number.h"
 #include "condyle/python/bindings.h"
 
 namespace condyle::python {
@@ -29,7 +29,7 @@ Array numbers_of(const PoseData& data, const std::vector<py::ssize_t>& shape, co
   if (data.pose().solved())
     fill(data.pose(), out);
   else
-    std::fill_n(out, array.size(), std::numeric_limits<double>::quiet_NaN());
+    std::fill_n(out, array.size(), kNoNumber);
   return array;
 }
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 namespace {
@@ -21,7 +22,7 @@ struct Knot {
 std::optional<std::vector<Knot>> knots_of(const SampledCurve& curve) {
   std::vector<Knot> knots;
   bool joined = false;
-  double last = std::numeric_limits<double>::quiet_NaN();
+  double last = kNoNumber;
   int direction = 0;
   for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
     const bool placed = std::isfinite(curve.x[i]);
@@ -46,7 +47,7 @@ std::optional<std::vector<Knot>> knots_of(const SampledCurve& curve) {
 }
 
 struct Reading {
-  double y = std::numeric_limits<double>::quiet_NaN();
+  double y = kNoNumber;
   bool between = false;  ///< two points
 };
 

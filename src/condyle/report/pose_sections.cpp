@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "condyle/compare/laxity.h"
 #include "condyle/input_error.h"
+#include "condyle/math/no_number.h"
 #include "condyle/report/html.h"
 #include "condyle/report/sections.h"
 #include "condyle/report/summary_json.h"
@@ -116,7 +116,7 @@ std::string pose_section(const Run& run) {
   table.text_columns = {columns - 2, columns - 1};
   for (const PoseResult& pose : poses) {
     std::vector<std::string> row = {at_value(swept, pose.value)};
-    const double none = std::numeric_limits<double>::quiet_NaN();
+    const double none = kNoNumber;
     for (std::size_t k = 0; k < (joint ? kJointColumns.size() : 3); ++k) {
       if (joint && swept.name == kJointColumns[k].name) continue;
       const double value = joint ? pose.joint.*kJointColumns[k].member / kJointColumns[k].unit

@@ -1,9 +1,9 @@
 #include "condyle/scene/ligament_number.h"
 
 #include <array>
-#include <limits>
 #include <variant>
 
+#include "condyle/math/no_number.h"
 #include "condyle/scene/ligament_path.h"
 #include "condyle/scene/start_pose.h"
 
@@ -17,7 +17,7 @@ double stiffness_of(const ForceLaw& law) {
 
 double reference_strain_of(const Scene& scene, const LigamentDescription& ligament) {
   if (ligament.reference_strain) return *ligament.reference_strain;
-  if (!has_known_path(scene, ligament)) return std::numeric_limits<double>::quiet_NaN();
+  if (!has_known_path(scene, ligament)) return kNoNumber;
   return ligament_length(scene, ligament, start_pose(scene)) / slack_length(ligament.law) - 1;
 }
 

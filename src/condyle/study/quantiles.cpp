@@ -1,12 +1,13 @@
 #include "condyle/study/quantiles.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 
 std::vector<double> take_quantiles(std::span<double> sample, std::span<const double> levels) {
-  std::vector<double> quantiles(levels.size(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> quantiles(levels.size(), kNoNumber);
   if (sample.empty()) return quantiles;
   auto from = sample.begin();  // what is before it is in its place
   for (std::size_t i = 0; i < levels.size(); ++i) {

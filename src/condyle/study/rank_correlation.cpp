@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
+
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 
@@ -89,7 +90,7 @@ Places places(std::span<const double> values) {
 std::vector<double> rank_correlations(const std::vector<Places>& parameters,
                                       const std::vector<std::uint32_t>& known,
                                       std::span<const double> y) {
-  std::vector<double> correlations(parameters.size(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> correlations(parameters.size(), kNoNumber);
   if (known.size() < 3 || parameters.empty()) return correlations;
   const std::size_t samples = parameters.front().of.size();
   const auto n = static_cast<double>(known.size());

@@ -1,7 +1,8 @@
 #include "condyle/study/sample_sweep.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 
@@ -80,7 +81,7 @@ void SampleSweep::keep(std::size_t i, std::uint8_t* status, double* numbers) con
   double* own = numbers + i * outputs_.size();
   for (std::size_t k = 0; k < outputs_.size(); ++k)
     own[k] = result_.converged() ? value_of(outputs_[k].output, result_) / outputs_[k].unit.factor
-                                 : std::numeric_limits<double>::quiet_NaN();
+                                 : kNoNumber;
 }
 
 /// From the pose that was just found back over those before it that were not, as a sweep does.

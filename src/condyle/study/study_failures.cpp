@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "condyle/contact/pose_status.h"
+#include "condyle/math/no_number.h"
 #include "condyle/study/quantiles.h"
 #include "condyle/study/summarise.h"
 
@@ -28,7 +28,7 @@ std::array<double, 4> failed_by_quarter(const std::vector<double>& theta,
     bad[quarter] += failed[k];
   }
   for (std::size_t q = 0; q < 4; ++q)
-    share[q] = all[q] > 0 ? bad[q] / all[q] : std::numeric_limits<double>::quiet_NaN();
+    share[q] = all[q] > 0 ? bad[q] / all[q] : kNoNumber;
   return share;
 }
 

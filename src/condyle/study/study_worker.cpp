@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <optional>
 
 #include "condyle/input_error.h"
+#include "condyle/math/no_number.h"
 #include "condyle/study/rough_mesh.h"
 #include "condyle/study/sample_sweep.h"
 #include "condyle/study/study_models.h"
@@ -15,7 +15,7 @@ namespace {
 
 void fail_all(const StudyPlan& plan, std::uint8_t* status, double* values) {
   std::fill_n(status, plan.values.size(), static_cast<std::uint8_t>(PoseStatus::kNotComputed));
-  std::fill_n(values, plan.numbers(), std::numeric_limits<double>::quiet_NaN());
+  std::fill_n(values, plan.numbers(), kNoNumber);
 }
 
 }  // namespace

@@ -16,10 +16,9 @@ export function endWithVerdict() {
   process.exit(1);
 }
 
+// Each width and each colour scheme once: they know nothing of each other.
 export const looks = [
   ['desktop-light', { viewport: { width: 1280, height: 900 }, colorScheme: 'light' }],
-  ['desktop-dark', { viewport: { width: 1280, height: 900 }, colorScheme: 'dark' }],
-  ['narrow-light', { viewport: { width: 400, height: 800 }, colorScheme: 'light' }],
   ['narrow-dark', { viewport: { width: 400, height: 800 }, colorScheme: 'dark' }],
 ];
 
