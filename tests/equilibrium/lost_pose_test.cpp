@@ -281,6 +281,30 @@ TEST(PassedThrough, ABallBesideAHollowCylinderIsBehind) {
   }
 }
 
+// A tube touches the outside of a short cylinder at one place, and runs through its solid near the axis at another, where
+// nothing of it faces the wall. Behind a patch of the same shape nobody knows of a solid.
+TEST(PassedThrough, ATubeThatTouchesTheWallAndRunsAlongTheAxisIsInTheSolid) {
+  const Eigen::Vector3d axis = Eigen::Vector3d::UnitZ(), origin = Eigen::Vector3d::Zero();
+  ContactPair pair;
+  pair.on_A = make_torus(origin, Eigen::Vector3d::UnitY(), 32, 6, true);
+  for (const bool exact : {true, false}) {
+    pair.on_B = make_cylinder(origin, axis, 33, true, 14);
+    if (!exact)
+      pair.on_B = std::make_shared<test::KnownPart>(
+          pair.on_B, [](const Eigen::Vector3d& c) { return 7 - std::abs(c.z()); });
+    PassedThrough passed(pair, 90, 14);
+    // Its hole is about the wall: one side of the tube is outside and touches, the other at the axis.
+    const auto depth = passed.depth_of_touching_pose({Eigen::Matrix3d::Identity(), {33, 0, 0}});
+    EXPECT_EQ(depth.has_value(), exact);
+    if (depth) {
+      EXPECT_NEAR(*depth, 33, 6);
+    }
+    passed.reset();
+    EXPECT_FALSE(passed.depth_of_touching_pose({Eigen::Matrix3d::Identity(), {71, 0, 0}}))
+        << "all of it outside";
+  }
+}
+
 // All around a hollow sphere is solid: what lies there as a whole comes near no point of the surface.
 TEST(PassedThrough, WhatLiesBeyondAHollowSphereIsBehind) {
   ContactPair pair;

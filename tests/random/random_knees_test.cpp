@@ -32,9 +32,9 @@ TEST(RandomKnees, NoConvergedPoseOfExactRigidSurfacesIsFalse) {
 TEST(RandomKnees, KneesOnceFalseAreRight) {
   int converged = 0;
   for (const std::uint64_t k :
-       {1312,  1915,  2669,  4620,  5171,  5280,  5313,  6089,  6333,  6346,
-        7703,  7781,  7908,  8155,  9215,  10202, 10897, 11483, 11549, 13561,
-        16500, 17040, 17141, 18011, 20195, 22159, 23423, 24405, 25502, 27713}) {
+       {1312,  1915,  2669,  4620,  5171,  5280,  5313,  6089,  6333,  6346,   7703,
+        7781,  7908,  8155,  9215,  10202, 10897, 11483, 11549, 13561, 16500,  17040,
+        17141, 18011, 20195, 22159, 23423, 24405, 25502, 27713, 49469, 106855, 147017}) {
     const SweepOutcome outcome = sweep_and_judge(random_knee(1, k), {true, false});
     EXPECT_EQ(outcome.exception + outcome.refused, "") << "knee " << k;
     EXPECT_TRUE(outcome.faults.empty()) << "knee " << k << ": " << outcome.faults.front();

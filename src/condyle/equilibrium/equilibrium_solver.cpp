@@ -184,15 +184,14 @@ bool EquilibriumSolver::faces(const EquilibriumState& state, Attempt& attempt) {
     const bool closed =
         std::any_of(state.contacts.begin(), state.contacts.end(),
                     [p](const ClosedContact& c) { return c.pair == static_cast<int>(p); });
-    if (closed) {
-      passed_[p].trust(state.X);
-      continue;
-    }
-    if (const std::optional<double> depth = passed_[p].depth_of_clear_pose(state.X)) {
+    const std::optional<double> depth = closed ? passed_[p].depth_of_touching_pose(state.X)
+                                               : passed_[p].depth_of_clear_pose(state.X);
+    if (depth) {
       attempt.passed_pair = static_cast<int>(p);
       attempt.depth = *depth;
       return false;
     }
+    if (closed) continue;
     ++attempt.trace.searches;
     if (look_at_open_pair(model_->pairs[p], searches_[p], state.X, model_->length, minima_) !=
         OpenPair::kClear)

@@ -13,11 +13,16 @@ constexpr double kSpacing = 0.2;    // of the samples [L]
 constexpr double kFinest = 0.25;    // of them on a small surface [its radius]
 constexpr double kDensest = 0.125;  // of them on one that is large beside the model [its radius]
 constexpr double kOpposed = -0.5;   // cosine between normals that face each other
-constexpr std::size_t kFew = 3;     // fewer samples tell nothing
+constexpr double kMoved = 0.8;      // of the depth that the search sees: less is no way through it
+constexpr std::size_t kFew = 3;  // fewer samples may have met closest points far from the true ones
+
+/// So many samples tell something: where the surface bends evenly, the closest point is exact.
+std::size_t enough_of(const Surface& surface) { return surface.bends_evenly() ? 1 : kFew; }
 
 /// Signed distances of samples from the other surface [mm].
 struct Gaps {
   std::vector<double> facing;  ///< of those that face its known part
+  std::vector<double> solid;   ///< of those behind its known part, where all of its solid is known
   std::vector<double> all;     ///< beyond an edge from the surface as it goes on there
 };
 
@@ -47,6 +52,7 @@ void add_gaps(const Samples& samples,
               const Surface& other,
               Wanted wanted,
               Gaps& gaps) {
+  const bool whole = bounds_whole_solid(other);
   for (const auto& sample : samples) {
     const Eigen::Vector3d p = X * sample.c;
     if (!wanted(p)) continue;
@@ -54,17 +60,18 @@ void add_gaps(const Samples& samples,
     const SurfacePoint at = other.evaluate_frame(closest);
     const double gap = at.n.dot(p - at.c);
     gaps.all.push_back(gap);
-    if (other.edge_distance(closest) > 0 && at.n.dot(X.R * sample.n) < kOpposed)
-      gaps.facing.push_back(gap);
+    if (!(other.edge_distance(closest) > 0)) continue;
+    if (whole) gaps.solid.push_back(gap);
+    if (at.n.dot(X.R * sample.n) < kOpposed) gaps.facing.push_back(gap);
   }
 }
 
-/// The third lowest, of fewer none: one or two samples may have met a closest point far from the true one.
-double low(std::vector<double>& values) {
-  if (values.size() < kFew) return std::numeric_limits<double>::infinity();
-  const auto third = values.begin() + (kFew - 1);
-  std::nth_element(values.begin(), third, values.end());
-  return *third;
+/// The lowest that so many reach, of fewer none.
+double low(std::vector<double>& values, std::size_t enough) {
+  if (values.size() < enough) return std::numeric_limits<double>::infinity();
+  const auto last = values.begin() + static_cast<std::ptrdiff_t>(enough) - 1;
+  std::nth_element(values.begin(), last, values.end());
+  return *last;
 }
 
 /// Closed about nothing, the solid all around it: by the sign of its volume, ∮ c.n dA. What lies in that solid as
@@ -101,15 +108,25 @@ PassedThrough::PassedThrough(const ContactPair& pair, double L, double seen)
   };
   samples_B_ = sample(*on_B_);
   samples_A_ = sample(*on_A_);
+  whole_ = ends_ && (bounds_whole_solid(*on_B_) || bounds_whole_solid(*on_A_));
+  const std::vector<Sample>& moving = samples_A_.empty() ? samples_B_ : samples_A_;
+  for (const Sample& at : moving) center_ += at.c / static_cast<double>(moving.size());
+  for (const Sample& at : moving) radius_ = std::max(radius_, (at.c - center_).norm());
 }
 
-/// Do enough samples lie deep enough?
-bool PassedThrough::may_be_deep(const RigidTransform& X_BA, double deep) const {
-  Gaps far;
-  add_gaps(samples_A_, X_BA, *on_B_, FarFrom(samples_B_, deep), far);
-  add_gaps(samples_B_, X_BA.inverse(), *on_A_, FarFrom(samples_A_, deep), far);
-  return std::count_if(far.all.begin(), far.all.end(), [&](double gap) { return gap <= -deep; }) >=
-         static_cast<std::ptrdiff_t>(kFew);
+/// Do enough samples lie deep enough for one of the rules?
+bool PassedThrough::may_be_deep(const RigidTransform& X_BA, double deep, bool in_solid) const {
+  const auto count_deep = [deep](const std::vector<Sample>& samples, const RigidTransform& X,
+                                 const Surface& other, const std::vector<Sample>& others) {
+    Gaps far;
+    add_gaps(samples, X, other, FarFrom(others, deep), far);
+    return static_cast<std::size_t>(
+        std::count_if(far.all.begin(), far.all.end(), [deep](double gap) { return gap <= -deep; }));
+  };
+  const std::size_t of_A = count_deep(samples_A_, X_BA, *on_B_, samples_B_),
+                    of_B = count_deep(samples_B_, X_BA.inverse(), *on_A_, samples_A_);
+  if (in_solid) return of_A >= enough_of(*on_B_) || of_B >= enough_of(*on_A_);
+  return of_A + of_B >= kFew;
 }
 
 std::optional<double> PassedThrough::depth(const RigidTransform& X_BA) const {
@@ -117,41 +134,69 @@ std::optional<double> PassedThrough::depth(const RigidTransform& X_BA) const {
 }
 
 std::optional<double> PassedThrough::depth_beyond(const RigidTransform& X_BA, double deep) const {
-  if (!may_be_deep(X_BA, deep)) return std::nullopt;
+  if (!may_be_deep(X_BA, deep, false)) return std::nullopt;
   const auto any = [](const Eigen::Vector3d&) { return true; };
   Gaps of_A, of_B;
   add_gaps(samples_A_, X_BA, *on_B_, any, of_A);
   add_gaps(samples_B_, X_BA.inverse(), *on_A_, any, of_B);
   // Each for itself: what lies behind a short edge, few samples of one surface may face, and many of the
   // other's face the one from afar, as those across a hollow cylinder face a ball beside it.
-  double gap = std::min(low(of_A.facing), low(of_B.facing));
+  double gap = std::min(low(of_A.facing, kFew), low(of_B.facing, kFew));
   if (of_A.facing.size() + of_B.facing.size() < kFew) {
     of_A.all.insert(of_A.all.end(), of_B.all.begin(), of_B.all.end());
-    gap = low(of_A.all);
+    gap = low(of_A.all, kFew);
   }
   if (gap > -deep) return std::nullopt;
   return -gap;
 }
 
+/// Of all samples behind the known part of a surface whose solid is known, facing it or not.
+std::optional<double> PassedThrough::depth_in_solid(const RigidTransform& X_BA) const {
+  if (!whole_ || !may_be_deep(X_BA, seen_, true)) return std::nullopt;
+  Gaps of_A, of_B;
+  add_gaps(samples_A_, X_BA, *on_B_, FarFrom(samples_B_, seen_), of_A);
+  add_gaps(samples_B_, X_BA.inverse(), *on_A_, FarFrom(samples_A_, seen_), of_B);
+  const double gap =
+      std::min(low(of_A.solid, enough_of(*on_B_)), low(of_B.solid, enough_of(*on_A_)));
+  if (gap > -seen_) return std::nullopt;
+  return -gap;
+}
+
+/// May a sample have moved by more than a part of `seen_` since the pose that was looked at?
 bool PassedThrough::moved_far(const RigidTransform& X_BA) const {
-  const auto any_far = [this](const std::vector<Sample>& samples, const RigidTransform& X,
-                              const RigidTransform& Y) {
-    const double far = 0.8 * seen_;
-    return std::any_of(samples.begin(), samples.end(), [&](const Sample& sample) {
-      return (X * sample.c - Y * sample.c).squaredNorm() > far * far;
-    });
-  };
-  return any_far(samples_A_, X_BA, *trusted_) ||
-         (samples_A_.empty() && any_far(samples_B_, X_BA.inverse(), trusted_->inverse()));
+  const RigidTransform X = samples_A_.empty() ? X_BA.inverse() : X_BA,
+                       Y = samples_A_.empty() ? trusted_->inverse() : *trusted_;
+  const double moved = (X * center_ - Y * center_).norm() + (X.R - Y.R).norm() * radius_;
+  return moved > kMoved * seen_;
+}
+
+std::optional<double> PassedThrough::depth_of_touching_pose(const RigidTransform& X_BA) {
+  if (!whole_) {
+    trusted_ = X_BA;
+    return std::nullopt;
+  }
+  if (trusted_ && !moved_far(X_BA)) return std::nullopt;
+  const std::optional<double> deep = depth_in_solid(X_BA);
+  if (!deep) trust_if_far(X_BA);
+  return deep;
 }
 
 std::optional<double> PassedThrough::depth_of_clear_pose(const RigidTransform& X_BA) {
   if (samples_A_.empty() && samples_B_.empty()) return std::nullopt;
-  if (!trusted_ || moved_far(X_BA)) {
-    if (const std::optional<double> deep = depth_beyond(X_BA, seen_)) return deep;
+  if (trusted_ && !moved_far(X_BA)) {
+    if (!whole_) trusted_ = X_BA;
+    return std::nullopt;
   }
+  std::optional<double> deep = depth_beyond(X_BA, seen_);
+  if (!deep) deep = depth_in_solid(X_BA);
+  if (!deep) trust_if_far(X_BA);
+  return deep;
+}
+
+/// What lies deep beyond an edge comes into a solid from the side, at any depth: such a pose tells nothing of the next.
+void PassedThrough::trust_if_far(const RigidTransform& X_BA) {
   trusted_ = X_BA;
-  return std::nullopt;
+  if (whole_ && may_be_deep(X_BA, (1 - kMoved) * seen_, true)) trusted_.reset();
 }
 
 }  // namespace condyle

@@ -25,13 +25,14 @@ class PassedThrough {
   /// solid around a hollow one a descent may come back.
   [[nodiscard]] std::optional<double> depth(const RigidTransform& X_BA) const;
 
-  /// The same for a pose at which the search found no overlap, of what lies deeper than it sees; sought only
-  /// where no such pose is known nearby: a point that was in front of a surface cannot have passed that
-  /// depth.
+  /// The same for a pose at which the search found no overlap, of what lies deeper than it sees, and of any point behind
+  /// the known part of an exact surface, facing it or not; sought only where no such pose is known nearby: a point that was in
+  /// front of a surface cannot have passed that depth.
   [[nodiscard]] std::optional<double> depth_of_clear_pose(const RigidTransform& X_BA);
 
-  /// The surfaces touch here: they are on their right sides.
-  void trust(const RigidTransform& X_BA) { trusted_ = X_BA; }
+  /// For surfaces that touch somewhere, of points behind the known part of an exact surface alone. Of those whose solids are
+  /// known only near them touching says that they are on their right sides.
+  [[nodiscard]] std::optional<double> depth_of_touching_pose(const RigidTransform& X_BA);
 
   /// As newly made.
   void reset() { trusted_.reset(); }
@@ -43,15 +44,20 @@ class PassedThrough {
     Eigen::Vector3d c, n;  ///< in its body's frame
   };
   [[nodiscard]] std::optional<double> depth_beyond(const RigidTransform& X_BA, double deep) const;
-  [[nodiscard]] bool may_be_deep(const RigidTransform& X_BA, double deep) const;
+  [[nodiscard]] std::optional<double> depth_in_solid(const RigidTransform& X_BA) const;
+  [[nodiscard]] bool may_be_deep(const RigidTransform& X_BA, double deep, bool in_solid) const;
   [[nodiscard]] bool moved_far(const RigidTransform& X_BA) const;
+  void trust_if_far(const RigidTransform& X_BA);
 
   const Surface* on_B_;
   const Surface* on_A_;
   double L_, seen_;
-  bool ends_ = false;  ///< one of them has an edge
+  bool ends_ = false;   ///< one of them has an edge,
+  bool whole_ = false;  ///< and one of them bounds_whole_solid
   std::vector<Sample> samples_B_, samples_A_;
-  std::optional<RigidTransform> trusted_;
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();  ///< of a ball about those on A, or else on B
+  double radius_ = 0;                                 ///< [mm]
+  std::optional<RigidTransform> trusted_;             ///< nothing lay deep there
 };
 
 }  // namespace condyle
