@@ -16,13 +16,15 @@ constexpr double kOpposed = -0.5;   // cosine between normals that face each oth
 constexpr double kMoved = 0.8;      // of the depth that the search sees: less is no way through it
 constexpr std::size_t kFew = 3;  // fewer samples may have met closest points far from the true ones
 
-/// So many samples tell something: where the surface bends evenly, the closest point is exact.
-std::size_t enough_of(const Surface& surface) { return surface.bends_evenly() ? 1 : kFew; }
+/// A plane or a cylinder that ends somewhere: closest points on it are exact, and what lies behind its known part is solid
+/// however deep. Behind a patch, or a polynomial that stands for one, a bone may end.
+bool bounds_deep_solid(const Surface& surface) {
+  return has_edge(surface) && surface.bends_evenly();
+}
 
 /// Signed distances of samples from the other surface [mm].
 struct Gaps {
   std::vector<double> facing;  ///< of those that face its known part
-  std::vector<double> solid;   ///< of those behind its known part, where all of its solid is known
   std::vector<double> all;     ///< beyond an edge from the surface as it goes on there
 };
 
@@ -46,32 +48,40 @@ class FarFrom {
   std::size_t last_ = 0;  ///< that was near
 };
 
-template <typename Samples, typename Wanted>
-void add_gaps(const Samples& samples,
-              const RigidTransform& X,
-              const Surface& other,
-              Wanted wanted,
-              Gaps& gaps) {
-  const bool whole = bounds_whole_solid(other);
+/// Gaps of the samples that are wanted: visit(gap, closest point is known, they face each other).
+template <typename Samples, typename Wanted, typename Visit>
+void visit_gaps(const Samples& samples,
+                const RigidTransform& X,
+                const Surface& other,
+                Wanted wanted,
+                Visit visit) {
   for (const auto& sample : samples) {
     const Eigen::Vector3d p = X * sample.c;
     if (!wanted(p)) continue;
     const Place closest = other.closest(p, other.seed(p));
     const SurfacePoint at = other.evaluate_frame(closest);
-    const double gap = at.n.dot(p - at.c);
-    gaps.all.push_back(gap);
-    if (!(other.edge_distance(closest) > 0)) continue;
-    if (whole) gaps.solid.push_back(gap);
-    if (at.n.dot(X.R * sample.n) < kOpposed) gaps.facing.push_back(gap);
+    visit(at.n.dot(p - at.c), other.edge_distance(closest) > 0,
+          at.n.dot(X.R * sample.n) < kOpposed);
   }
 }
 
-/// The lowest that so many reach, of fewer none.
-double low(std::vector<double>& values, std::size_t enough) {
-  if (values.size() < enough) return std::numeric_limits<double>::infinity();
-  const auto last = values.begin() + static_cast<std::ptrdiff_t>(enough) - 1;
-  std::nth_element(values.begin(), last, values.end());
-  return *last;
+template <typename Samples>
+Gaps gaps_of(const Samples& samples, const RigidTransform& X, const Surface& other) {
+  Gaps gaps;
+  const auto any = [](const Eigen::Vector3d&) { return true; };
+  visit_gaps(samples, X, other, any, [&](double gap, bool known, bool faces) {
+    gaps.all.push_back(gap);
+    if (known && faces) gaps.facing.push_back(gap);
+  });
+  return gaps;
+}
+
+/// The third lowest, of fewer none: one or two samples may have met a closest point far from the true one.
+double low(std::vector<double>& values) {
+  if (values.size() < kFew) return std::numeric_limits<double>::infinity();
+  const auto third = values.begin() + (kFew - 1);
+  std::nth_element(values.begin(), third, values.end());
+  return *third;
 }
 
 /// Closed about nothing, the solid all around it: by the sign of its volume, ∮ c.n dA. What lies in that solid as
@@ -108,25 +118,26 @@ PassedThrough::PassedThrough(const ContactPair& pair, double L, double seen)
   };
   samples_B_ = sample(*on_B_);
   samples_A_ = sample(*on_A_);
-  whole_ = ends_ && (bounds_whole_solid(*on_B_) || bounds_whole_solid(*on_A_));
+  whole_ = bounds_deep_solid(*on_B_) || bounds_deep_solid(*on_A_);
   const std::vector<Sample>& moving = samples_A_.empty() ? samples_B_ : samples_A_;
   for (const Sample& at : moving) center_ += at.c / static_cast<double>(moving.size());
   for (const Sample& at : moving) radius_ = std::max(radius_, (at.c - center_).norm());
 }
 
-/// Do enough samples lie deep enough for one of the rules?
+/// Do enough samples lie deep enough, behind any surface or behind one that bounds a deep solid?
 bool PassedThrough::may_be_deep(const RigidTransform& X_BA, double deep, bool in_solid) const {
-  const auto count_deep = [deep](const std::vector<Sample>& samples, const RigidTransform& X,
-                                 const Surface& other, const std::vector<Sample>& others) {
-    Gaps far;
-    add_gaps(samples, X, other, FarFrom(others, deep), far);
-    return static_cast<std::size_t>(
-        std::count_if(far.all.begin(), far.all.end(), [deep](double gap) { return gap <= -deep; }));
+  const auto count_deep = [deep, in_solid](const std::vector<Sample>& samples,
+                                           const RigidTransform& X, const Surface& other,
+                                           const std::vector<Sample>& others) {
+    std::size_t count = 0;
+    if (!in_solid || bounds_deep_solid(other))
+      visit_gaps(samples, X, other, FarFrom(others, deep),
+                 [&](double gap, bool, bool) { count += gap <= -deep ? 1 : 0; });
+    return count;
   };
-  const std::size_t of_A = count_deep(samples_A_, X_BA, *on_B_, samples_B_),
-                    of_B = count_deep(samples_B_, X_BA.inverse(), *on_A_, samples_A_);
-  if (in_solid) return of_A >= enough_of(*on_B_) || of_B >= enough_of(*on_A_);
-  return of_A + of_B >= kFew;
+  return count_deep(samples_A_, X_BA, *on_B_, samples_B_) +
+             count_deep(samples_B_, X_BA.inverse(), *on_A_, samples_A_) >=
+         (in_solid ? 1 : kFew);
 }
 
 std::optional<double> PassedThrough::depth(const RigidTransform& X_BA) const {
@@ -135,31 +146,32 @@ std::optional<double> PassedThrough::depth(const RigidTransform& X_BA) const {
 
 std::optional<double> PassedThrough::depth_beyond(const RigidTransform& X_BA, double deep) const {
   if (!may_be_deep(X_BA, deep, false)) return std::nullopt;
-  const auto any = [](const Eigen::Vector3d&) { return true; };
-  Gaps of_A, of_B;
-  add_gaps(samples_A_, X_BA, *on_B_, any, of_A);
-  add_gaps(samples_B_, X_BA.inverse(), *on_A_, any, of_B);
+  Gaps of_A = gaps_of(samples_A_, X_BA, *on_B_), of_B = gaps_of(samples_B_, X_BA.inverse(), *on_A_);
   // Each for itself: what lies behind a short edge, few samples of one surface may face, and many of the
   // other's face the one from afar, as those across a hollow cylinder face a ball beside it.
-  double gap = std::min(low(of_A.facing, kFew), low(of_B.facing, kFew));
+  double gap = std::min(low(of_A.facing), low(of_B.facing));
   if (of_A.facing.size() + of_B.facing.size() < kFew) {
     of_A.all.insert(of_A.all.end(), of_B.all.begin(), of_B.all.end());
-    gap = low(of_A.all, kFew);
+    gap = low(of_A.all);
   }
   if (gap > -deep) return std::nullopt;
   return -gap;
 }
 
-/// Of all samples behind the known part of a surface whose solid is known, facing it or not.
+/// Of all samples behind the known part of a surface that bounds a deep solid, facing it or not.
 std::optional<double> PassedThrough::depth_in_solid(const RigidTransform& X_BA) const {
-  if (!whole_ || !may_be_deep(X_BA, seen_, true)) return std::nullopt;
-  Gaps of_A, of_B;
-  add_gaps(samples_A_, X_BA, *on_B_, FarFrom(samples_B_, seen_), of_A);
-  add_gaps(samples_B_, X_BA.inverse(), *on_A_, FarFrom(samples_A_, seen_), of_B);
-  const double gap =
-      std::min(low(of_A.solid, enough_of(*on_B_)), low(of_B.solid, enough_of(*on_A_)));
-  if (gap > -seen_) return std::nullopt;
-  return -gap;
+  double lowest = 0;
+  const auto look = [&](const std::vector<Sample>& samples, const RigidTransform& X,
+                        const Surface& other, const std::vector<Sample>& others) {
+    if (bounds_deep_solid(other))
+      visit_gaps(samples, X, other, FarFrom(others, seen_), [&](double gap, bool known, bool) {
+        if (known) lowest = std::min(lowest, gap);
+      });
+  };
+  look(samples_A_, X_BA, *on_B_, samples_B_);
+  look(samples_B_, X_BA.inverse(), *on_A_, samples_A_);
+  if (lowest > -seen_) return std::nullopt;
+  return -lowest;
 }
 
 /// May a sample have moved by more than a part of `seen_` since the pose that was looked at?

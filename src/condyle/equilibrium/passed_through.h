@@ -26,12 +26,12 @@ class PassedThrough {
   [[nodiscard]] std::optional<double> depth(const RigidTransform& X_BA) const;
 
   /// The same for a pose at which the search found no overlap, of what lies deeper than it sees, and of any point behind
-  /// the known part of an exact surface, facing it or not; sought only where no such pose is known nearby: a point that was in
+  /// the known part of a plane or cylinder with an edge, facing it or not; sought only where no such pose is known nearby: a point that was in
   /// front of a surface cannot have passed that depth.
   [[nodiscard]] std::optional<double> depth_of_clear_pose(const RigidTransform& X_BA);
 
-  /// For surfaces that touch somewhere, of points behind the known part of an exact surface alone. Of those whose solids are
-  /// known only near them touching says that they are on their right sides.
+  /// For surfaces that touch somewhere, of points behind the known part of a plane or cylinder with an edge alone. Of other
+  /// surfaces touching says that they are on their right sides.
   [[nodiscard]] std::optional<double> depth_of_touching_pose(const RigidTransform& X_BA);
 
   /// As newly made.
@@ -53,7 +53,7 @@ class PassedThrough {
   const Surface* on_A_;
   double L_, seen_;
   bool ends_ = false;   ///< one of them has an edge,
-  bool whole_ = false;  ///< and one of them bounds_whole_solid
+  bool whole_ = false;  ///< which is a plane's or a cylinder's: behind it is solid
   std::vector<Sample> samples_B_, samples_A_;
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();  ///< of a ball about those on A, or else on B
   double radius_ = 0;                                 ///< [mm]
