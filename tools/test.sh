@@ -20,7 +20,7 @@ case "${1:-}" in
   ?*) way=plain ;;
 esac
 
-# Rooms through which bytes of strangers come, each quick to build and to run, without the tests that start condyle itself.
+# Rooms through which bytes of strangers come (condyle_selected_tests), without the tests that start condyle itself.
 selection=(results scene mesh exchange)
 starting_condyle='Exchange.*:LaxityTables.AsAUserMakesThem'
 
@@ -68,7 +68,7 @@ case "$way" in
     run_tests build "$@"
     ;;&
   all | selection)
-    TARGET=$(printf 'condyle_%s_tests ' "${selection[@]}") sanitized build-sanitize address -DCONDYLE_PICTURES=OFF
+    TARGET=condyle_selected_tests sanitized build-sanitize address -DCONDYLE_PICTURES=OFF
     # Each program at one go: to start a sanitized process takes longer than most tests.
     printf '%s\n' "${selection[@]}" | xargs -P "$(nproc)" -I ROOM timeout 900 \
       build-sanitize/condyle_ROOM_tests --gtest_brief=1 "--gtest_filter=-$starting_condyle" "$@"
