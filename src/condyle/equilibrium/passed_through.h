@@ -25,13 +25,14 @@ class PassedThrough {
   /// solid around a hollow one a descent may come back.
   [[nodiscard]] std::optional<double> depth(const RigidTransform& X_BA) const;
 
-  /// The same for a pose at which the search found no overlap, of what lies deeper than it sees, and of any point behind
-  /// the known part of a plane or cylinder with an edge, facing it or not; sought only where no such pose is known nearby: a point that was in
-  /// front of a surface cannot have passed that depth.
+  /// The same for a pose at which the search found no overlap, of what lies deeper than it sees, and of
+  /// any point behind the known part of a plane or cylinder with an edge, facing it or not; sought only
+  /// where no such pose is known nearby: a point that was in front of a surface cannot have passed that
+  /// depth.
   [[nodiscard]] std::optional<double> depth_of_clear_pose(const RigidTransform& X_BA);
 
-  /// For surfaces that touch somewhere, of points behind the known part of a plane or cylinder with an edge alone. Of other
-  /// surfaces touching says that they are on their right sides.
+  /// For surfaces that touch somewhere, of points behind the known part of a plane or cylinder with an
+  /// edge alone. Of other surfaces touching says that they are on their right sides.
   [[nodiscard]] std::optional<double> depth_of_touching_pose(const RigidTransform& X_BA);
 
   /// As newly made.
