@@ -124,20 +124,13 @@ PassedThrough::PassedThrough(const ContactPair& pair, double L, double seen)
   for (const Sample& at : moving) radius_ = std::max(radius_, (at.c - center_).norm());
 }
 
-/// Do enough samples lie deep enough, behind any surface or behind one that bounds a deep solid?
-bool PassedThrough::may_be_deep(const RigidTransform& X_BA, double deep, bool in_solid) const {
-  const auto count_deep = [deep, in_solid](const std::vector<Sample>& samples,
-                                           const RigidTransform& X, const Surface& other,
-                                           const std::vector<Sample>& others) {
-    std::size_t count = 0;
-    if (!in_solid || bounds_deep_solid(other))
-      visit_gaps(samples, X, other, FarFrom(others, deep),
-                 [&](double gap, bool, bool) { count += gap <= -deep ? 1 : 0; });
-    return count;
-  };
-  return count_deep(samples_A_, X_BA, *on_B_, samples_B_) +
-             count_deep(samples_B_, X_BA.inverse(), *on_A_, samples_A_) >=
-         (in_solid ? 1 : kFew);
+/// Do enough samples lie deep enough?
+bool PassedThrough::may_be_deep(const RigidTransform& X_BA, double deep) const {
+  std::size_t count = 0;
+  const auto count_deep = [&](double gap, bool, bool) { count += gap <= -deep ? 1 : 0; };
+  visit_gaps(samples_A_, X_BA, *on_B_, FarFrom(samples_B_, deep), count_deep);
+  visit_gaps(samples_B_, X_BA.inverse(), *on_A_, FarFrom(samples_A_, deep), count_deep);
+  return count >= kFew;
 }
 
 std::optional<double> PassedThrough::depth(const RigidTransform& X_BA) const {
@@ -145,7 +138,7 @@ std::optional<double> PassedThrough::depth(const RigidTransform& X_BA) const {
 }
 
 std::optional<double> PassedThrough::depth_beyond(const RigidTransform& X_BA, double deep) const {
-  if (!may_be_deep(X_BA, deep, false)) return std::nullopt;
+  if (!may_be_deep(X_BA, deep)) return std::nullopt;
   Gaps of_A = gaps_of(samples_A_, X_BA, *on_B_), of_B = gaps_of(samples_B_, X_BA.inverse(), *on_A_);
   // Each for itself: what lies behind a short edge, few samples of one surface may face, and many of the
   // other's face the one from afar, as those across a hollow cylinder face a ball beside it.
@@ -158,19 +151,22 @@ std::optional<double> PassedThrough::depth_beyond(const RigidTransform& X_BA, do
   return -gap;
 }
 
-/// Of all samples behind the known part of a surface that bounds a deep solid, facing it or not.
-std::optional<double> PassedThrough::depth_in_solid(const RigidTransform& X_BA) const {
+/// How deep samples lie behind a surface that bounds a deep solid, facing it or not: behind its known part, or
+/// beyond its edge as well. Nothing where that is less than `deep`.
+std::optional<double> PassedThrough::depth_in_solid(const RigidTransform& X_BA,
+                                                    double deep,
+                                                    bool beyond_edge) const {
   double lowest = 0;
   const auto look = [&](const std::vector<Sample>& samples, const RigidTransform& X,
                         const Surface& other, const std::vector<Sample>& others) {
     if (bounds_deep_solid(other))
-      visit_gaps(samples, X, other, FarFrom(others, seen_), [&](double gap, bool known, bool) {
-        if (known) lowest = std::min(lowest, gap);
+      visit_gaps(samples, X, other, FarFrom(others, deep), [&](double gap, bool known, bool) {
+        if (known || beyond_edge) lowest = std::min(lowest, gap);
       });
   };
   look(samples_A_, X_BA, *on_B_, samples_B_);
   look(samples_B_, X_BA.inverse(), *on_A_, samples_A_);
-  if (lowest > -seen_) return std::nullopt;
+  if (lowest > -deep) return std::nullopt;
   return -lowest;
 }
 
@@ -188,7 +184,7 @@ std::optional<double> PassedThrough::depth_of_touching_pose(const RigidTransform
     return std::nullopt;
   }
   if (trusted_ && !moved_far(X_BA)) return std::nullopt;
-  const std::optional<double> deep = depth_in_solid(X_BA);
+  const std::optional<double> deep = depth_in_solid(X_BA, seen_, false);
   if (!deep) trust_if_far(X_BA);
   return deep;
 }
@@ -200,7 +196,7 @@ std::optional<double> PassedThrough::depth_of_clear_pose(const RigidTransform& X
     return std::nullopt;
   }
   std::optional<double> deep = depth_beyond(X_BA, seen_);
-  if (!deep) deep = depth_in_solid(X_BA);
+  if (!deep && whole_) deep = depth_in_solid(X_BA, seen_, false);
   if (!deep) trust_if_far(X_BA);
   return deep;
 }
@@ -208,7 +204,7 @@ std::optional<double> PassedThrough::depth_of_clear_pose(const RigidTransform& X
 /// What lies deep beyond an edge comes into a solid from the side, at any depth: such a pose tells nothing of the next.
 void PassedThrough::trust_if_far(const RigidTransform& X_BA) {
   trusted_ = X_BA;
-  if (whole_ && may_be_deep(X_BA, (1 - kMoved) * seen_, true)) trusted_.reset();
+  if (whole_ && depth_in_solid(X_BA, (1 - kMoved) * seen_, true)) trusted_.reset();
 }
 
 }  // namespace condyle

@@ -45,8 +45,10 @@ class PassedThrough {
     Eigen::Vector3d c, n;  ///< in its body's frame
   };
   [[nodiscard]] std::optional<double> depth_beyond(const RigidTransform& X_BA, double deep) const;
-  [[nodiscard]] std::optional<double> depth_in_solid(const RigidTransform& X_BA) const;
-  [[nodiscard]] bool may_be_deep(const RigidTransform& X_BA, double deep, bool in_solid) const;
+  [[nodiscard]] std::optional<double> depth_in_solid(const RigidTransform& X_BA,
+                                                     double deep,
+                                                     bool beyond_edge) const;
+  [[nodiscard]] bool may_be_deep(const RigidTransform& X_BA, double deep) const;
   [[nodiscard]] bool moved_far(const RigidTransform& X_BA) const;
   void trust_if_far(const RigidTransform& X_BA);
 

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "condyle/elements/joint_table.h"
+#include "condyle/math/no_number.h"
 #include "condyle/pictures/ligament_groups.h"
 #include "condyle/results/contact_path.h"
 #include "condyle/results/motion_view.h"
@@ -25,7 +25,6 @@ using Eigen::Vector3d;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kLeastStrain = -10;  // [%]: how slack a slack ligament is says little
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 using OfPose = std::function<double(const PoseResult&)>;
 
@@ -36,7 +35,7 @@ Curve curve_of(const Run& run, const std::string& title, const OfPose& y) {
   for (const PoseResult& pose : run.sweep.poses) {
     const double x = per_value * pose.value;
     curve.x.push_back(x);
-    curve.y.push_back(pose.converged() ? y(pose) : kUnknown);
+    curve.y.push_back(pose.converged() ? y(pose) : kNoNumber);
     if (pose.converged() || !has_place(pose)) continue;
     curve.hollow_x.push_back(x);
     curve.hollow_y.push_back(y(pose));
@@ -87,7 +86,7 @@ double total_force(const PoseResult& pose, const std::vector<std::size_t>& stran
 double greatest_strain(const Scene& scene,
                        const PoseResult& pose,
                        const std::vector<std::size_t>& strands) {
-  double greatest = kUnknown;
+  double greatest = kNoNumber;
   for (const std::size_t i : strands) {
     if (i >= pose.ligaments.size() || !(slack_length(scene.ligaments[i].law) > 0)) continue;
     if (!(greatest >= pose.ligaments[i].strain)) greatest = pose.ligaments[i].strain;
@@ -100,7 +99,7 @@ double greatest_turn(const Scene& scene,
                      const PoseResult& pose,
                      const std::vector<std::size_t>& strands,
                      int wrap) {
-  double greatest = kUnknown;
+  double greatest = kNoNumber;
   for (const std::size_t i : strands) {
     if (i >= pose.paths.size()) continue;
     const std::vector<LineTouch>& touches = pose.paths[i].touches;
@@ -124,9 +123,9 @@ std::optional<Vector3d> place_on_tibia(const Scene& scene, const ContactResult& 
 
 Curve place_curve(const Run& run, std::size_t contact, const Vector3d& axis) {
   const OfPose along = [&](const PoseResult& pose) {
-    if (contact >= pose.contacts.size()) return kUnknown;
+    if (contact >= pose.contacts.size()) return kNoNumber;
     const auto place = place_on_tibia(run.scene, pose.contacts[contact]);
-    return place ? axis.dot(*place - run.scene.joint->tibia.origin) : kUnknown;
+    return place ? axis.dot(*place - run.scene.joint->tibia.origin) : kNoNumber;
   };
   return broken_at_jumps(curve_of(run, run.scene.contacts[contact].name, along), run.sweep,
                          contact);
@@ -155,8 +154,8 @@ Curve broken_at_jumps(Curve curve, const SweepResult& sweep, std::size_t contact
     if (!std::isfinite(curve.y[i - 1]) || !std::isfinite(curve.y[i]) || joined(path, i - 1, i))
       continue;
     const auto at = static_cast<std::ptrdiff_t>(i);
-    curve.x.insert(curve.x.begin() + at, kUnknown);
-    curve.y.insert(curve.y.begin() + at, kUnknown);
+    curve.x.insert(curve.x.begin() + at, kNoNumber);
+    curve.y.insert(curve.y.begin() + at, kNoNumber);
   }
   return curve;
 }
@@ -184,7 +183,7 @@ Chart contact_force_chart(const Run& run) {
   for (std::size_t c = 0; c < run.scene.contacts.size(); ++c) {
     const std::string& name = run.scene.contacts[c].name;
     Curve curve = curve_of(run, name, [c](const PoseResult& pose) {
-      return c < pose.contacts.size() ? pose.contacts[c].force : kUnknown;
+      return c < pose.contacts.size() ? pose.contacts[c].force : kNoNumber;
     });
     add_band(run, "contacts/" + name + "/force", 1, curve);
     panel.curves.push_back(std::move(curve));
@@ -211,7 +210,7 @@ Chart contact_pressure_chart(const Run& run) {
   Panel pressure{"Greatest pressure [MPa]", {}, true}, area{"Area [mm²]", {}, true};
   const auto add = [&](Panel& panel, std::size_t c, double LayerResult::*what) {
     panel.curves.push_back(curve_of(run, run.scene.contacts[c].name, [=](const PoseResult& pose) {
-      if (c >= pose.contacts.size()) return kUnknown;
+      if (c >= pose.contacts.size()) return kNoNumber;
       const ContactResult& contact = pose.contacts[c];
       return contact.layer ? (*contact.layer).*what : 0;
     }));
@@ -276,7 +275,7 @@ Chart flexion_moment_chart(const Run& run) {
   for (std::size_t i = 0; i < run.scene.conditions.size(); ++i) {
     if (run.scene.conditions[i].kind != ConditionKind::kFlexion) continue;
     keep(chart, {"Flexion moment [N mm]", {curve_of(run, "", [i](const PoseResult& pose) {
-                   return i < pose.conditions.size() ? pose.conditions[i].multiplier : kUnknown;
+                   return i < pose.conditions.size() ? pose.conditions[i].multiplier : kNoNumber;
                  })}});
     break;
   }

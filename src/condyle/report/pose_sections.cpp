@@ -116,12 +116,11 @@ std::string pose_section(const Run& run) {
   table.text_columns = {columns - 2, columns - 1};
   for (const PoseResult& pose : poses) {
     std::vector<std::string> row = {at_value(swept, pose.value)};
-    const double none = kNoNumber;
     for (std::size_t k = 0; k < (joint ? kJointColumns.size() : 3); ++k) {
       if (joint && swept.name == kJointColumns[k].name) continue;
       const double value = joint ? pose.joint.*kJointColumns[k].member / kJointColumns[k].unit
                                  : pose.X_BA.p[static_cast<Eigen::Index>(k)];
-      row.push_back(number(has_place(pose) ? value : none, 2));
+      row.push_back(number(has_place(pose) ? value : kNoNumber, 2));
     }
     row.emplace_back(pose.stability == 1 ? "stable" : pose.stability == 0 ? "not stable" : "-");
     row.push_back(name(pose.status) + (pose.reason.empty() ? "" : ": " + pose.reason));

@@ -27,8 +27,7 @@ std::array<double, 4> failed_by_quarter(const std::vector<double>& theta,
     all[quarter] += static_cast<double>(poses);
     bad[quarter] += failed[k];
   }
-  for (std::size_t q = 0; q < 4; ++q)
-    share[q] = all[q] > 0 ? bad[q] / all[q] : kNoNumber;
+  for (std::size_t q = 0; q < 4; ++q) share[q] = all[q] > 0 ? bad[q] / all[q] : kNoNumber;
   return share;
 }
 
