@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kSpacing = 1;  // [mm] of points on exact surfaces
+constexpr double kSampleSpacing = 1;  // [mm] of points on exact surfaces
 constexpr double kMargin = 20 * kDegree, kWidest = 70 * kDegree;
 
 struct Points {
@@ -35,7 +35,7 @@ Points points_of(const FittedSurface& fitted) {
     points.weights = vertex_areas(fitted.region);
     return points;
   }
-  for (const Place& place : fitted.surface->samples(kSpacing)) {
+  for (const Place& place : fitted.surface->samples(kSampleSpacing)) {
     const SurfacePoint at = fitted.surface->evaluate_frame(place);
     points.c.push_back(at.c);
     points.n.push_back(at.n);

@@ -57,9 +57,9 @@ void nearest_places(const WismansContact& contact,
                     const RigidTransform& X_BA,
                     Vector2d& at_B,
                     Vector2d& at_A) {
-  constexpr double kSpacing = 1.5;  // [mm]
+  constexpr double kGridSpacing = 1.5;  // [mm]
   double least = std::numeric_limits<double>::infinity();
-  for (const Vector2d& at : grid_within(contact.on_A, kSpacing)) {
+  for (const Vector2d& at : grid_within(contact.on_A, kGridSpacing)) {
     const HeightPoint A = evaluate(contact.on_A, at);
     const Vector3d p = X_BA * A.c;
     const Vector2d below = coordinates_of(contact.on_B, p);
