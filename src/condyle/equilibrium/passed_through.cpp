@@ -156,6 +156,7 @@ std::optional<double> PassedThrough::depth_beyond(const RigidTransform& X_BA, do
 std::optional<double> PassedThrough::depth_in_solid(const RigidTransform& X_BA,
                                                     double deep,
                                                     bool beyond_edge) const {
+  if (!whole_) return std::nullopt;
   double lowest = 0;
   const auto look = [&](const std::vector<Sample>& samples, const RigidTransform& X,
                         const Surface& other, const std::vector<Sample>& others) {
@@ -196,7 +197,7 @@ std::optional<double> PassedThrough::depth_of_clear_pose(const RigidTransform& X
     return std::nullopt;
   }
   std::optional<double> deep = depth_beyond(X_BA, seen_);
-  if (!deep && whole_) deep = depth_in_solid(X_BA, seen_, false);
+  if (!deep) deep = depth_in_solid(X_BA, seen_, false);
   if (!deep) trust_if_far(X_BA);
   return deep;
 }
@@ -204,7 +205,7 @@ std::optional<double> PassedThrough::depth_of_clear_pose(const RigidTransform& X
 /// What lies deep beyond an edge comes into a solid from the side, at any depth: such a pose tells nothing of the next.
 void PassedThrough::trust_if_far(const RigidTransform& X_BA) {
   trusted_ = X_BA;
-  if (whole_ && depth_in_solid(X_BA, (1 - kMoved) * seen_, true)) trusted_.reset();
+  if (depth_in_solid(X_BA, (1 - kMoved) * seen_, true)) trusted_.reset();
 }
 
 }  // namespace condyle
