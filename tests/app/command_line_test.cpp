@@ -203,6 +203,57 @@ TEST_F(CommandLine, TakesNoEmptyTextForAValue) {
                    "--at: expected a number (condyle export --help says more)");
 }
 
+TEST_F(CommandLine, TakesNoNumberForAnotherOne) {
+  const auto refuses = [&](const std::string& command, const std::string& option,
+                           const std::string& value, const std::string& expected) {
+    expect_bad_input(run(command + " " + option + " " + value),
+                     option + ": " + value + ", expected " + expected + " (condyle " +
+                         command.substr(0, command.find(' ')) + " --help says more)");
+  };
+  refuses("compare knee.toml -o run.h5", "--strain", "nan", "a finite number");
+  refuses("laxity knee.toml -o run.h5", "--strain", "-inf", "a finite number");
+  refuses("sweep knee.toml -o run.h5", "--to", "1e999", "a finite number");
+  refuses("compare knee.toml -o run.h5", "--degree", "2.5", "a whole number");
+  refuses("study knee.toml -o run.h5", "--samples", "1e3", "a whole number");
+  refuses("export run.h5 -o run.glb", "--triangles", "-5", "a whole number >= 0");
+  EXPECT_TRUE(results().empty());
+}
+
+// A radius of 20 m: the plateau is flat to 0.02 mm where the ball touches it. A minute and gigabytes once.
+TEST_F(CommandLine, SweepsOnASurfaceFarLargerThanAKneeAndDoubtsItsUnit) {
+  const std::string plateau = "kind = \"sphere\"\ncenter = [0, -20000, 0]\nradius = 20000\n";
+  write("large.toml",
+        with(kScene, "kind = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\n", plateau));
+  const std::string doubt =
+      "warning: surface \"plateau\": 40000 mm across, expected at most 2000 mm (suspect the "
+      "units)\n";
+  EXPECT_NE(run("check large.toml").out.find(doubt), std::string::npos);
+  const Outcome outcome = run("sweep large.toml -o run.h5", "ulimit -v 2000000; ulimit -t 20; ");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE((outcome.out + outcome.err).find(doubt), std::string::npos) << outcome.out;
+  EXPECT_EQ(run("verify run.h5").code, 0);
+}
+
+TEST_F(CommandLine, NamesWhatIsNoFile) {
+  expect_bad_input(run("verify /dev/zero"), "/dev/zero: is no plain file, expected a run (HDF5)");
+  write("mesh.toml", with(kScene, "fixed = true", "fixed = true\nmesh = \"..\""));
+  const Outcome outcome = run("check mesh.toml");
+  EXPECT_EQ(outcome.err.rfind("condyle: mesh.toml:10: [[body]] \"femur\": mesh = \"..\", expected "
+                              "a mesh file (no file is ..",
+                              0),
+            0U)
+      << outcome.err;
+}
+
+#ifdef CONDYLE_PICTURES
+TEST_F(CommandLine, WritesNoPngUnderTheNameOfAnotherFormat) {
+  for (const char* file : {"page.jpg", "page.pdf", "page.html"})
+    expect_bad_input(run(std::string("check knee.toml --report ") + file),
+                     std::string(file) + ": the picture is PNG, expected a name that ends in .png");
+  EXPECT_TRUE(results().empty());
+}
+#endif
+
 TEST_F(CommandLine, NeedsASweep) {
   write("knee.toml", kScene.substr(0, kScene.find("[sweep]")));
   expect_bad_input(run("sweep knee.toml -o run.h5"),

@@ -6,10 +6,12 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <memory>
 
 #include "condyle/contact/layer_contact.h"
 #include "condyle/contact/layer_side.h"
 #include "condyle/math/rotation.h"
+#include "condyle/surface/exact_surfaces.h"
 #include "contact/cartilage.h"
 #include "support/bumpy_patches.h"
 
@@ -201,6 +203,40 @@ TEST(LayerPackets, LatticesAreRefinedForEquilibriaAlone) {
       EXPECT_FALSE(is_refined(Pressed(seed), tolerance, 1, 6)) << tolerance;
     }
   EXPECT_GT(refined, 0);
+}
+
+/// Of a ball of 20 mm that is 0.3 mm deep in a socket's wall or a ball [N].
+double force_of_ball_on(std::shared_ptr<const Surface> floor) {
+  ContactPair pair;
+  pair.on_B = std::move(floor);
+  pair.on_A = make_sphere(Eigen::Vector3d(0, 0, 20), 20, true);
+  pair.elastic_B = pair.elastic_A = kCartilage;
+  const auto law = layer_contact({.pressure = PressureLaw::kLinear, .tolerance = 2e-4})(pair);
+  RigidTransform X;
+  X.p.z() = -0.3;
+  law->prepare(X);
+  while (!law->accepts(X)) continue;  // finer each time
+  ContactResult result;
+  (void)law->describe(X, result);
+  return result.force;
+}
+
+// A floor that curves with a radius of 5 m is flat but for a part of 20/5000, and has no points of its own: those of the
+// ball tell. A lattice over all of it would have cells of a decimetre, or a hundred million points.
+TEST(LayerLattices, OfASurfaceFarLargerThanTheOtherAreLeftOut) {
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  const double flat = force_of_ball_on(make_plane(Eigen::Vector3d::Zero(), up));
+  EXPECT_GT(flat, 10);
+  for (const double radius : {500.0, 5e3, 1e6}) {
+    EXPECT_NEAR(force_of_ball_on(make_sphere(-radius * up, radius, true)) / flat, 1,
+                1.1 * 20 / radius);
+    EXPECT_NEAR(force_of_ball_on(make_sphere(radius * up, radius, false)) / flat, 1,
+                1.1 * 20 / radius);
+    EXPECT_FALSE(has_fine_lattice(*make_sphere(up, radius, true)));
+  }
+  EXPECT_TRUE(has_fine_lattice(*make_sphere(up, 100, true)));
+  // Two of them touch over areas as large as they are.
+  EXPECT_FALSE(layer_lattice(*make_sphere(up, 1e4, true), 8).x.empty());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -15,6 +16,7 @@
 #include "support/counted_model.h"
 #include "support/known_part.h"
 #include "support/quadric_knee.h"
+#include "support/same_sweep.h"
 #include "support/truss.h"
 
 namespace condyle {
@@ -160,6 +162,39 @@ TEST_F(UnknownBand, PosesAreToldOnceAndInOrder) {
   const SweepResult result = sweep(solver, condition_value(0), flexions, options);
   EXPECT_EQ(told, flexions);
   EXPECT_EQ(computed, flexions);
+}
+
+// Those that wait are told beforehand, and a sweep that takes them over before they are final is the one that was
+// never stopped: it looks for them from the next pose that converges.
+TEST_F(UnknownBand, PosesThatWaitAreToldAndTakenOver) {
+  const std::vector<double> flexions = values(0, 120, 5);
+  std::vector<KnownPose> told;
+  SweepOptions options;
+  options.on_open = [&](const KnownPose& known) {
+    EXPECT_TRUE(known.open);
+    EXPECT_FALSE(known.pose.converged());
+    told.push_back(known);
+  };
+  options.on_computed = [&](const KnownPose& known) {
+    EXPECT_FALSE(known.open);
+    told.push_back(known);
+  };
+  EquilibriumSolver solver(model);
+  const SweepResult unstopped = sweep(solver, condition_value(0), flexions, options);
+  ASSERT_GT(told.size(), flexions.size() + 1);
+  const auto first_open =
+      std::find_if(told.begin(), told.end(), [](const KnownPose& known) { return known.open; });
+  for (auto stop = first_open; stop != told.end() && stop->open; ++stop) {
+    EquilibriumSolver again(model);
+    SweepOptions resumed;
+    resumed.known.assign(told.begin(), stop + 1);
+    std::vector<double> computed;
+    resumed.on_open = [&](const KnownPose& known) { computed.push_back(known.pose.value); };
+    resumed.on_computed = resumed.on_open;
+    test::expect_same_sweep(unstopped, sweep(again, condition_value(0), flexions, resumed));
+    // As final, what was open is told again.
+    EXPECT_NE(std::find(computed.begin(), computed.end(), first_open->pose.value), computed.end());
+  }
 }
 
 // In the range of a snap-through both branches are equilibria, and the sweep says so on the way up

@@ -53,6 +53,27 @@ TEST_F(Exchange, TakesNoOtherPoseForOneThatFailed) {
   EXPECT_FALSE(fs::exists(folder_ / "b.csv"));
 }
 
+// The run holds the paths of what it was computed from.
+TEST_F(Exchange, DoesNotWriteOverWhatItsRunWasComputedFrom) {
+  const std::string bone = "bone.stl", mesh = CONDYLE_SOURCE_DIR "/meshes/tibia.stl";
+  fs::copy_file(mesh, folder_ / bone);
+  write("knee.toml",
+        with(test::kScene, "name = \"tibia\"\n", "name = \"tibia\"\nmesh = \"bone.stl\"\n"));
+  ASSERT_EQ(run("sweep knee.toml -o run.h5 --quiet").code, 0);
+  const std::string expected = ": the run was computed from it, expected another file to write";
+  expect_bad_input(run("export run.h5 -o bone.stl --at 0"), "bone.stl" + expected);
+  fs::create_directory_symlink(folder_, folder_ / "here");
+  expect_bad_input(run("export run.h5 -o here/bone.stl --at 0"), "here/bone.stl" + expected);
+  EXPECT_EQ(contents(folder_ / bone), contents(mesh));
+  write("knee.toml", with(contents(folder_ / "knee.toml"), "bone.stl", "out/run.stl"));
+  fs::create_directory(folder_ / "out");
+  fs::copy_file(mesh, folder_ / "out" / "run.stl");
+  ASSERT_EQ(run("sweep knee.toml -o run.h5 --quiet").code, 0);
+  EXPECT_EQ(run("export run.h5 -o out --format csv").code, 0);
+  expect_bad_input(run("export run.h5 -o out/run.stl --at 20"), "out/run.stl" + expected);
+  EXPECT_EQ(contents(folder_ / "out" / "run.stl"), contents(mesh));
+}
+
 TEST_F(Exchange, NamesWhatItCannotWrite) {
   write_run(folder_ / "run.h5", made_up_run());
   expect_bad_input(run("export run.h5 -o a.fbx"),

@@ -155,7 +155,8 @@ TEST_F(LoadMesh, CutsPolygonsIntoTriangles) {
 }
 
 TEST_F(LoadMesh, SaysWhatIsWrongWithAFile) {
-  EXPECT_NE(complaint(folder_ / "nothing.stl").find("not found"), std::string::npos);
+  EXPECT_NE(complaint(folder_ / "nothing.stl").find("no such file, expected a mesh"),
+            std::string::npos);
   EXPECT_NE(complaint(folder_).find("expected a mesh file"), std::string::npos);
   expect_complaint("empty.stl", "", "empty");
   expect_complaint("scan.vtk", "# vtk", "unsupported mesh format \".vtk\"");

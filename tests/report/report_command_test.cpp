@@ -48,6 +48,23 @@ TEST_F(CommandLine, WritesNoPageUnderTheNameOfAnotherFormat) {
       "knee.toml: is a scene (TOML), expected a run (HDF5), as condyle sweep writes it");
 }
 
+TEST_F(CommandLine, DoesNotWriteAReportOrAPictureOverWhatItsRunWasComputedFrom) {
+  const std::string said = ": the run was computed from it, expected another file to write";
+  write("knee", test::kScene);
+  write("knee.png", test::kScene);
+  ASSERT_EQ(run("sweep knee -o run.h5 --quiet").code, 0);
+  expect_bad_input(run("report run.h5 -o knee"), "knee" + said);
+  expect_bad_input(run("report run.h5 run.h5 -o knee"), "knee" + said);
+  expect_bad_input(run("report run.h5 -o table.csv"),
+                   "table.csv: the page is HTML, expected a name that ends in .html");
+  EXPECT_EQ(contents(folder_ / "knee"), test::kScene);
+#ifdef CONDYLE_PICTURES
+  ASSERT_EQ(run("sweep knee.png -o run.h5 --quiet").code, 0);
+  expect_bad_input(run("render run.h5 -o knee.png --at 0 --view medial"), "knee.png" + said);
+  EXPECT_EQ(contents(folder_ / "knee.png"), test::kScene);
+#endif
+}
+
 TEST_F(CommandLine, DoesNotWriteAReportOverItsRun) {
   ASSERT_EQ(run("sweep knee.toml -o run.h5 --quiet").code, 0);
   expect_bad_input(run("report run.h5 -o run.h5"),

@@ -239,6 +239,29 @@ TEST_F(JournalFile, ThatIsSomethingElseIsNamed) {
                            "reads up to \"condyle journal 1\"");
 }
 
+// A pose that was not found has a line as soon as it is given up, and another as final.
+TEST_F(JournalFile, HoldsOfTwoLinesOfAPoseTheLaterOne) {
+  KnownPose lost = made_up_known(1);
+  lost.pose.status = PoseStatus::kNoEquilibrium;
+  lost.open = true;
+  LineFile file(path_);
+  Journal journal(file, kIdentity, 0);
+  journal.append(lost);
+  journal.append(made_up_known(0));
+  ASSERT_EQ(read().poses.size(), 2U);
+  EXPECT_TRUE(read().poses[0].open);
+  EXPECT_TRUE(read().poses[0].from_elsewhere);
+  EXPECT_FALSE(read().poses[1].open);
+  KnownPose found = made_up_known(1);
+  found.pose.status = PoseStatus::kConverged;
+  journal.append(found);
+  const std::vector<KnownPose> poses = read().poses;
+  ASSERT_EQ(poses.size(), 2U);
+  EXPECT_EQ(poses[0].visit, 0);
+  EXPECT_TRUE(poses[1].pose.converged());
+  EXPECT_FALSE(poses[1].open);
+}
+
 TEST_F(JournalFile, CostsAFewMicrosecondsAPose) {
   LineFile file(path_);
   Journal journal(file, kIdentity, 0);

@@ -91,6 +91,9 @@ INSTANTIATE_TEST_SUITE_P(
         LayerMistake{"modulus = 10\nlayer = 3", "law = \"layer\"\ntolerance = 0.5",
                      "41: [[contact]] \"medial\": tolerance = 0.5, expected a part of the force, "
                      "above 0 and at most 0.1"},
+        LayerMistake{"modulus = 10\nlayer = 3", "law = \"layer\"\nlost_force = 0",
+                     "41: [[contact]] \"medial\": lost_force = 0, expected a part of the force, "
+                     "above 0 and at most 1"},
         LayerMistake{"modulus = 10\nlayer = 3", "law = \"layer\"\nlost_force = 1.5",
                      "41: [[contact]] \"medial\": lost_force = 1.5, expected a part of the force, "
                      "above 0 and at most 1"},

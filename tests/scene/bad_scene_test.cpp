@@ -47,9 +47,15 @@ INSTANTIATE_TEST_SUITE_P(
                 "already)"},
         Mistake{"name = \"tibia\"", "name = \"femur\"",
                 "12: [[body]] \"femur\": name = \"femur\", expected a name that is not used twice"},
+        Mistake{"name = \"tibia\"", "name = \"..\"",
+                "12: [[body]] \"..\": name = \"..\", expected a name without \"/\", other than "
+                "\".\" and "
+                "\"..\": groups of results have it"},
+        Mistake{"name = \"tibia\"", "name = \"a\\tb\"",
+                "12: [[body]] \"a?b\": name = \"a?b\", expected a name without control characters"},
         Mistake{"name = \"tibia\"", "name = \"a/b\"",
-                "12: [[body]] \"a/b\": name = \"a/b\", expected a name of at most 100 characters "
-                "without \"/\""},
+                "12: [[body]] \"a/b\": name = \"a/b\", expected a name without \"/\", other "
+                "than \".\" and \"..\": groups of results have it"},
         Mistake{"name = \"tibia\"\n", "",
                 "11: [[body]] number 2: name is missing, expected a name"},
         Mistake{"start.translation = [0, 0, 0]", "start.translation = [0, 0]",
@@ -182,6 +188,24 @@ TEST(BadSceneFile, ThatDoesNotExistIsNamed) {
 TEST(BadSceneFile, ThatIsAFolderIsNamed) {
   const std::string folder = testing::TempDir();
   EXPECT_EQ(message_of_file(folder), folder + ": is a folder, expected a scene (TOML)");
+}
+
+// Letters of three bytes each.
+TEST(BadSceneFile, NamesHaveAHundredCharactersHoweverManyBytesTheseTake) {
+  const auto named = [](int letters) {
+    std::string name;
+    for (int i = 0; i < letters; ++i) name += "\u819d";
+    return small_scene_with("name = \"aACL\"", "name = \"" + name + "\"");
+  };
+  EXPECT_EQ(parse_scene(named(100), "knee.toml").ligaments[0].name.size(), 300U);
+  try {
+    (void)parse_scene(named(101), "knee.toml");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("expected at most 100 characters, here are 101"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(BadSceneFile, NamingAMeshThatDoesNotExistSaysWhereItLooked) {

@@ -170,6 +170,16 @@ TEST_F(StudyFileTest, NeedsSomethingThatVaries) {
             "[calibrate] whose numbers the table holds");
 }
 
+// What follows the head of a table belongs to it.
+TEST_F(StudyFileTest, KeysOfTheFileBelowATableAreNamed) {
+  const std::string above = with(test::kSmallStudy, "design = \"sobol\"\n", "");
+  EXPECT_NE(message_of(above + "design = \"sobol\"\n")
+                .find("design = \"sobol\" belongs to the table above it, expected before the first "
+                      "table of the file"),
+            std::string::npos)
+      << message_of(above + "design = \"sobol\"\n");
+}
+
 TEST_F(StudyFileTest, GridThatNoOneCanCountIsRefused) {
   std::string study = with(test::kSmallStudy, "design = \"sobol\"", "design = \"grid\"");
   study = with(study, "samples = 1024", "levels = 1000000");

@@ -45,6 +45,16 @@ TEST(RangeValues, HoldAMillionAndNotMore) {
   EXPECT_THROW((void)range_values(0, 1000000, 1), InputError);
 }
 
+// A step below the spacing of doubles there would visit some values twice and leave out others.
+TEST(RangeValues, AreAllDifferent) {
+  EXPECT_THROW((void)range_values(90, 90 + 1e-9, 1e-14), InputError);
+  EXPECT_THROW((void)range_values(99999999999999990.0, 1e17, 1), InputError);
+  EXPECT_THROW((void)range_values(0, 1e-12, 1e-13), InputError);
+  const std::vector<double> values = range_values(1, 1 + 1e-5, 2e-6);
+  ASSERT_EQ(values.size(), 6U);
+  for (std::size_t i = 1; i < values.size(); ++i) EXPECT_GT(values[i], values[i - 1]);
+}
+
 TEST(RangeValues, ThatLeadNowhereSayWhy) {
   try {
     (void)range_values(90, 0, 5);

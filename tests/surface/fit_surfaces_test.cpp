@@ -184,7 +184,7 @@ TEST(FitSurfaces, FitsABoxInPlaceOfACompartment) {
   const SurfacePoint middle = fitted[0].surface->evaluate(fitted[0].surface->seed({0, -22, -22}));
   EXPECT_GT(middle.n.y(), 0.9);
   scene.surfaces[0].patch.region_box = {{{300, 300, 300}, {310, 310, 310}}};
-  EXPECT_NE(complaint(scene).find("surface \"medial condyle\": the region box holds no part"),
+  EXPECT_NE(complaint(scene).find("[[surface]] \"medial condyle\": the region box holds no part"),
             std::string::npos);
 }
 
@@ -228,17 +228,30 @@ TEST(FitSurfaces, MakesExactKindsWithoutAMesh) {
 TEST(FitSurfaces, NamesTheSurfaceThatCannotBeFitted) {
   Scene scene = knee(phantom_files());
   scene.bodies[0].mesh.reset();
-  EXPECT_NE(
-      complaint(scene).find("knee.toml: surface \"medial condyle\": kind = \"patch\" needs a mesh"),
-      std::string::npos)
+  EXPECT_NE(complaint(scene).find("[[surface]] \"medial condyle\": kind = \"patch\" needs a mesh"),
+            std::string::npos)
       << complaint(scene);
   scene = knee(phantom_files());
   scene.joint.reset();
   EXPECT_NE(complaint(scene).find("[joint]"), std::string::npos);
   scene = knee(phantom_files());
   scene.surfaces[2].patch.control_points = {60, 60};
-  EXPECT_NE(complaint(scene).find("surface \"lateral condyle\""), std::string::npos)
+  EXPECT_NE(complaint(scene).find("[[surface]] \"lateral condyle\""), std::string::npos)
       << complaint(scene);
+  for (const double smoothing : {0.0, 1000.0}) {
+    scene = knee(phantom_files());
+    scene.surfaces[2].line = 7;
+    scene.surfaces[2].patch.smoothing = smoothing;
+    const std::string told = complaint(scene);
+    EXPECT_NE(told.find("knee.toml:7: [[surface]] \"lateral condyle\""), std::string::npos) << told;
+    EXPECT_NE(
+        told.find(smoothing > 0 ? "fit.smoothing = 1000, expected" : "fit.smoothing = 0, expected"),
+        std::string::npos)
+        << told;
+  }
+  scene = knee(phantom_files());
+  scene.surfaces[2].patch.region_angles = {0, 1e-5};
+  EXPECT_NE(complaint(scene).find("region.angles = [0, "), std::string::npos) << complaint(scene);
   scene = knee(phantom_files());
   scene.bodies[0].mesh->to_mm = 1000;
   EXPECT_NE(complaint(scene).find("look like mm"), std::string::npos) << complaint(scene);

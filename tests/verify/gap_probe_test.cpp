@@ -81,6 +81,7 @@ class Counted final : public SurfaceSide {
  public:
   explicit Counted(std::unique_ptr<SurfaceSide> side) : side_(std::move(side)) {}
   [[nodiscard]] std::vector<Cell> cells(double size) const override { return side_->cells(size); }
+  [[nodiscard]] double longest_way() const override { return side_->longest_way(); }
   [[nodiscard]] ChartPoint at(int chart, double u, double v) const override {
     return side_->at(chart, u, v);
   }

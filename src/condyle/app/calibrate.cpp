@@ -53,7 +53,6 @@ void check_files(const CalibrateCommand& command, const Scene& scene) {
   for (std::size_t i = 0; i < files.size(); ++i) {
     check_output_file(files[i]);
     refuse_to_overwrite_inputs(files[i], scene);
-    refuse_to_overwrite(files[i], {scene.calibration->measurements});
     for (std::size_t k = 0; k < i; ++k)
       if (fs::weakly_canonical(fs::absolute(files[i])) ==
           fs::weakly_canonical(fs::absolute(files[k])))

@@ -19,6 +19,7 @@
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/specimen/fit_wraps.h"
+#include "condyle/specimen/start_warnings.h"
 #include "condyle/specimen/strands_in_bone.h"
 
 namespace condyle {
@@ -74,17 +75,20 @@ void print_mass(const Scene& scene) {
 
 int run_check(const CheckOptions& options) {
   Scene scene = read_scene(options.scene);
+#ifdef CONDYLE_PICTURES
   if (!options.report.empty()) {
-    check_output_file(options.report);
+    check_scene_page(options.report);
     refuse_to_overwrite_inputs(options.report, scene);
   }
+#endif
   std::vector<TriangleMesh> bones;
   for (const BodyDescription& body : scene.bodies) bones.push_back(load_body_mesh(body));
   fit_wraps(scene, bones);
   tell("{}", describe(scene));
   print_meshes(scene, bones);
   for (const std::string& line : describe_wrap_fits(scene)) tell("{}\n", line);
-  const std::vector<std::string> warnings = wrap_warnings(scene, bones);
+  std::vector<std::string> warnings = size_warnings(scene);
+  for (std::string& line : wrap_warnings(scene, bones)) warnings.push_back(std::move(line));
   for (const std::string& line : warnings) tell("{}\n", line);
   if (scene.simulation) print_mass(scene);
 #ifdef CONDYLE_PICTURES

@@ -1,6 +1,8 @@
 #include "condyle/app/command_tree.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 namespace condyle {
@@ -36,21 +38,36 @@ std::vector<OptionFacts> options_of(const CLI::App& app) {
   return options;
 }
 
-bool is_number(const CLI::Option& option) {
+enum class Kind { kText, kNumber, kWhole, kCount };
+
+Kind kind_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
-  return type.rfind("FLOAT", 0) == 0 || type.rfind("INT", 0) == 0 || type.rfind("UINT", 0) == 0;
+  if (type.rfind("FLOAT", 0) == 0) return Kind::kNumber;
+  if (type.rfind("INT", 0) == 0) return Kind::kWhole;
+  return type.rfind("UINT", 0) == 0 ? Kind::kCount : Kind::kText;
+}
+
+/// What is wrong with a value; nothing where it will do, or where CLI11 says it.
+std::string fault_of(Kind kind, const std::string& text) {
+  if (text.empty()) return kind == Kind::kText ? "expected a value" : "expected a number";
+  if (kind == Kind::kText) return {};
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  if (end != text.c_str() + text.size()) return {};
+  if (!std::isfinite(number)) return text + ", expected a finite number";
+  if (kind == Kind::kNumber) return {};
+  if (text.find_first_of(".eExXpP") != std::string::npos) return text + ", expected a whole number";
+  return kind == Kind::kCount && number < 0 ? text + ", expected a whole number >= 0" : "";
 }
 
 }  // namespace
 
-void refuse_empty_values(CLI::App& program) {
+void check_values(CLI::App& program) {
   for (CLI::App* command : program.get_subcommands(nullptr)) {
     for (CLI::Option* option : command->get_options()) {
       if (option->get_items_expected_max() == 0) continue;
-      const std::string expected = is_number(*option) ? "expected a number" : "expected a value";
       option->transform(CLI::Validator(  // before its other checks, which say less
-          [expected](const std::string& text) { return text.empty() ? expected : std::string(); },
-          ""));
+          [kind = kind_of(*option)](const std::string& text) { return fault_of(kind, text); }, ""));
     }
   }
 }

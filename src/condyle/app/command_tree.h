@@ -32,9 +32,9 @@ struct ProgramFacts {
 
 [[nodiscard]] ProgramFacts program_facts(const CLI::App& program);
 
-/// No option takes an empty text: CLI11 would read it as the number 0. After all commands are
-/// there.
-void refuse_empty_values(CLI::App& program);
+/// Has every option refuse an empty text, which CLI11 would read as the number 0; one of numbers also NaN and infinity,
+/// and one of whole numbers all others. After all commands are there.
+void check_values(CLI::App& program);
 
 /// What makes bash, zsh or fish complete commands and options, as text to be sourced. Throws
 /// InputError for another shell.

@@ -19,6 +19,7 @@
 #include "condyle/exchange/stl_run.h"
 #include "condyle/exchange/vtk_run.h"
 #include "condyle/input_error.h"
+#include "condyle/results/make_run.h"
 #include "condyle/results/output_file.h"
 
 namespace condyle {
@@ -169,8 +170,9 @@ void expect_names_that_differ(const fs::path& folder, const std::vector<ExportFi
                       (folder / file.path).string()));
 }
 
-void write_folder(const fs::path& folder, const std::vector<ExportFile>& files) {
+void write_folder(const fs::path& folder, const std::vector<ExportFile>& files, const Run& run) {
   expect_names_that_differ(folder, files);
+  for (const ExportFile& file : files) refuse_to_overwrite_sources(folder / file.path, run);
   make_folder(folder);
   std::size_t quiet = 0;
   for (const ExportFile& file : files) {
@@ -199,8 +201,10 @@ int run_export(const ExportCommand& command) {
                                    command.output, parent.string()));
     }
     write_folder(folder,
-                 exporter.folder(command.formats.empty() ? kDefaultFormats : command.formats));
+                 exporter.folder(command.formats.empty() ? kDefaultFormats : command.formats), run);
   } else {
+    refuse_to_overwrite(command.output, {command.run});
+    refuse_to_overwrite_sources(command.output, run);
     write_output_file(command.output, exporter.bytes(ending));
     tell("wrote {}\n", command.output);
   }
@@ -230,7 +234,7 @@ void setup_export(CLI::App& program, int& status) {
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--triangles", options->triangles,
-                      "at most about so many triangles in each bone");
+                      "at most about so many triangles in each bone; 0: all of them");
   command->footer("Example: condyle export out/phantom.h5 -o out/phantom.glb");
   command->callback([options, &status] { status = run_export(*options); });
 }

@@ -57,7 +57,9 @@ void check_outputs(const NewCommand& command, const NewKneeFiles& files) {
       throw InputError(quotable(name) +
                        ": a name with control characters, which a scene cannot hold");
   check_output_file(command.output);
-  if (!command.report.empty()) check_output_file(command.report);
+#ifdef CONDYLE_PICTURES
+  if (!command.report.empty()) check_scene_page(command.report);
+#endif
   if (fs::path(command.report).lexically_normal() == fs::path(command.output).lexically_normal())
     throw InputError(command.report + ": scene and report, expected two files");
   std::vector<fs::path> read = files.cartilage;

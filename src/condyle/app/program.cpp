@@ -88,7 +88,7 @@ int run_program(const std::string& name,
                            name + " " CONDYLE_VERSION "\n" + build_lines(build_info()));
   program.require_subcommand(1);
   for (const SetupCommand& setup : commands) setup(program, status);
-  refuse_empty_values(program);
+  check_values(program);
   const CLI::App* command = find_command(program, argc, argv);
   const std::string help = fmt::format(" ({}{} --help says more)", name,
                                        command == nullptr ? "" : " " + command->get_name());

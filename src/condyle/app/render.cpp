@@ -22,6 +22,7 @@
 #include "condyle/pictures/png_file.h"
 #include "condyle/pictures/pressure_map.h"
 #include "condyle/pictures/strip.h"
+#include "condyle/results/make_run.h"
 #include "condyle/results/output_file.h"
 #include "condyle/results/run_view.h"
 #include "condyle/results/without_poses.h"
@@ -131,15 +132,14 @@ bool holds_pressures(const Run& run) {
 // Where pictures go: into a folder, or, where the name asks for it, one into a file.
 class Output {
  public:
-  Output(const RenderCommand& command, std::size_t pictures) {
+  Output(const RenderCommand& command, const Run& run, std::size_t pictures) {
     const std::filesystem::path path(command.output);
     const std::string ending = path.extension().string();
     if (ending == ".mp4" && !command.movie)
       throw InputError(command.output + ": an MP4 is a movie: add --movie");
-    for (const char* other : {".jpg", ".jpeg", ".svg", ".pdf", ".tif", ".tiff"})
-      if (ending == other)
-        throw InputError(command.output +
-                         ": pictures are PNG, expected a name that ends in .png, or a folder");
+    if (ends_like_another_format(path))
+      throw InputError(command.output +
+                       ": pictures are PNG, expected a name that ends in .png, or a folder");
     if (ending != ".png" && ending != ".mp4") {
       folder_ = make_picture_folder(command.output);
       return;
@@ -151,6 +151,8 @@ class Output {
                       command.output, pictures));
     file_ = path;
     check_output_file(file_);
+    refuse_to_overwrite(file_, {command.run});
+    refuse_to_overwrite_sources(file_, run);
   }
   [[nodiscard]] std::filesystem::path path(const std::string& stem) const {
     return file_.empty() ? folder_ / (stem + ".png") : file_;
@@ -192,7 +194,7 @@ struct Job {
 };
 
 void draw_singles(const Job& job, Account& account) {
-  const Output output(job.command, job.views.size() * job.poses.size());
+  const Output output(job.command, job.run, job.views.size() * job.poses.size());
   KneePictures pictures(job.run, job.options);
   for (const std::size_t pose : job.poses) {
     for (const View view : job.views) {
@@ -206,7 +208,7 @@ void draw_singles(const Job& job, Account& account) {
 }
 
 void draw_strips(const Job& job, Account& account) {
-  const Output output(job.command, job.views.size());
+  const Output output(job.command, job.run, job.views.size());
   for (const View view : job.views) {
     const std::filesystem::path file = output.path(fmt::format("{}_strip", name(view)));
     PictureOptions options = job.options;
@@ -222,7 +224,7 @@ void draw_strips(const Job& job, Account& account) {
 }
 
 void draw_movies(const Job& job, Account& account) {
-  const Output output(job.command, job.views.size());
+  const Output output(job.command, job.run, job.views.size());
   for (const View view : job.views) {
     const std::filesystem::path file = output.path(fmt::format("{}_movie", name(view)));
     Movie movie(file, job.command.frames_per_second);

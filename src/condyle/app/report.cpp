@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "condyle/app/commands.h"
@@ -17,6 +16,7 @@
 #include "condyle/report/compared_runs_page.h"
 #include "condyle/report/report_page.h"
 #include "condyle/report/study_page.h"
+#include "condyle/results/make_run.h"
 #include "condyle/results/output_file.h"
 #include "condyle/results/run_file.h"
 #include "condyle/results/study_file.h"
@@ -33,17 +33,19 @@ struct ReportCommand {
 
 void check_output(const ReportCommand& command) {
   const std::filesystem::path ending = std::filesystem::path(command.output).extension();
-  for (const char* other : {".pdf", ".png", ".svg"})
+  for (const char* other :
+       {".pdf", ".png", ".svg", ".toml", ".csv", ".stl", ".ply", ".obj", ".off"})
     if (ending == other)
-      throw InputError(command.output +
-                       ": the page is HTML, expected a name that ends in .html; browsers print it");
+      throw InputError(fmt::format("{}: the page is HTML, expected a name that ends in .html{}",
+                                   command.output, ending == ".pdf" ? "; browsers print it" : ""));
   check_output_file(command.output);
-  for (const std::string& run : command.runs) {
-    std::error_code unknown;
-    if (std::filesystem::equivalent(command.output, run, unknown))
-      throw InputError(command.output +
-                       ": is read by this command, expected another file to write");
-  }
+  refuse_to_overwrite(command.output, {command.runs.begin(), command.runs.end()});
+}
+
+Run read_source(const ReportCommand& command, const std::string& file) {
+  Run run = read_run(file);
+  refuse_to_overwrite_sources(command.output, run);
+  return run;
 }
 
 std::string page_of_study(const ReportCommand& command, Progress& progress) {
@@ -72,7 +74,7 @@ int report_one(const ReportCommand& command) {
   CommandClock clock;
   const std::string& file = command.runs.front();
   const bool study = is_study_file(file);
-  const Run run = study ? Run{} : read_run(file);
+  const Run run = study ? Run{} : read_source(command, file);
   Progress progress(command.talk, "sections");
   write_page(command, progress,
              study ? page_of_study(command, progress) : page_of_run(command, run, progress));
@@ -81,7 +83,8 @@ int report_one(const ReportCommand& command) {
   return finish(command.talk, facts, run);
 }
 
-std::vector<Run> read_compared(const std::vector<std::string>& files) {
+std::vector<Run> read_compared(const ReportCommand& command) {
+  const std::vector<std::string>& files = command.runs;
   if (files.size() > kMostComparedRuns)
     throw InputError(
         fmt::format("{} runs to compare, expected at most {}", files.size(), kMostComparedRuns));
@@ -89,14 +92,14 @@ std::vector<Run> read_compared(const std::vector<std::string>& files) {
   for (const std::string& file : files) {
     if (is_study_file(file))
       throw InputError(file + ": is a study, expected runs; a study is reported by itself");
-    runs.push_back(read_run(file));
+    runs.push_back(read_source(command, file));
   }
   return runs;
 }
 
 int report_compared(const ReportCommand& command) {
   CommandClock clock;
-  const std::vector<Run> runs = read_compared(command.runs);
+  const std::vector<Run> runs = read_compared(command);
   const std::vector<std::string> names = run_names(command.runs);
   std::vector<ComparedRun> compared;
   for (std::size_t i = 0; i < runs.size(); ++i)

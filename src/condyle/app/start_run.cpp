@@ -1,9 +1,11 @@
 #include "condyle/app/start_run.h"
 
 #include "condyle/equilibrium/build_model.h"
+#include "condyle/input_error.h"
 #include "condyle/pictures/png_file.h"
 #include "condyle/pictures/scene_page.h"
 #include "condyle/results/make_run.h"
+#include "condyle/results/output_file.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/specimen/fit_wraps.h"
 
@@ -24,6 +26,12 @@ Run start_run(Scene scene) {
   pose.conditions.resize(scene.conditions.size());
   run.sweep.poses.push_back(std::move(pose));
   return run;
+}
+
+void check_scene_page(const std::string& file) {
+  if (ends_like_another_format(file))
+    throw InputError(file + ": the picture is PNG, expected a name that ends in .png");
+  check_output_file(file);
 }
 
 void write_scene_page(const std::string& file,

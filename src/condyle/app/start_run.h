@@ -13,6 +13,9 @@ namespace condyle {
 /// forces of the ligaments along their paths. Wraps that are fitted to bone are fitted. Nothing is solved.
 [[nodiscard]] Run start_run(Scene scene);
 
+/// Throws InputError where a picture cannot become that file, or would be under the name of another format.
+void check_scene_page(const std::string& file);
+
 /// Draws it into a PNG file (pictures/scene_page.h).
 void write_scene_page(const std::string& file,
                       const Run& run,

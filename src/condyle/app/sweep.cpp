@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "condyle/app/begin_study.h"
@@ -53,17 +56,44 @@ int sweeps_of_uncertainty(const std::string& words) {
   return sweeps;
 }
 
-// The sweep with its table; each pose goes into the journal as soon as it is known.
+/// Keeps poses in the journal as soon as they are known, and counts them.
+class KeptPoses {
+ public:
+  KeptPoses(const std::string& output, Journal& journal, const EarlierPoses& earlier)
+      : output_(output), journal_(journal), resumed_(!earlier.poses.empty()) {
+    if (earlier.journal_bytes > 0) words_.emplace(last_words(output, "poses"));
+    for (const KnownPose& pose : earlier.poses)
+      if (pose.open) there_.insert(key(pose));
+  }
+  void keep(const KnownPose& pose) {
+    journal_.append(pose);
+    if (!words_ && journal_.failure().empty()) words_.emplace(last_words(output_, "poses"));
+    if (there_.insert(key(pose)).second) ++computed_;
+  }
+  [[nodiscard]] bool resumed() const { return resumed_; }
+  [[nodiscard]] std::size_t computed() const { return computed_; }
+
+ private:
+  using Key = std::pair<double, int>;
+  static Key key(const KnownPose& pose) { return {pose.pose.value, pose.visit}; }
+
+  const std::string& output_;
+  Journal& journal_;
+  bool resumed_;
+  std::optional<LastWords> words_;  ///< as soon as the journal holds a pose
+  std::set<Key> there_;
+  std::size_t computed_ = 0;
+};
+
+// The sweep with its table.
 SweepResult sweep_aloud(const Talk& talk,
                         const Scene& scene,
                         const std::vector<FittedSurface>& surfaces,
                         std::vector<KnownPose> known,
-                        Journal& journal) {
+                        KeptPoses& kept) {
   const SweepTable table(scene, quantity_of_sweep(scene));
   say(talk, "{}", table.head());
-  const bool resumed = !known.empty();
-  std::size_t computed = 0;
-  int done = 0;
+  int done = 0, tried = 0;
   const int total = scene.sweep->arc_length ? 0 : static_cast<int>(scene.sweep->values.size());
   Progress progress(talk, "poses");
   SweepOptions options;
@@ -74,17 +104,19 @@ SweepResult sweep_aloud(const Talk& talk,
       tell("{}", table.row(pose));
       std::fflush(stdout);
     }
-    progress.at(++done, total);
+    progress.at(tried = std::max(tried, ++done), total);
   };
-  options.on_computed = [&](const KnownPose& pose) {
-    journal.append(pose);
-    ++computed;
+  options.on_computed = [&](const KnownPose& pose) { kept.keep(pose); };
+  options.on_open = [&](const KnownPose& pose) {
+    kept.keep(pose);
+    progress.at(++tried, total);
   };
   SweepResult result = sweep(scene, surfaces, options);
   progress.clear();
   say(talk, "\n{}\n", summary(result));
-  if (resumed)
-    say(talk, "{} poses taken over, {} computed\n", result.poses.size() - computed, computed);
+  if (kept.resumed())
+    say(talk, "{} poses taken over, {} computed\n", result.poses.size() - kept.computed(),
+        kept.computed());
   return result;
 }
 
@@ -129,8 +161,8 @@ int run_sweep(const SweepCommand& command) {
   EarlierPoses earlier = earlier_poses(command.output, command.resume, scene, surfaces);
   if (!earlier.message.empty()) say(talk, "{}\n\n", earlier.message);
   Journal journal(journal_file, identity(scene, surfaces), earlier.journal_bytes);
-  const LastWords words(last_words(command.output, "poses"));
-  run.sweep = sweep_aloud(talk, scene, surfaces, std::move(earlier.poses), journal);
+  KeptPoses kept(command.output, journal, earlier);
+  run.sweep = sweep_aloud(talk, scene, surfaces, std::move(earlier.poses), kept);
   run.sensitivities = sweep_sensitivities(scene, surfaces, run.sweep.poses);
   run.uncertainty = uncertainty_aloud(talk, more_sweeps, scene, surfaces, run.sweep.poses);
   const SweepResult& result = run.sweep;

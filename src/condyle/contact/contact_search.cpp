@@ -16,6 +16,7 @@
 #include "condyle/contact/line_contact.h"
 #include "condyle/contact/rim_minimum.h"
 #include "condyle/contact/settle_places.h"
+#include "condyle/surface/affordable_samples.h"
 #include "condyle/surface/has_edge.h"
 
 namespace condyle {
@@ -34,20 +35,6 @@ constexpr double kModel = 0.01;     // what the paraboloid of the gap may be wro
 constexpr long kPrediction = 3;   // where the paraboloid of the gap at a sample leads to
 constexpr long kRefinement = 40;  // to a minimum of the gap
 constexpr long kRim = 100;        // for the lowest point of an edge
-
-/// The spacing that is wanted, or a wider one where that would take too many samples: a small model
-/// on a large ball. The area is told by a coarse cover.
-double affordable_spacing(const Surface& surface, double wanted) {
-  constexpr std::size_t kEnough = 64, kMost = 20000;
-  const double size = surface.extent().radius;
-  if (!std::isfinite(size)) return wanted;
-  for (double coarse = size / 2; coarse > wanted; coarse /= 2) {
-    const std::size_t n = surface.samples(coarse).size();
-    if (n < kEnough) continue;
-    return std::max(wanted, coarse * std::sqrt(static_cast<double>(n) / kMost));
-  }
-  return wanted;
-}
 
 /// No wider than what the smaller surface takes to be seen: lever arms of a model may be much longer than
 /// its surfaces.

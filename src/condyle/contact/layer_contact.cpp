@@ -27,7 +27,12 @@ constexpr std::size_t kLevels = kCells.size();
 class Lattices {
  public:
   explicit Lattices(const ContactPair& pair)
-      : on_B(pair.on_B), on_A(pair.on_A), into_B(*on_B), into_A(*on_A) {
+      : on_B(pair.on_B),
+        on_A(pair.on_A),
+        into_B(*on_B),
+        into_A(*on_A),
+        uses_B_(has_fine_lattice(*on_B) || !has_fine_lattice(*on_A)),
+        uses_A_(has_fine_lattice(*on_A) || !has_fine_lattice(*on_B)) {
     if (of_A(0) == nullptr && of_B(0) == nullptr)
       throw std::invalid_argument("contact \"" + pair.name +
                                   "\": a layer needs bounds of one of its surfaces at least");
@@ -35,10 +40,10 @@ class Lattices {
 
   /// Null for a surface without points.
   [[nodiscard]] const LayerLattice* of_A(std::size_t level) const {
-    return lattice(*on_A, of_A_[level], level);
+    return uses_A_ ? lattice(*on_A, of_A_[level], level) : nullptr;
   }
   [[nodiscard]] const LayerLattice* of_B(std::size_t level) const {
-    return lattice(*on_B, of_B_[level], level);
+    return uses_B_ ? lattice(*on_B, of_B_[level], level) : nullptr;
   }
   /// Of lattices that have points.
   [[nodiscard]] const LayerCorners& corners_of(bool A, std::size_t level) const {
@@ -63,6 +68,7 @@ class Lattices {
     return entry.lattice.x.empty() ? nullptr : &entry.lattice;
   }
 
+  bool uses_B_, uses_A_;
   mutable std::array<Entry, kLevels> of_A_, of_B_;
 };
 

@@ -2,7 +2,7 @@
 
 /// Elastic layers as the law of a pair (contact_law.h): U = (U_A + U_B)/2, material points of
 /// either surface pressed into the other (layer_side.h). The mean takes away the preference of a
-/// side, which is of the order of depth over radius. A surface without bounds has no points:
+/// side, which is of the order of depth over radius. A surface without bounds, or too large for a fine lattice, has no points:
 /// those of the other carry alone.
 ///
 /// The lattice is as fine as the force asks for: a pose is solved on one lattice, which is held

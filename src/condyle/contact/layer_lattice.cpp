@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "condyle/surface/exact_charts.h"
@@ -107,9 +108,20 @@ void add_blocks(
     }
 }
 
+constexpr double kSpan = 2;             // [mm]
+constexpr double kFine = 4;             // wide enough for a surface beside a smaller one [mm]
+constexpr int kFewest = 8, kMost = 64;  // a small or a great surface has them finer or coarser
+
+/// How wide the spans of a surface are; of one without bounds infinite.
+double widest_span(const std::vector<SurfaceChart>& charts) {
+  double widest = charts.empty() ? std::numeric_limits<double>::infinity() : 0;
+  for (const SurfaceChart& chart : charts)
+    widest = std::max(
+        {widest, (chart.u_max - chart.u_min) / kMost, (chart.v_max - chart.v_min) / kMost});
+  return widest;
+}
+
 std::vector<double> even_breaks(double min, double max) {
-  constexpr double kSpan = 2;             // [mm]
-  constexpr int kFewest = 8, kMost = 64;  // a small or a great surface has them finer or coarser
   const int spans =
       static_cast<int>(std::clamp<double>(std::ceil((max - min) / kSpan), kFewest, kMost));
   std::vector<double> all;
@@ -145,6 +157,11 @@ LayerLattice layer_lattice(const Surface& surface, int per_span, bool shifted) {
     });
   }
   return lattice;
+}
+
+bool has_fine_lattice(const Surface& surface) {
+  const auto* exact = dynamic_cast<const ExactSurface*>(&surface);
+  return exact == nullptr || widest_span(exact->charts()) <= kFine;
 }
 
 LayerCorners layer_corners(const Surface& surface, int per_span, const LayerLattice& lattice) {

@@ -33,6 +33,10 @@ struct LayerLattice {
   std::vector<LayerBlock> blocks;
 };
 
+/// Of a patch, and of an exact surface whose spans are not wider than 4 mm: beside another one that is too large for that,
+/// it alone is summed on.
+[[nodiscard]] bool has_fine_lattice(const Surface& surface);
+
 /// The corners of a lattice's cells: the same lattice shifted by half a cell in both directions.
 struct LayerCorners {
   struct alignas(32) Point {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "condyle/contact/settle_places.h"
+#include "condyle/surface/affordable_samples.h"
 
 namespace condyle {
 namespace {
@@ -26,7 +27,7 @@ bool is_straight_at(const SurfacePoint& point, double spacing) {
 }
 
 bool is_ruled(const Surface& surface, double spacing) {
-  std::vector<Place> places = surface.samples(4 * spacing);
+  std::vector<Place> places = affordable_samples(surface, 4 * spacing);
   if (places.empty())
     for (int k = 0; k < 3; ++k) places.push_back(surface.seed(spacing * Eigen::Vector3d(1, k, 2)));
   const auto straight = std::count_if(places.begin(), places.end(), [&](const Place& place) {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "condyle/equilibrium/motion_name.h"
+#include "condyle/surface/affordable_samples.h"
 
 namespace condyle {
 namespace {
@@ -61,7 +62,7 @@ Eigen::Vector3d outward(const Surface& surface, const Place& place, double step)
 /// Mean of a surface's samples in its anatomical frame.
 Eigen::Vector3d middle(const Seen& seen, double L) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const std::vector<Place> places = seen.surface.samples(0.2 * L);
+  const std::vector<Place> places = affordable_samples(seen.surface, 0.2 * L);
   for (const Place& place : places) sum += seen.point(seen.surface.evaluate_frame(place).c);
   return places.empty() ? sum : Eigen::Vector3d(sum / static_cast<double>(places.size()));
 }

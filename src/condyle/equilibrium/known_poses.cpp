@@ -44,7 +44,7 @@ std::vector<KnownPose> known_poses(const SweepResult& result) {
   std::vector<KnownPose> poses;
   std::unordered_map<double, int> visits;
   for (const PoseResult& pose : result.poses)
-    poses.push_back({pose, visits[pose.value]++, {}, {}, false});
+    poses.push_back({pose, visits[pose.value]++, {}, {}, false, false});
   if (const int rising = direction(result.poses)) hand_out_events(result.events, rising, poses);
   return poses;
 }

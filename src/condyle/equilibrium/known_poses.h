@@ -16,6 +16,7 @@ struct KnownPose {
   std::optional<double> from;
   std::vector<Event> events;
   bool from_elsewhere = false;  ///< not found from the pose before it
+  bool open = false;  ///< not found, and not looked for yet from a later pose that converged
 };
 
 /// The poses of a result, in its order. Its events find their places where the values only rise or

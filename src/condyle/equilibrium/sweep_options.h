@@ -25,6 +25,9 @@ struct SweepOptions {
   /// Called for each pose that was not taken over, when the events before it are located: all that
   /// another sweep has to know.
   std::function<void(const KnownPose&)> on_computed;
+  /// Called before that for each pose that was not found and was not taken over, as soon as it is given up from the side
+  /// of the pose before it.
+  std::function<void(const KnownPose&)> on_open;
 };
 
 }  // namespace condyle

@@ -35,10 +35,12 @@ void SweepWalk::step(double value) {
   stop.visit = visits_[value]++;
   const KnownPose* known = known_.find(value, stop.visit);
   if (known != nullptr && take_over(*known, stop)) {
-    stop.taken = known;
+    if (!known->open) stop.taken = known;
     stop.from_elsewhere = known->from_elsewhere;
   } else {
     compute(stop);
+    if (!stop.converged() && options_.on_open)
+      options_.on_open({stop.at.result, stop.visit, {}, {}, stop.from_elsewhere, true});
   }
   if (!stop.converged()) return;
   last_converged_ = stops_.size() - 1;
@@ -129,7 +131,7 @@ void SweepWalk::tell() {
     if (options_.on_pose) options_.on_pose(stop.at.result);
     if (stop.taken == nullptr && options_.on_computed)
       options_.on_computed(
-          {stop.at.result, stop.visit, stop.from, stop.events, stop.from_elsewhere});
+          {stop.at.result, stop.visit, stop.from, stop.events, stop.from_elsewhere, false});
   }
 }
 

@@ -25,7 +25,7 @@ class SweepWalk {
   struct Stop {
     SolvedPose at;
     int visit = 0;
-    const KnownPose* taken = nullptr;  ///< over from an earlier sweep
+    const KnownPose* taken = nullptr;  ///< over from an earlier sweep, as final
     bool from_elsewhere = false;       ///< not found from the pose before it
     std::optional<double> from;        ///< as in KnownPose
     std::vector<Event> events;

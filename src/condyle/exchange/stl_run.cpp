@@ -51,7 +51,11 @@ std::string stl(const std::vector<std::pair<const TriangleMesh*, RigidTransform>
 }  // namespace
 
 std::string file_word(const std::string& name) {
-  std::string word = name;
+  constexpr std::size_t kLongest = 100;  // bytes: names of files have at most 255
+  std::size_t end = std::min(name.size(), kLongest);
+  while (end < name.size() && end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U)
+    --end;
+  std::string word = name.substr(0, end);
   for (char& c : word) {
     const auto u = static_cast<unsigned char>(c);
     if (!(std::isalnum(u) || c == '-' || c == '.' || u >= 0x80)) c = '_';

@@ -14,7 +14,7 @@ namespace condyle {
 
 MeshBytes::MeshBytes(std::filesystem::path file) : file_(std::move(file)) {
   std::error_code error;
-  if (!std::filesystem::exists(file_, error)) fail("mesh file not found");
+  if (!std::filesystem::exists(file_, error)) fail("no such file, expected a mesh");
   if (!std::filesystem::is_regular_file(file_, error))
     fail("expected a mesh file, found something else");
   const auto size = std::filesystem::file_size(file_, error);
@@ -35,7 +35,7 @@ MeshBytes::MeshBytes(std::filesystem::path file, std::string_view content)
 }
 
 void MeshBytes::fail(std::string_view what) const {
-  throw InputError(fmt::format("{}: {}", file_.string(), what));
+  throw InputError(fmt::format("{}: {}", file_.lexically_normal().string(), what));
 }
 
 std::string quotable(std::string_view text) {

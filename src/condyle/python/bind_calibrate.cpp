@@ -36,7 +36,6 @@ class BestSoFar {
     if (output.empty()) return;
     check_output_file(output);
     refuse_to_overwrite_inputs(output, scene);
-    refuse_to_overwrite(output, {scene.calibration->measurements});
     const std::filesystem::path path = journal_path(output);
     expect_calibration_journal(path);
     const CalibrationIdentity identity = calibration_identity(scene, knee.fitted().surfaces);

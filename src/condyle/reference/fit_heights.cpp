@@ -12,6 +12,7 @@
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/scene/start_pose.h"
 #include "condyle/scene/swept_quantity.h"
+#include "condyle/surface/affordable_samples.h"
 
 namespace condyle {
 namespace {
@@ -35,7 +36,7 @@ Points points_of(const FittedSurface& fitted) {
     points.weights = vertex_areas(fitted.region);
     return points;
   }
-  for (const Place& place : fitted.surface->samples(kSampleSpacing)) {
+  for (const Place& place : affordable_samples(*fitted.surface, kSampleSpacing)) {
     const SurfacePoint at = fitted.surface->evaluate_frame(place);
     points.c.push_back(at.c);
     points.n.push_back(at.n);

@@ -53,7 +53,9 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : name_(file.string())
   if (std::filesystem::is_directory(file, error))
     throw InputError(name_ + ": is a folder, expected a run (HDF5)");
   if (!std::filesystem::is_regular_file(file, error))
-    throw InputError(name_ + ": no such file, expected a run (HDF5)");
+    throw InputError(
+        name_ + (std::filesystem::exists(file, error) ? ": is no plain file" : ": no such file") +
+        ", expected a run (HDF5)");
   if (file.extension() == ".toml")
     throw InputError(name_ +
                      ": is a scene (TOML), expected a run (HDF5), as condyle sweep writes it");

@@ -132,7 +132,7 @@ std::string Hdf5Group::read_attribute_of(const Hdf5Handle& object, const std::st
   const bool one =
       std::all_of(shape.begin(), shape.end(), [](std::size_t size) { return size == 1; });
   check(one ? H5Aread(attribute.id(), type.id(), &raw) : -1,
-        fmt::format("attribute {} cannot be read as a text", name));
+        fmt::format("attribute {} cannot be read, expected a text: the file is damaged", name));
   std::string text = raw == nullptr ? "" : raw;
   H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, &raw);
   return text;

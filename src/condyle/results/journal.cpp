@@ -1,5 +1,6 @@
 #include "condyle/results/journal.h"
 
+#include <map>
 #include <utility>
 
 #include "condyle/results/journal_line.h"
@@ -9,6 +10,16 @@ namespace condyle {
 namespace {
 
 constexpr JournalKind kSweepJournal = {"condyle journal 1", "a sweep"};
+
+/// Of the lines of one pose the last.
+std::vector<KnownPose> each_once(std::vector<KnownPose> lines) {
+  std::map<std::pair<double, int>, std::size_t> last;
+  for (std::size_t i = 0; i < lines.size(); ++i) last[{lines[i].pose.value, lines[i].visit}] = i;
+  std::vector<KnownPose> poses;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (last[{lines[i].pose.value, lines[i].visit}] == i) poses.push_back(std::move(lines[i]));
+  return poses;
+}
 
 }  // namespace
 
@@ -28,6 +39,7 @@ JournalContents read_journal(const std::filesystem::path& path, const Scene& sce
     journal.poses.push_back(std::move(known));
     return true;
   });
+  journal.poses = each_once(std::move(journal.poses));
   return journal;
 }
 

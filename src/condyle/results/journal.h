@@ -10,7 +10,8 @@
 ///
 /// (one line each). Numbers in mm, N, N mm, rad, s, with as many digits as say them exactly; FROM
 /// is nan where the events before the pose are not known, LENGTH is that of the remark in bytes,
-/// ELSEWHERE 1 where the pose was not found from the one before it.
+/// ELSEWHERE is 1 where the pose was not found from the one before it, 2 more where it is open: not found, and not looked
+/// for yet from a later one. Another line of that pose follows then, and of two lines of a pose the later one holds.
 
 #include <filesystem>
 #include <string>

@@ -8,6 +8,8 @@
 namespace condyle {
 namespace {
 
+constexpr int kElsewhere = 1, kOpen = 2;  // bits of one word
+
 void put_contacts(std::string& out, const std::vector<ContactResult>& contacts) {
   std::size_t points = 0;
   for (const ContactResult& contact : contacts)
@@ -137,7 +139,8 @@ bool take_words(std::string_view line, KnownPose& known) {
     if (!take_last_word(line, elsewhere) || !take_last_word(line, length) ||
         line.size() < length + 2 * kQuotes)
       return false;
-    known.from_elsewhere = elsewhere != 0;
+    known.from_elsewhere = (elsewhere & kElsewhere) != 0;
+    known.open = (elsewhere & kOpen) != 0;
     known.pose.remark = line.substr(line.size() - length - 1, length);
     line = line.substr(0, line.size() - length - kQuotes);
   }
@@ -177,7 +180,7 @@ void write_journal_line(const KnownPose& known, std::string& out) {
   put_paths(out, pose.paths);
   out += " \"" + pose.reason + "\" \"" + pose.remark + "\"";
   put_word(out, pose.remark.size());
-  put_word(out, static_cast<int>(known.from_elsewhere));
+  put_word(out, (known.from_elsewhere ? kElsewhere : 0) + (known.open ? kOpen : 0));
   seal_line(begin, out);
 }
 

@@ -57,23 +57,40 @@ void expect_same(const std::vector<InputFile>& before, const std::vector<InputFi
                        ": has changed while it was read, expected a mesh that stays as it is");
 }
 
-void refuse_to_overwrite(const std::filesystem::path& output,
-                         const std::vector<std::filesystem::path>& inputs) {
-  for (const std::filesystem::path& input : inputs) {
+namespace {
+
+using Paths = std::vector<std::filesystem::path>;
+
+Paths files_of(const Scene& scene) {
+  Paths files = {scene.file};
+  for (const BodyDescription& body : scene.bodies)
+    if (body.mesh) files.push_back(body.mesh->path);
+  for (const SurfaceDescription& surface : scene.surfaces)
+    if (surface.patch.mesh) files.push_back(surface.patch.mesh->path);
+  if (scene.calibration) files.push_back(scene.calibration->measurements);
+  return files;
+}
+
+void refuse_if_one_of(const std::filesystem::path& output, const Paths& files, const char* what) {
+  for (const std::filesystem::path& file : files) {
     std::error_code unknown;
-    if (std::filesystem::equivalent(output, input, unknown))
-      throw InputError(output.string() +
-                       ": is read by this command, expected another file to write");
+    if (std::filesystem::equivalent(output, file, unknown))
+      throw InputError(output.string() + ": " + what + ", expected another file to write");
   }
 }
 
+}  // namespace
+
+void refuse_to_overwrite(const std::filesystem::path& output, const Paths& inputs) {
+  refuse_if_one_of(output, inputs, "is read by this command");
+}
+
 void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene& scene) {
-  std::vector<std::filesystem::path> inputs = {scene.file};
-  for (const BodyDescription& body : scene.bodies)
-    if (body.mesh) inputs.push_back(body.mesh->path);
-  for (const SurfaceDescription& surface : scene.surfaces)
-    if (surface.patch.mesh) inputs.push_back(surface.patch.mesh->path);
-  refuse_to_overwrite(output, inputs);
+  refuse_to_overwrite(output, files_of(scene));
+}
+
+void refuse_to_overwrite_sources(const std::filesystem::path& output, const Run& run) {
+  refuse_if_one_of(output, files_of(run.scene), "the run was computed from it");
 }
 
 }  // namespace condyle

@@ -25,7 +25,10 @@ void expect_same(const std::vector<InputFile>& before, const std::vector<InputFi
 void refuse_to_overwrite(const std::filesystem::path& output,
                          const std::vector<std::filesystem::path>& inputs);
 
-/// The same of the scene and its meshes.
+/// The same of the scene, its meshes and its measurements.
 void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene& scene);
+
+/// The same of the files that a run was computed from, wherever they still are.
+void refuse_to_overwrite_sources(const std::filesystem::path& output, const Run& run);
 
 }  // namespace condyle

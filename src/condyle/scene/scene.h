@@ -89,6 +89,7 @@ struct PatchDescription {
 
 struct SurfaceDescription {
   std::string name;
+  int line = 0;  ///< where its table stands in the file, for messages
   int body = -1;
   SurfaceKind kind = SurfaceKind::kPatch;
   bool solid_inside = true;  ///< closed kinds: the solid is within (a ball) or around (a socket)

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -19,7 +20,7 @@ double in_unit(double inside, const Unit& unit) {
 }
 
 std::vector<double> range_values(double from, double to, double step) {
-  constexpr double kMost = 1e6, kRounding = 1e-9;
+  constexpr double kMost = 1e6, kRounding = 1e-9, kApart = 1e-10;
   if (!std::isfinite(from) || !std::isfinite(to) || !std::isfinite(step)) {
     throw InputError(
         fmt::format("from = {}, to = {}, step = {}, expected finite numbers", from, to, step));
@@ -33,6 +34,13 @@ std::vector<double> range_values(double from, double to, double step) {
   if (!(steps + 1 <= kMost)) {
     throw InputError(fmt::format("step = {}, expected at most {:.0f} values from {} to {}", step,
                                  kMost, from, to));
+  }
+  const double told_apart = kApart * std::max({1.0, std::abs(from), std::abs(to)});
+  if (std::abs(step) < told_apart) {
+    throw InputError(
+        fmt::format("step = {}, expected at least {:.2g} from {} to {}: values nearer than that "
+                    "are not told apart",
+                    step, told_apart, from, to));
   }
   std::vector<double> values;
   const auto count = static_cast<int>(std::floor(steps + kRounding));

@@ -17,8 +17,8 @@ struct Unit {
 [[nodiscard]] double in_unit(double inside, const Unit& unit);
 
 /// from, from + step, ... up to `to`, which is met where it is a whole number of steps away. Throws
-/// InputError ("step = -5, expected ...") for a range that leads nowhere or holds more than a
-/// million values.
+/// InputError ("step = -5, expected ...") for a range that leads nowhere, or holds more than a
+/// million values or values nearer to each other than 1e-10 of the greatest, or of 1.
 [[nodiscard]] std::vector<double> range_values(double from, double to, double step);
 
 }  // namespace condyle

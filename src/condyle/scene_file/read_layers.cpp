@@ -33,8 +33,8 @@ double smallest_convex_radius(const SurfaceDescription& surface) {
 
 double read_share(const Section& section, const char* key, double otherwise, double most) {
   const std::string expected = fmt::format("a part of the force, above 0 and at most {:g}", most);
-  const double share = section.number_or(key, otherwise, expected, Range::kPositive);
-  if (share > most) section.fail(key, expected);
+  const double share = section.number_or(key, otherwise, expected);
+  if (!(share > 0) || share > most) section.fail(key, expected);
   return share;
 }
 

@@ -91,11 +91,18 @@ void read_units(const Section& root, Scene& scene) {
 }
 
 std::string read_name(const Section& section, const std::vector<std::string>& taken) {
+  constexpr std::ptrdiff_t kLongest = 100;
   std::string name = section.text("name", "a name");
-  const bool usable =
-      name.find('/') == std::string::npos && name != "." && name != ".." && name.size() <= 100 &&
-      std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20; });
-  if (!usable) section.fail("name", "a name of at most 100 characters without \"/\"");
+  const auto characters = std::count_if(name.begin(), name.end(), [](unsigned char c) {
+    return (c & 0xC0U) != 0x80U;  // the first byte of one (UTF-8)
+  });
+  if (characters > kLongest)
+    section.fail("name", fmt::format("at most {} characters, here are {}", kLongest, characters));
+  if (name.find('/') != std::string::npos || name == "." || name == "..")
+    section.fail("name",
+                 "a name without \"/\", other than \".\" and \"..\": groups of results have it");
+  if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20; }))
+    section.fail("name", "a name without control characters");
   if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
     section.fail("name", "a name that is not used twice");
   }
@@ -113,9 +120,10 @@ std::optional<MeshFile> read_mesh_file(const Section& section, const Scene& scen
       section.source().folder / section.text("mesh", "the path of a mesh");
   std::error_code error;
   if (section.source().meshes_must_exist && !std::filesystem::is_regular_file(path, error)) {
-    section.fail("mesh",
-                 fmt::format("a mesh file (there is no file {}; paths start at the scene's folder)",
-                             path.string()));
+    section.fail("mesh", fmt::format("a mesh file ({} {}; paths start at the scene's folder)",
+                                     std::filesystem::exists(path, error) ? "no file is"
+                                                                          : "there is no file",
+                                     path.lexically_normal().string()));
   }
   return MeshFile{path, to_mm};
 }

@@ -86,9 +86,9 @@ void read_simulation(const Section& root, Scene& scene) {
   if (section.has("gravity"))
     simulation.gravity = scene.length_to_mm * section.vector("gravity", "an acceleration");
   read_start(section, scene, simulation);
-  simulation.restitution =
-      section.number_or("restitution", 0, "a number from 0 to 1", Range::kNotNegative);
-  if (simulation.restitution > 1) section.fail("restitution", "a number from 0 to 1");
+  simulation.restitution = section.number_or("restitution", 0, "a number from 0 to 1");
+  if (simulation.restitution < 0 || simulation.restitution > 1)
+    section.fail("restitution", "a number from 0 to 1");
   simulation.tolerance = section.number_or("tolerance", 1e-9, "a tolerance", Range::kPositive);
   simulation.viscous_time =
       section.number_or("viscous_time", 0, "a time in s", Range::kNotNegative);

@@ -245,6 +245,7 @@ SurfaceDescription read_surface(const Section& section, const Scene& scene) {
   static const Choices<bool> sides = {{"inside", true}, {"outside", false}};
   SurfaceDescription surface;
   surface.name = read_name(section, names_of(scene.surfaces));
+  surface.line = section.line();
   surface.body = section.reference("body", "the name of a body", names_of(scene.bodies));
   surface.kind = section.choice("kind", kinds);
   if (section.has("solid")) surface.solid_inside = section.choice("solid", sides);

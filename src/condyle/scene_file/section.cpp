@@ -232,7 +232,21 @@ void Section::fail(const std::string& key, const std::string& expected) const {
 
 void Section::fail_with(const std::string& message) const { fail_at(table_->line, message); }
 
-// A missing key is often one that stands there misspelt.
+namespace {
+
+/// A key of the file that stands below the head of one of its tables, and so belongs to that; null where there is none.
+const Value* misplaced(const Value& root, const std::string& key) {
+  for (const Value& item : root.items) {
+    if (const Value* found = item.find(key)) return found;
+    for (const Value& table : item.items)
+      if (const Value* found = table.find(key)) return found;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+// A missing key is often one that stands there misspelt, or in another table.
 void Section::fail_missing(const std::string& key, const std::string& expected) const {
   std::vector<std::string> strangers;
   for (const std::string& present : table_->keys) {
@@ -244,6 +258,12 @@ void Section::fail_missing(const std::string& key, const std::string& expected) 
             fmt::format("unknown key {}{} = {}, did you mean \"{}\"?", prefix_, meant,
                         to_text(*table_->find(meant)), key));
   }
+  if (const Value* found = label_.empty() ? misplaced(*table_, key) : nullptr)
+    fail_at(
+        found->line,
+        fmt::format(
+            "{} = {} belongs to the table above it, expected before the first table of the file",
+            key, to_text(*found)));
   fail_at(table_->line, fmt::format("{}{} is missing, expected {}", prefix_, key, expected));
 }
 

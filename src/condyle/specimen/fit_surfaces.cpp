@@ -15,6 +15,7 @@
 #include "condyle/mesh/clean_mesh.h"
 #include "condyle/mesh_files/load_mesh.h"
 #include "condyle/specimen/check_layers.h"
+#include "condyle/specimen/fit_keys.h"
 #include "condyle/specimen/patch_sources.h"
 #include "condyle/start_threads.h"
 #include "condyle/surface/exact_surfaces.h"
@@ -105,19 +106,34 @@ std::string move_out(double offset, ArticularRegion& region, PatchFit& fit) {
       offset, moved.rms, moved.max);
 }
 
+/// Adds to an error of `work` what `keys` says of the scene.
+template <typename Work, typename Words>
+auto naming_keys(const Work& work, const Words& keys) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    const std::string said = error.what();
+    if (said.find("expected") != std::string::npos) throw;
+    throw InputError(fmt::format("{}: {}", said, keys()));
+  }
+}
+
 FittedSurface fit_one(const Scene& scene, const PatchSource& source, int index) {
   const SurfaceDescription& surface = scene.surfaces[index];
   const auto start = std::chrono::steady_clock::now();
   try {
     const bool layered = carries_layer(scene, index);
-    ArticularRegion region = find_region(scene, source, surface.patch, layered);
+    ArticularRegion region =
+        naming_keys([&] { return find_region(scene, source, surface.patch, layered); },
+                    [&] { return region_keys(surface.patch, scene); });
     FitOptions options;
     options.to_the_edge = layered;
     options.control_points = surface.patch.control_points;
     options.smoothing_length = surface.patch.smoothing;
     if (surface.patch.smooth_for_position) options.aim = SmoothingAim::kPositions;
     options.degree = surface.patch.degree;
-    PatchFit fit = fit_patch(region, options);
+    PatchFit fit = naming_keys([&] { return fit_patch(region, options); },
+                               [&] { return fit_keys(surface.patch, scene); });
     FitReport report = report_of(surface.name, region, fit);
     for (const std::vector<std::string>& notes : {source.notes, region.notes, fit.notes})
       report.notes.insert(report.notes.end(), notes.begin(), notes.end());
@@ -133,7 +149,7 @@ FittedSurface fit_one(const Scene& scene, const PatchSource& source, int index) 
             {}};
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {} ({})", place_of(scene, surface), error.what(),
-                                 source.file.path.string()));
+                                 source.file.path.lexically_normal().string()));
   }
 }
 

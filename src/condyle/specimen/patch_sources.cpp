@@ -75,7 +75,8 @@ Eigen::Vector3d middle_of(const TriangleMesh& mesh) {
 }  // namespace
 
 std::string place_of(const Scene& scene, const SurfaceDescription& surface) {
-  return fmt::format("{}: surface \"{}\"", scene.file.string(), surface.name);
+  const std::string line = surface.line > 0 ? fmt::format(":{}", surface.line) : "";
+  return fmt::format("{}{}: [[surface]] \"{}\"", scene.file.string(), line, surface.name);
 }
 
 std::vector<PatchSource> collect_sources(const Scene& scene) {

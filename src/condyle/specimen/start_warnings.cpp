@@ -11,6 +11,7 @@
 #include "condyle/scene/start_pose.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/specimen/strands_in_bone.h"
+#include "condyle/surface/affordable_samples.h"
 #include "condyle/surface/mesh_distance.h"
 
 namespace condyle {
@@ -20,10 +21,18 @@ using Eigen::Vector3d;
 
 constexpr double kSpacing = 2;  // of the points where gaps are looked for [mm]
 
+bool is_bounded(const Surface& surface) { return std::isfinite(surface.extent().radius); }
+
 /// Neither surface has places to look from: two planes, or a plane and an endless cylinder.
 bool unbounded(const std::vector<FittedSurface>& surfaces, const ContactDescription& contact) {
-  return std::all_of(contact.surfaces.begin(), contact.surfaces.end(),
-                     [&](int s) { return surfaces[s].surface->samples(kSpacing).empty(); });
+  return std::none_of(contact.surfaces.begin(), contact.surfaces.end(),
+                      [&](int s) { return is_bounded(*surfaces[s].surface); });
+}
+
+/// How far apart the points are from which a gap is looked for on a surface; infinite for one without bounds.
+double spacing_on(const Surface& surface) {
+  return is_bounded(surface) ? affordable_spacing(surface, kSpacing)
+                             : std::numeric_limits<double>::infinity();
 }
 
 void warn_of_gaps(const Scene& scene,
@@ -92,7 +101,42 @@ void warn_of_strains(const Scene& scene, double limit, std::vector<std::string>&
   }
 }
 
+double bound(double length) { return std::isfinite(length) ? length : 0; }
+
+/// How far an exact surface reaches, where it has bounds; of a patch 0 [mm]. A factor of 1000 is nearly always a
+/// mistaken unit; a surface that is nearly flat is a plane.
+double size_of(const SurfaceDescription& surface) {
+  switch (surface.kind) {
+    case SurfaceKind::kPatch:
+      return 0;
+    case SurfaceKind::kPlane:
+    case SurfaceKind::kPolynomial:
+      return 2 * bound(surface.known_radius);
+    case SurfaceKind::kSphere:
+      return 2 * surface.radius;
+    case SurfaceKind::kCylinder:
+      return std::max(2 * surface.radius, bound(surface.length));
+    case SurfaceKind::kEllipsoid:
+      return 2 * surface.semi_axes.maxCoeff();
+    case SurfaceKind::kTorus:
+      return 2 * (surface.radius + surface.minor_radius);
+  }
+  return 0;
+}
+
 }  // namespace
+
+std::vector<std::string> size_warnings(const Scene& scene) {
+  constexpr double kLargest = 2000;  // as of ligaments [mm]
+  std::vector<std::string> lines;
+  for (const SurfaceDescription& surface : scene.surfaces)
+    if (const double size = size_of(surface); size > kLargest)
+      lines.push_back(
+          fmt::format("warning: surface \"{}\": {:.6g} mm across, expected at most {:g} mm "
+                      "(suspect the units)",
+                      surface.name, size, kLargest));
+  return lines;
+}
 
 double start_gap(const Scene& scene,
                  const std::vector<FittedSurface>& surfaces,
@@ -102,11 +146,11 @@ double start_gap(const Scene& scene,
     return scene.surfaces[s].body == scene.moving_body() ? X_BA : RigidTransform{};
   };
   int from = contact.surfaces[0], to = contact.surfaces[1];
-  if (surfaces[from].surface->samples(kSpacing).empty()) std::swap(from, to);
+  if (spacing_on(*surfaces[from].surface) > spacing_on(*surfaces[to].surface)) std::swap(from, to);
   const Surface &a = *surfaces[from].surface, &b = *surfaces[to].surface;
   const RigidTransform X_a = pose(from), X_b = pose(to);
   double least = std::numeric_limits<double>::infinity();
-  for (const Place& place : a.samples(kSpacing)) {
+  for (const Place& place : affordable_samples(a, kSpacing)) {
     const SurfacePoint at = a.evaluate(place);
     const Vector3d p = X_b.R.transpose() * (X_a * at.c - X_b.p);
     const Place other = b.closest(p, b.seed(p));
@@ -122,7 +166,7 @@ std::vector<std::string> start_warnings(const Scene& scene,
                                         const std::vector<FittedSurface>& surfaces,
                                         const std::vector<TriangleMesh>& bones,
                                         const StartLimits& limits) {
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = size_warnings(scene);
   warn_of_gaps(scene, surfaces, limits.gap, lines);
   warn_of_insertions(scene, bones, limits.insertion, lines);
   warn_of_strains(scene, limits.strain, lines);

@@ -2,7 +2,7 @@
 
 /// What a user should know before a sweep: overlap or gap of the bodies at the start pose, ligament
 /// insertions off the bone, slack lengths that hardly fit the start pose, ligaments that run straight
-/// through bone, insertions deep in a wrap. A strain that the scene
+/// through bone, insertions deep in a wrap, surfaces far larger than a knee. A strain that the scene
 /// gives itself for the start pose (`reference_strain`) is no surprise.
 
 #include <string>
@@ -19,6 +19,9 @@ struct StartLimits {
   double strain = 0.15;  ///< of a ligament, either way [-]
   double inside = 1;     ///< of a straight ligament in bone, of an insertion in its own wrap [mm]
 };
+
+/// Of exact surfaces far larger than a knee, one line each.
+[[nodiscard]] std::vector<std::string> size_warnings(const Scene& scene);
 
 /// Smallest gap of a contact at the start pose [mm], negative where the bodies overlap; infinite
 /// where the surfaces do not face each other.

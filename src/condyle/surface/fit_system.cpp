@@ -211,7 +211,7 @@ std::vector<Eigen::Vector3d> solve_fit(const DataTerm& data,
                                        const PenaltyTerm& penalty,
                                        double smoothing_length) {
   BandedMatrix matrix = whole_matrix(data, penalty, smoothing_length);
-  if (!matrix.factorize()) throw InputError("too few vertices to determine the control points");
+  if (!matrix.factorize()) throw InputError("the vertices do not determine the control points");
   Eigen::MatrixXd x = data.right;
   matrix.solve(x);
   std::vector<Eigen::Vector3d> points(x.rows());

@@ -37,6 +37,7 @@ class EllipsoidSide final : public SurfaceSide {
     for (int face = 0; face < 6; ++face) add_cells(face, {face, -1, 1, -1, 1}, n, n, cells);
     return cells;
   }
+  [[nodiscard]] double longest_way() const override { return kPi / 2 * radii_.maxCoeff(); }
   [[nodiscard]] ChartPoint at(int chart, double u, double v) const override {
     const int a = chart % 3;
     Vector3d q, q_u = Vector3d::Unit((a + 1) % 3), q_v = Vector3d::Unit((a + 2) % 3);
@@ -116,6 +117,7 @@ class PlaneSide final : public SurfaceSide {
     add_cells(0, {0, -radius_, radius_, -radius_, radius_}, n, n, cells);
     return cells;
   }
+  [[nodiscard]] double longest_way() const override { return 2 * radius_; }
   [[nodiscard]] ChartPoint at(int, double u, double v) const override {
     return {point_ + u * x_ + v * y_, x_, y_};
   }
@@ -153,6 +155,7 @@ class CylinderSide final : public SurfaceSide {
               parts_of(2 * kPi * radius_ / size, 12, 96), parts_of(length_ / size, 2, 48), cells);
     return cells;
   }
+  [[nodiscard]] double longest_way() const override { return std::max(2 * kPi * radius_, length_); }
   [[nodiscard]] ChartPoint at(int, double u, double v) const override {
     const Vector3d out = std::cos(u) * x_ + std::sin(u) * y_;
     return {point_ + radius_ * out + v * a_, radius_ * a_.cross(out), a_};
@@ -193,6 +196,7 @@ class TorusSide final : public SurfaceSide {
               parts_of(2 * kPi * minor_ / size, 12, 48), cells);
     return cells;
   }
+  [[nodiscard]] double longest_way() const override { return 2 * kPi * (major_ + minor_); }
   [[nodiscard]] ChartPoint at(int, double u, double v) const override {
     const Vector3d out = std::cos(u) * x_ + std::sin(u) * y_, round = a_.cross(out);
     const double r = major_ + minor_ * std::cos(v);
@@ -239,6 +243,7 @@ class HeightSide final : public SurfaceSide {
     add_cells(0, {0, -radius_, radius_, -radius_, radius_}, n, n, cells);
     return cells;
   }
+  [[nodiscard]] double longest_way() const override { return 2 * radius_; }
   [[nodiscard]] ChartPoint at(int, double u, double v) const override {
     const Height h = height(u, v);
     return {origin_ + axes_ * Vector3d(u, v, h.z), axes_ * Vector3d(1, 0, h.x),

@@ -85,9 +85,16 @@ std::array<Side, 2> sides_of(const PairOfSides& pair, const RigidTransform& X) {
           Side{*pair.moving, *pair.fixed, true, X, pair.moving_surface}};
 }
 
-/// How many of the two have points: those with bounds.
+/// Has the one side points: has it bounds, and is it not too large for a fine grid beside one that is not (docs/results.md)?
+bool has_points(const SurfaceSide& own, const SurfaceSide& other) {
+  constexpr double kLong = 256;  // [mm]
+  const bool is_long = own.longest_way() > kLong, other_is_long = other.longest_way() > kLong;
+  return std::isfinite(own.longest_way()) && (!is_long || other_is_long);
+}
+
 double count_sides(const PairOfSides& pair) {
-  return (pair.fixed->cells(4).empty() ? 0 : 1) + (pair.moving->cells(4).empty() ? 0 : 1);
+  return (has_points(*pair.fixed, *pair.moving) ? 1 : 0) +
+         (has_points(*pair.moving, *pair.fixed) ? 1 : 0);
 }
 
 struct Resultant {
@@ -160,6 +167,7 @@ Resultant on_grid(const PairOfSides& pair, const RigidTransform& X, const Law& l
   Resultant all;
   const double weight = 1 / std::max(1.0, count_sides(pair));
   for (const Side& side : sides_of(pair, X)) {
+    if (!has_points(side.own, side.other)) continue;
     Grid grid(side, X, law, weight, all);
     for (const Cell& cell : side.own.cells(4)) grid.look(cell, kCell);
   }

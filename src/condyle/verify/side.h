@@ -43,6 +43,9 @@ class SurfaceSide {
   /// Cells that cover the known part, no wider than about `size`; none for a surface without
   /// bounds.
   [[nodiscard]] virtual std::vector<Cell> cells(double size) const = 0;
+  /// The longest way round or across it [mm]: of a torus round the outside, of a ball a quarter round; infinite
+  /// without bounds, 0 of a spline.
+  [[nodiscard]] virtual double longest_way() const = 0;
   [[nodiscard]] virtual ChartPoint at(int chart, double u, double v) const = 0;
   /// As ClosestPoint::edge, of a point of a chart.
   [[nodiscard]] virtual double edge(int chart, double u, double v) const = 0;

@@ -59,6 +59,7 @@ class SplineSide final : public SurfaceSide {
     return cells;
   }
 
+  [[nodiscard]] double longest_way() const override { return 0; }
   [[nodiscard]] ChartPoint at(int, double u, double v) const override {
     const SplinePoint at = spline_point(patch_, u, v);
     return {at.c, at.c_u, at.c_v};
