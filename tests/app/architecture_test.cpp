@@ -8,6 +8,7 @@
 #include <set>
 
 #include "app/include_graph.h"
+#include "app/run_program.h"
 
 namespace condyle::test {
 namespace {
@@ -144,6 +145,27 @@ TEST(Architecture, EachLibraryIsIncludedInOneRoom) {
     }
   }
   EXPECT_EQ(seen.size(), room_of.size());
+}
+
+// Without its header a cross product is declared and links nowhere, which precompiled headers hide.
+TEST(Architecture, WhoTakesCrossProductsIncludesTheGeometryOfEigen) {
+  std::set<std::string> geometry;
+  for (const Include& include : includes())
+    if (starts_with(include.to, "<Eigen/Geometry")) geometry.insert(include.from);
+  int takers = 0;
+  for (const char* root : {"src", "tools"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(kProject / root)) {
+      const std::string ending = entry.path().extension().string();
+      if (ending != ".cpp" && ending != ".h") continue;
+      const std::string text = contents(entry.path());
+      if (text.find(".cross(") == std::string::npos &&
+          text.find("unitOrthogonal(") == std::string::npos)
+        continue;
+      ++takers;
+      EXPECT_TRUE(geometry.contains(entry.path().lexically_relative(kProject).generic_string()))
+          << entry.path();
+    }
+  EXPECT_GT(takers, 80);
 }
 
 /// A second way to the answer is one only as long as it borrows no solver; a check likewise.

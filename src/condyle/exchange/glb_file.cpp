@@ -2,6 +2,8 @@
 
 #include <tiny_gltf.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cassert>
 #include <cstring>

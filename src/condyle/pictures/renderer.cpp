@@ -1,5 +1,7 @@
 #include "condyle/pictures/renderer.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cassert>
 

@@ -1,6 +1,7 @@
 #include "condyle/verify/gap_probe.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 #include "condyle/verify/winding.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
