@@ -65,6 +65,13 @@ TEST_F(Exchange, DoesNotWriteOverWhatItsRunWasComputedFrom) {
   fs::create_directory_symlink(folder_, folder_ / "here");
   expect_bad_input(run("export run.h5 -o here/bone.stl --at 0"), "here/bone.stl" + expected);
   EXPECT_EQ(contents(folder_ / bone), contents(mesh));
+  // Of a run that was computed in another folder the paths lead nowhere.
+  fs::create_directory(folder_ / "other");
+  ASSERT_EQ(run("sweep ../knee.toml -o ../run.h5 --quiet", "cd other; ").code, 0);
+  expect_bad_input(run("export run.h5 -o bone.stl --at 0"), "bone.stl" + expected);
+  fs::copy_file(folder_ / "knee.toml", folder_ / "knee");
+  expect_bad_input(run("report run.h5 -o knee"), "knee" + expected);
+  EXPECT_EQ(contents(folder_ / bone), contents(mesh));
   write("knee.toml", with(contents(folder_ / "knee.toml"), "bone.stl", "out/run.stl"));
   fs::create_directory(folder_ / "out");
   fs::copy_file(mesh, folder_ / "out" / "run.stl");

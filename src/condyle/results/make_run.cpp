@@ -1,9 +1,11 @@
 #include "condyle/results/make_run.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "condyle/input_error.h"
 #include "condyle/results/digest.h"
+#include "condyle/results/line_file.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/specimen/start_warnings.h"
 
@@ -89,8 +91,25 @@ void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene
   refuse_to_overwrite(output, files_of(scene));
 }
 
+namespace {
+
+/// By its bytes: the paths of a run start where it was computed, which may be elsewhere.
+bool holds_source(const std::filesystem::path& file, const Run& run) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(file, unknown)) return false;
+  if (!run.scene.text.empty() && bytes_of_file(file) == run.scene.text) return true;
+  if (run.inputs.empty()) return false;
+  const std::string sha256 = sha256_of_file(file);
+  return std::any_of(run.inputs.begin(), run.inputs.end(),
+                     [&](const InputFile& input) { return input.sha256 == sha256; });
+}
+
+}  // namespace
+
 void refuse_to_overwrite_sources(const std::filesystem::path& output, const Run& run) {
-  refuse_if_one_of(output, files_of(run.scene), "the run was computed from it");
+  const char* what = "the run was computed from it";
+  refuse_if_one_of(output, files_of(run.scene), what);
+  if (holds_source(output, run)) refuse_if_one_of(output, {output}, what);
 }
 
 }  // namespace condyle

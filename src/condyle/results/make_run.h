@@ -28,7 +28,8 @@ void refuse_to_overwrite(const std::filesystem::path& output,
 /// The same of the scene, its meshes and its measurements.
 void refuse_to_overwrite_inputs(const std::filesystem::path& output, const Scene& scene);
 
-/// The same of the files that a run was computed from, wherever they still are.
+/// The same of the files that a run was computed from: those at its paths, and any that holds the scene or a mesh to the
+/// byte.
 void refuse_to_overwrite_sources(const std::filesystem::path& output, const Run& run);
 
 }  // namespace condyle
