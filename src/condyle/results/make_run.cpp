@@ -73,11 +73,14 @@ Paths files_of(const Scene& scene) {
   return files;
 }
 
+[[noreturn]] void refuse(const std::filesystem::path& output, const char* what) {
+  throw InputError(output.string() + ": " + what + ", expected another file to write");
+}
+
 void refuse_if_one_of(const std::filesystem::path& output, const Paths& files, const char* what) {
   for (const std::filesystem::path& file : files) {
     std::error_code unknown;
-    if (std::filesystem::equivalent(output, file, unknown))
-      throw InputError(output.string() + ": " + what + ", expected another file to write");
+    if (std::filesystem::equivalent(output, file, unknown)) refuse(output, what);
   }
 }
 
@@ -109,7 +112,7 @@ bool holds_source(const std::filesystem::path& file, const Run& run) {
 void refuse_to_overwrite_sources(const std::filesystem::path& output, const Run& run) {
   const char* what = "the run was computed from it";
   refuse_if_one_of(output, files_of(run.scene), what);
-  if (holds_source(output, run)) refuse_if_one_of(output, {output}, what);
+  if (holds_source(output, run)) refuse(output, what);
 }
 
 }  // namespace condyle
