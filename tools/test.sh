@@ -29,6 +29,9 @@ export ASAN_OPTIONS=${ASAN_OPTIONS:-strict_string_checks=1:detect_stack_use_afte
 export LSAN_OPTIONS=${LSAN_OPTIONS:-suppressions=$PWD/tools/sanitize/leaks.supp:print_suppressions=0}
 export TSAN_OPTIONS=${TSAN_OPTIONS:-halt_on_error=1}
 
+# As condyle itself keeps memory (program.cpp).
+export MALLOC_MMAP_THRESHOLD_=$((32 << 20)) MALLOC_TRIM_THRESHOLD_=$((256 << 20))
+
 sanitizer_packages=(clang libclang-rt-14-dev)
 
 # sanitized FOLDER SANITIZER [CMAKE ARGUMENT...]: Clang's cost a fifth of GCC's. What is measured or bundled is no part.

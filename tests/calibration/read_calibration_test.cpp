@@ -101,6 +101,10 @@ const Refused kMistakes[] = {
      "[calibrate]: relative = \"ap30\", expected names of curves of the table [\"ap30\", ...]"},
     {"huber = 3", "huber = 0",
      "huber =", "[calibrate]: huber = 0, expected a number of standard deviations > 0"},
+    {"huber = 3", "huber = 1e-300",
+     "huber =", "[calibrate]: huber = 1e-300, expected a number of standard deviations >= 0.001"},
+    {"flexion_sd = 1\n", "flexion_sd = 1e99\n",
+     "flexion_sd =", "[calibrate]: flexion_sd = 1e+99, expected an angle of at most half a turn"},
     {"curve_sd = [0.5, 1]", "curve_sd = [0.5]", "curve_sd =",
      "[calibrate]: curve_sd = [0.5], expected two standard deviations [length, angle] >= 0, one of "
      "them > 0"},

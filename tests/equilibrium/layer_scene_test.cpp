@@ -6,12 +6,15 @@
 #include <cmath>
 #include <vector>
 
+#include "condyle/contact/layer_contact.h"
 #include "condyle/equilibrium/build_model.h"
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/math/degree.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
+#include "condyle/surface/exact_surfaces.h"
 #include "support/allocation_count.h"
+#include "support/hold.h"
 #include "support/moved_scene.h"
 
 namespace condyle {
@@ -110,6 +113,52 @@ TEST(LayerScene, StiffLayersAreSwept) {
     for (const ContactResult& contact : pose.contacts)
       EXPECT_GT(contact.layer.value().force.norm(), 20) << pose.value / kDegree;
   }
+}
+
+/// A solid that 40 N press on the layer of a floor without bounds, free to go up and down.
+Model on_a_layer(std::shared_ptr<const Surface> solid, double height) {
+  Model model;
+  ContactPair pair;
+  pair.name = "floor";
+  pair.on_B = make_plane({0, 0, 0}, {0, 0, 1});
+  pair.on_A = std::move(solid);
+  pair.elastic_B = ElasticSurface{10, 0.45, 3};
+  pair.mode = ContactMode::kOpen;
+  pair.law = layer_contact();
+  model.pairs = {pair};
+  Load weight;
+  weight.vector = {0, 0, -40};
+  model.loads = {weight};
+  model.load_names = {"weight"};
+  for (const int axis : {0, 1}) test::hold(model, ConditionKind::kTranslation, axis);
+  for (const int axis : {0, 1, 2}) test::hold(model, ConditionKind::kRotation, axis);
+  model.start.p = {0, 0, height};
+  model.length = 20;
+  return model;
+}
+
+// A dish on its edge: its back and its hollow look sideways and press little, so that a pose of equilibrium lies far
+// below the floor.
+TEST(LayerScene, NoLayerBearsADishThatStandsOnItsEdge) {
+  const std::shared_ptr<const Surface> dish = make_polynomial(
+      {0, 0, -20}, exp_rotation({M_PI / 2, 0, 0}), {{2, 0, 0.025}, {0, 2, 0.025}}, true, 20);
+  const PoseResult pose = EquilibriumSolver(on_a_layer(dish, 15)).solve();
+  EXPECT_EQ(pose.status, PoseStatus::kOverlap) << pose.reason;
+  EXPECT_NE(pose.reason.find("its surfaces overlap by"), std::string::npos) << pose.reason;
+}
+
+// The finest lattice of a bowl of 10 m has points 20 mm from each other. A ball of 20 mm has them where they are needed.
+TEST(LayerScene, AForceThatItsLatticeDoesNotKnowIsNotToldAsOne) {
+  const std::shared_ptr<const Surface> bowl = make_polynomial(
+      {0, 0, 0}, exp_rotation({M_PI, 0, 0}), {{2, 0, -5e-5}, {0, 2, -5e-5}}, true, 5000);
+  const PoseResult coarse = EquilibriumSolver(on_a_layer(bowl, 0)).solve();
+  EXPECT_EQ(coarse.status, PoseStatus::kIterationLimit);
+  EXPECT_NE(coarse.reason.find("the force of its layers is uncertain by"), std::string::npos)
+      << coarse.reason;
+  const PoseResult fine =
+      EquilibriumSolver(on_a_layer(make_sphere({0, 0, 0}, 20, true), 20)).solve();
+  ASSERT_TRUE(fine.converged()) << fine.reason;
+  EXPECT_LE(fine.contacts[0].layer->error, LayerOptions().tolerance);
 }
 
 TEST(LayerScene, AllocatesNothingOnAWayThatItKnows) {

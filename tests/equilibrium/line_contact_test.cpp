@@ -243,6 +243,19 @@ TEST(LineContact, ARollerThatIsAlsoHeldLevelIsUndetermined) {
       << pose.reason;
 }
 
+// All turns are held, so one point of the line is enough to carry, wherever along it: beyond the floor's edge as well.
+TEST(LineContact, ALineThatOnePointCarriesIsUndetermined) {
+  Model model = roller(0, {}, 15);
+  for (const int axis : {0, 1}) hold(model, ConditionKind::kTranslation, axis);
+  for (const int axis : {0, 1, 2}) hold(model, ConditionKind::kRotation, axis);
+  EquilibriumSolver solver(model);
+  for (const double x : {-3.0, -1.0, 0.0, 2.0}) {
+    const PoseResult pose = solver.solve(condition_value(0).with(drive_of(solver.model()), x));
+    EXPECT_EQ(pose.status, PoseStatus::kSingular) << x;
+    EXPECT_NE(pose.reason.find("\"floor\""), std::string::npos) << pose.reason;
+  }
+}
+
 void expect_conforming(const std::optional<Objection>& objection) {
   ASSERT_TRUE(objection);
   EXPECT_EQ(objection->status, PoseStatus::kSingular);

@@ -187,5 +187,26 @@ TEST(Resume, OfThePhantomIsTheSweepThatWasNeverStopped) {
   }
 }
 
+// The sum over the points of a layer changes its last digits with the way to a pose, and its derivatives more of them.
+TEST(Resume, OfLayersIsTheSweepThatWasNeverStopped) {
+  Scene scene = read_scene(std::filesystem::path(CONDYLE_SOURCE_DIR) / "data/phantom/layered.toml");
+  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
+  SweepOptions options;
+  options.stability = true;
+  const SweepResult whole = sweep(scene, surfaces, options);
+  options.known = known_poses(whole);
+  options.known.resize(whole.poses.size() / 2);
+  const SweepResult resumed = sweep(scene, surfaces, options);
+  for (std::size_t i = 0; i < options.known.size(); ++i) {
+    const PoseResult &expected = whole.poses[i], &pose = resumed.poses[i];
+    ASSERT_EQ(pose.status, expected.status) << i;
+    if (!expected.converged()) continue;
+    EXPECT_EQ(pose.lowest_stiffness, expected.lowest_stiffness) << i;
+    ASSERT_TRUE(pose.joint_stiffness && expected.joint_stiffness);
+    EXPECT_EQ(pose.joint_stiffness->stiffness, expected.joint_stiffness->stiffness) << i;
+    EXPECT_EQ(pose.joint_stiffness->compliance, expected.joint_stiffness->compliance) << i;
+  }
+}
+
 }  // namespace
 }  // namespace condyle

@@ -1,6 +1,7 @@
 /// condyle export and import as a user runs them, and what other programs read of it.
 
 #include "app/run_program.h"
+#include "calibration/small_calibration.h"
 #include "results/made_up_run.h"
 
 namespace condyle {
@@ -79,6 +80,20 @@ TEST_F(Exchange, DoesNotWriteOverWhatItsRunWasComputedFrom) {
   EXPECT_EQ(run("export run.h5 -o out --format csv").code, 0);
   expect_bad_input(run("export run.h5 -o out/run.stl --at 20"), "out/run.stl" + expected);
   EXPECT_EQ(contents(folder_ / "out" / "run.stl"), contents(mesh));
+}
+
+// The run names the measurements that its scene names, by a path that starts elsewhere, and holds no checksum of them.
+TEST_F(Exchange, DoesNotWriteOverMeasurements) {
+  write("knee.toml", with(test::kCalibratedScene, "to = 120", "to = 20"));
+  write("knee.csv", test::kTable);
+  fs::create_directory(folder_ / "other");
+  ASSERT_GE(run("sweep ../knee.toml -o ../run.h5 --quiet", "cd other; ").code, 0);
+  expect_bad_input(run("export run.h5 -o knee.csv"),
+                   "knee.csv: is a table of another kind, maybe of measurements, expected another "
+                   "file to write");
+  EXPECT_EQ(contents(folder_ / "knee.csv"), test::kTable);
+  EXPECT_EQ(run("export run.h5 -o poses.csv").out, "wrote poses.csv\n");
+  EXPECT_EQ(run("export run.h5 -o poses.csv").out, "wrote poses.csv\n") << "once more";
 }
 
 TEST_F(Exchange, NamesWhatItCannotWrite) {

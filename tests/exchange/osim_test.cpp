@@ -137,6 +137,20 @@ std::string text_of_model() {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+// Of the scene nobody has seen a line.
+TEST(OsimImport, NamesTheModelWhereANumberMakesNoScene) {
+  try {
+    (void)imported_text(with(text_of_model(), "<linear_stiffness>1500<", "<linear_stiffness>-5<"),
+                        "osim_numbers");
+    FAIL() << "expected an error";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("model.osim: makes no scene: "), std::string::npos) << text;
+    EXPECT_NE(text.find("\"aACL\": stiffness = -5, expected"), std::string::npos) << text;
+    EXPECT_EQ(text.find("knee.toml"), std::string::npos) << text;
+  }
+}
+
 /// Names of a model stand in comments of the scene: after a line's end they would be lines of it.
 TEST(OsimImport, WritesNoLineThatANameBegins) {
   const OsimScene scene = imported_text(with(text_of_model(), "CustomJoint name=\"knee_r\"",

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/pictures/fit_map.h"
@@ -123,6 +124,23 @@ TEST(FitPicture, ShowsWhatTurnsFarFromTwoSides) {
   const auto pictures = draw_fit(one_patch(), {surface});
   EXPECT_EQ(pictures[0].image.width, 1170);
   EXPECT_EQ(pictures[1].image.height, 1160) << "the curvatures below each other";
+}
+
+// A name may have 100 characters of four bytes each, the name of a file has 255 bytes.
+TEST(FitPicture, HasNamesThatFilesMayHave) {
+  Scene scene = one_patch();
+  scene.surfaces.push_back(scene.surfaces[0]);
+  FittedSurface one = ball_beside_its_mesh(), other = one;
+  one.report->surface.clear();
+  for (int i = 0; i < 100; ++i) one.report->surface += "\U0001D538";
+  other.report->surface = one.report->surface;
+  other.report->surface.back() = '\xB9';
+  std::set<std::string> names;
+  for (const FitPicture& picture : draw_fit(scene, {one, other})) {
+    names.insert(picture.name);
+    EXPECT_LT(picture.name.size(), 200u);
+  }
+  EXPECT_EQ(names.size(), 4u);
 }
 
 TEST(FitPicture, LeavesExactSurfacesOut) {

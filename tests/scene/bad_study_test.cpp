@@ -54,6 +54,9 @@ INSTANTIATE_TEST_SUITE_P(
         StudyMistake{"design = \"sobol\"", "design = \"none.csv\"",
                      "3: design = \"none.csv\", expected " + std::string(kDesigns) +
                          " (there is no file none.csv)"},
+        StudyMistake{"design = \"sobol\"", "design = \"/dev/zero\"",
+                     "3: design = \"/dev/zero\", expected " + std::string(kDesigns) +
+                         " (no table is /dev/zero)"},
         StudyMistake{"seed = 7", "precision = \"float16\"",
                      "5: precision = \"float16\", expected \"float64\" or \"float32\"; did you "
                      "mean \"float64\"?"},

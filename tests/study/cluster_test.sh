@@ -62,7 +62,7 @@ any_number_of_ranks() {
 # A rank that dies ends the job; what is in journals is not computed again, by any number of ranks. The study takes some
 # seconds: mpirun hands SIGTERM on after a second only.
 dead_rank() {
-  whole_study 30000
+  whole_study 12000
   "${mpi[@]}" -n 3 "$condyle_mpi" study study.toml -o killed.h5 >killed.log 2>&1 &
   local job=$! victim
   under_way killed.h5

@@ -140,6 +140,32 @@ TEST(GapProbe, LooksAtWhatIsLargeAsAtWhatIsSmall) {
   }
 }
 
+// Layers overlap, so only what is deeper than they bear is looked for.
+TEST(GapProbe, FindsNoMoreThanIsWanted) {
+  const Counted ground(floor_of(30));
+  const auto ball = ball_of(20);
+  const RigidTransform X = raised(18.5);
+  const LowestGap lowest = GapProbe(*ball, ground).lowest(X, -2);
+  EXPECT_TRUE(lowest.exact);
+  EXPECT_GT(lowest.gap, -2);
+  const int asked = ground.asked;
+  EXPECT_NEAR(GapProbe(*ball, ground).lowest(X).gap, -1.5, 0.015);
+  EXPECT_GT(ground.asked - asked, asked);
+  EXPECT_NEAR(GapProbe(*ball, ground).lowest(raised(16), -2).gap, -4, 0.04);
+}
+
+// A needle's curvature bounds nothing of its broad sides: that not all was looked at is no overlap.
+TEST(GapProbe, SaysWhereItGaveUp) {
+  SurfaceDescription ellipsoid = described(SurfaceKind::kEllipsoid);
+  ellipsoid.semi_axes = {100, 0.1, 100};
+  ellipsoid.axes.setIdentity();
+  const auto sheet = make_exact_side(ellipsoid), ground = floor_of(300);
+  const RigidTransform X{exp_rotation({M_PI / 2, 0, 0}), Vector3d(0, 0, 0.1)};
+  const LowestGap lowest = GapProbe(*sheet, *ground).lowest(X);
+  EXPECT_FALSE(std::isnan(lowest.gap));
+  EXPECT_TRUE(!lowest.exact || std::abs(lowest.gap) < 1e-6);
+}
+
 TEST(GapProbe, SaysThatNumbersAreTooGreat) {
   const auto ball = ball_of(1e99), ground = floor_of(30);
   const RigidTransform far{Eigen::Matrix3d::Identity(), Vector3d(0, 0, 1e300)};

@@ -26,9 +26,25 @@ constexpr double kUnsure = 5;     // of an insertion, told as a doubt [mm]
 constexpr double kDropped = 4;    // off the bone, likewise [mm]
 constexpr double kPoorFit = 2.5;  // rms of the registered bones, likewise [mm]
 
+/// Vertices that lie nearer to each other than rounding at the farthest one are merged: one that is far off leaves no
+/// triangle.
+[[noreturn]] void throw_no_triangles(const TriangleMesh& mesh) {
+  std::vector<double> far;
+  for (const Vector3d& v : mesh.vertices) far.push_back(v.norm());
+  const auto middle = far.begin() + std::ssize(far) / 2;
+  std::nth_element(far.begin(), middle, far.end());
+  throw InputError(fmt::format(
+      "no triangle is left when vertices that coincide are merged: half of them lie within {:.3g} "
+      "of the origin, the farthest at {:.3g}, expected those of one bone",
+      *middle, *std::max_element(middle, far.end())));
+}
+
 TriangleMesh cleaned(const std::filesystem::path& file) {
   try {
-    return clean_mesh(load_mesh_of_any_unit(file)).mesh;
+    const TriangleMesh mesh = load_mesh_of_any_unit(file);
+    TriangleMesh clean = clean_mesh(mesh).mesh;
+    if (clean.triangles.empty()) throw_no_triangles(mesh);
+    return clean;
   } catch (const InputError& error) {
     const std::string text = error.what();
     if (text.find(file.string()) != std::string::npos) throw;

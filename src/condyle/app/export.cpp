@@ -19,6 +19,7 @@
 #include "condyle/exchange/stl_run.h"
 #include "condyle/exchange/vtk_run.h"
 #include "condyle/input_error.h"
+#include "condyle/results/line_file.h"
 #include "condyle/results/make_run.h"
 #include "condyle/results/output_file.h"
 
@@ -170,9 +171,25 @@ void expect_names_that_differ(const fs::path& folder, const std::vector<ExportFi
                       (folder / file.path).string()));
 }
 
+/// Sources are known by path and by bytes; of measurements the run holds no bytes, and its paths start where it was
+/// computed. So no table is replaced that is not one of these.
+void refuse_to_overwrite_measurements(const fs::path& file, const Run& run) {
+  constexpr const char* kHead = "pose,swept,";
+  if (!run.scene.calibration || file.extension() != ".csv" || !fs::is_regular_file(file)) return;
+  if (!bytes_of_file(file).starts_with(kHead))
+    throw InputError(
+        file.string() +
+        ": is a table of another kind, maybe of measurements, expected another file to write");
+}
+
+void refuse_to_overwrite_any_source(const fs::path& file, const Run& run) {
+  refuse_to_overwrite_sources(file, run);
+  refuse_to_overwrite_measurements(file, run);
+}
+
 void write_folder(const fs::path& folder, const std::vector<ExportFile>& files, const Run& run) {
   expect_names_that_differ(folder, files);
-  for (const ExportFile& file : files) refuse_to_overwrite_sources(folder / file.path, run);
+  for (const ExportFile& file : files) refuse_to_overwrite_any_source(folder / file.path, run);
   make_folder(folder);
   std::size_t quiet = 0;
   for (const ExportFile& file : files) {
@@ -204,7 +221,7 @@ int run_export(const ExportCommand& command) {
                  exporter.folder(command.formats.empty() ? kDefaultFormats : command.formats), run);
   } else {
     refuse_to_overwrite(command.output, {command.run});
-    refuse_to_overwrite_sources(command.output, run);
+    refuse_to_overwrite_any_source(command.output, run);
     write_output_file(command.output, exporter.bytes(ending));
     tell("wrote {}\n", command.output);
   }

@@ -15,7 +15,6 @@
 #include "condyle/exchange/ply_file.h"
 #include "condyle/input_error.h"
 #include "condyle/results/output_file.h"
-#include "condyle/scene_file/read_scene.h"
 
 namespace condyle {
 namespace {
@@ -72,11 +71,8 @@ int import_model(ImportCommand& command) {
   const OsimModel model = read_osim(file);
   const OsimKnee knee = find_knee(model, file, command.knee);
   const OsimScene scene = osim_scene(model, knee, file, command.output, command.scene);
-  for (const OsimMovedMesh& moved : scene.meshes) {
-    check_output_file(moved.file);
-    write_output_file(moved.file, ply(moved.mesh));
-  }
-  (void)parse_scene(scene.text, command.output);  // what is written can be read
+  for (const OsimMovedMesh& moved : scene.meshes) check_output_file(moved.file);
+  for (const OsimMovedMesh& moved : scene.meshes) write_output_file(moved.file, ply(moved.mesh));
   write_output_file(command.output, scene.text);
   tell("{}: joint {}, femur {}, tibia {}, {} ligaments\n", file, knee.joint, knee.femur.name,
        knee.tibia.name, knee.ligaments.size());

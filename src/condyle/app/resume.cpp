@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <iterator>
 #include <utility>
 
@@ -110,7 +111,9 @@ void write_and_end_journal(const Talk& talk,
   try {
     write_run(output, run);
   } catch (const InputError& error) {
-    if (!journal.failure().empty()) throw;
+    std::error_code unknown;
+    if (!journal.failure().empty() || !std::filesystem::exists(journal_path(output), unknown))
+      throw;
     throw InputError(fmt::format("{} (its {} are in {}: --resume takes them over)", error.what(),
                                  pieces, journal_path(output).string()));
   }

@@ -7,6 +7,7 @@
 /// joint stiffness. A model may have pairs of either kind.
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -35,6 +36,10 @@ class ContactPotential {
 
   /// Chooses at a pose what is held while poses near it are solved: a quadrature, say.
   virtual void prepare(const RigidTransform& /*X_BA*/) {}
+
+  /// The pose was solved before, by another of the kind, and told so: asked to prepare at that very pose it holds what was
+  /// held then.
+  virtual void hold(const RigidTransform& /*X_BA*/, const ContactResult& /*told*/) {}
 
   /// At a pose that has been solved: false where what is held had to be changed; then the pose is
   /// solved on.
@@ -72,10 +77,19 @@ class ContactPotential {
   /// False where it does not know, or nothing is pressed. Allocates nothing once it was asked.
   virtual bool rates(const RigidTransform& /*X_BA*/, ContactRates& /*rates*/) { return false; }
 
+  /// So deep the surfaces may overlap anywhere by this law [mm].
+  [[nodiscard]] virtual double bears() const { return std::numeric_limits<double>::infinity(); }
+
   /// Fills a cleared result, in the model's frames: closed where it carries, with force, resultant
   /// and a point where it presses most; else the nearest point. Says why a pose with such a contact
   /// is none, if it is.
   virtual std::optional<Objection> describe(const RigidTransform& X_BA, ContactResult& result) = 0;
+
+  /// Of a pose of equilibrium: is the force too uncertain for those that act, of which `acting` is the sum of magnitudes
+  /// [N]?
+  virtual std::optional<Objection> uncertain(const RigidTransform& /*X_BA*/, double /*acting*/) {
+    return std::nullopt;
+  }
 };
 
 /// Makes the potential of a pair in the model's frames; what it shares between threads is constant.

@@ -20,7 +20,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::array<int, 6> kCells = {1, 2, 3, 4, 6, 8};  // in a knot span, in either direction
-constexpr double kError = 0.39;                            // N^5/4 times the error of N on a side
+constexpr double kMostWrong = 0.01;  // of the forces that act, and 3 tolerances
+constexpr double kError = 0.39;      // N^5/4 times the error of N on a side
 constexpr std::size_t kLevels = kCells.size();
 
 /// The lattices of a pair's surfaces, made when they are first asked for.
@@ -172,6 +173,7 @@ class LayerContact final : public ContactPotential {
   void reset() override {
     level_ = 0;
     factor_ = 1;
+    held_.reset();
     forget_places();
   }
 
@@ -186,6 +188,11 @@ class LayerContact final : public ContactPotential {
     constexpr double kEnough = 8;  // points, to tell those of other lattices
     constexpr double kBetween =
         0.5;  // a ball of 2 mm rises so far over points 2 mm from each other [mm]
+    if (held_ && held_->X.R == X_BA.R && held_->X.p == X_BA.p) {
+      level_ = held_->level;
+      return;
+    }
+    held_.reset();
     level_ = 0;
     double points = pressed_on_a_side(X_BA);
     if (points == 0 && sides().come_within(X_BA, kBetween))
@@ -201,6 +208,19 @@ class LayerContact final : public ContactPotential {
       if (points >= kEnough) break;
       points = pressed_on_a_side(X_BA);
     }
+  }
+
+  /// The lattice whose force is the one that was told.
+  void hold(const RigidTransform& X_BA, const ContactResult& told) override {
+    constexpr double kSame = 1e-6;  // of the force; lattices differ by a thousandth
+    held_.reset();
+    if (!told.layer) return;
+    for (level_ = 0; level_ < kLevels; ++level_)
+      if (std::abs(sides().sums(X_BA, law_).on_A.norm() - told.force) <= kSame * told.force) {
+        held_ = Held{X_BA, level_};
+        return;
+      }
+    level_ = 0;
   }
 
   void soften(double factor) override { factor_ = factor; }
@@ -243,7 +263,9 @@ class LayerContact final : public ContactPotential {
     return sides().sums(X_BA, law_, factor_).energy;
   }
 
+  [[nodiscard]] double bears() const override { return law_.deepest(); }
   std::optional<Objection> describe(const RigidTransform& X_BA, ContactResult& result) override;
+  std::optional<Objection> uncertain(const RigidTransform& X_BA, double acting) override;
 
   [[nodiscard]] bool knows_rates() const override { return true; }
   bool rates(const RigidTransform& X_BA, ContactRates& rates) override;
@@ -300,6 +322,11 @@ class LayerContact final : public ContactPotential {
   Vector3d origin_;  ///< of the model's frame of B, in the file's [mm]
   std::array<std::optional<BothSides>, kLevels> sides_;
   std::size_t level_ = 0;
+  struct Held {
+    RigidTransform X;
+    std::size_t level;
+  };
+  std::optional<Held> held_;  ///< of a pose that was solved before
   double error_ = 0;
   double factor_ = 1;  ///< of the stiffness
 };
@@ -365,6 +392,20 @@ std::optional<Objection> LayerContact::objection(const LayerSums& sums) const {
             100 * lost(sums), name_, place(sums.lost_moment / (sums.beyond + sums.faded)),
             100 * options_.beyond)};
   return std::nullopt;
+}
+
+/// A lattice that is as fine as there is may be too coarse for a ring or a very large ball. A light touch of few points may err
+/// by a great part of its force, which is a small one of those that act.
+std::optional<Objection> LayerContact::uncertain(const RigidTransform& X_BA, double acting) {
+  const double wrong = kMostWrong + 3 * options_.tolerance;
+  const double force = sides().sums(X_BA, law_).force;
+  if (!(error_ * force > wrong * acting)) return std::nullopt;
+  return Objection{
+      PoseStatus::kIterationLimit,
+      fmt::format("contact \"{}\": the force of its layers is uncertain by {:.1f} % on "
+                  "the finest lattice, by {:.1f} % of the forces that act, {:.1f} % at "
+                  "most: few points for surfaces of that size",
+                  name_, 100 * error_, 100 * error_ * force / acting, 100 * wrong)};
 }
 
 }  // namespace

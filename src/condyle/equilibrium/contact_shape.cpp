@@ -86,6 +86,13 @@ Objection tips_over(const std::string& contact) {
               "the other"};
 }
 
+Objection held_parallel(const std::string& contact) {
+  return {PoseStatus::kSingular,
+          named(contact) +
+              ": the surfaces touch along a line and are held parallel, rigid contact does not say "
+              "where along it they carry"};
+}
+
 std::optional<std::size_t> conforming_pair(const Model& model,
                                            std::vector<ContactSearch>& searches,
                                            const RigidTransform& X_BA) {

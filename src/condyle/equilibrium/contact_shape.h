@@ -38,6 +38,9 @@ struct TouchReport {
 /// The resultant of a line contact lies beyond an end.
 [[nodiscard]] Objection tips_over(const std::string& contact);
 
+/// One point carries a line: something else holds the bodies parallel.
+[[nodiscard]] Objection held_parallel(const std::string& contact);
+
 /// A pair whose surfaces, near each other, have the same curvature in every direction: a ball in a
 /// cup of its radius. Nothing says where they will touch.
 [[nodiscard]] std::optional<std::size_t> conforming_pair(const Model& model,

@@ -93,9 +93,13 @@ void describe_closed(const Linearization& at, double edge_margin, PoseResult& re
     describe_closed_point(at, k, edge_margin, result);
   for (std::size_t k = 0; k < at.state.contacts.size(); ++k) {
     ContactResult& contact = result.contacts[static_cast<std::size_t>(at.state.contacts[k].pair)];
-    if (contact.shape != ContactShape::kLine || contact.points.size() != 2) continue;
+    if (contact.shape != ContactShape::kLine || contact.points.size() > 2) continue;
     const TouchReport touch = touch_of(at, k);
-    if (touch.kind == Touch::kLine) carry_by_ends(at.pair(k), at.state.X, touch, result, contact);
+    if (touch.kind != Touch::kLine) continue;
+    if (contact.points.size() == 2)
+      carry_by_ends(at.pair(k), at.state.X, touch, result, contact);
+    else
+      set_status(result, held_parallel(at.pair(k).name));
   }
 }
 
@@ -149,6 +153,32 @@ void describe_open(const ContactPair& pair,
   contact.closed = pair.law && lowest.gap < 0;
 }
 
+/// A contact with a law of its own; one whose surfaces overlap deeper than that bears lowers the status. Points that face
+/// each other's backs carry nothing, so the law does not tell.
+void describe_law(const Linearization& at,
+                  std::size_t p,
+                  ContactSearch& search,
+                  std::vector<GapMinimum>& minima,
+                  PoseResult& result) {
+  ContactPotential& potential = *at.system.potentials().of(p);
+  const ContactPair& pair = at.model.pairs[p];
+  if (const std::optional<Objection> reason = potential.describe(at.state.X, result.contacts[p]))
+    set_status(result, *reason);
+  if (!result.converged()) return;
+  if (std::isfinite(potential.bears())) {
+    const double length = search.length(at.model.length);
+    search.find(at.state.X, -potential.bears() - kAllowedOverlap * length, minima, kMerge * length);
+    if (!minima.empty())
+      return set_status(
+          result,
+          {PoseStatus::kOverlap,
+           fmt::format("contact {}: its surfaces overlap by {:.2f} mm, its layers bear {:.2f}",
+                       quoted(pair.name), -minima.front().gap, potential.bears())});
+  }
+  if (const std::optional<Objection> reason = potential.uncertain(at.state.X, at.force_scale()))
+    set_status(result, *reason);
+}
+
 /// A path of which something speaks against it lowers the status.
 void judge_paths(const Linearization& at, PoseResult& result) {
   const std::vector<LineElement>& elements = at.system.parameters().elements;
@@ -187,10 +217,8 @@ void describe_pose(const Linearization& at,
   judge_paths(at, result);
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
     if (result.contacts[p].closed) continue;
-    if (ContactPotential* potential = at.system.potentials().of(p)) {
-      if (const std::optional<Objection> reason =
-              potential->describe(at.state.X, result.contacts[p]))
-        set_status(result, *reason);
+    if (at.system.potentials().of(p) != nullptr) {
+      describe_law(at, p, searches[p], minima, result);
       if (result.contacts[p].closed || !result.contacts[p].points.empty()) continue;
     }
     describe_open(model.pairs[p], at.state, searches[p], model.length, options, minima,

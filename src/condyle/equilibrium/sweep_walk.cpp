@@ -58,12 +58,17 @@ bool SweepWalk::take_over(const KnownPose& known, Stop& stop) {
   }
   if (!can_restore(model(), known.pose)) return false;
   walker_.stand_at(stop.at.value, restore_state(model(), known.pose));
+  solver().hold_laws(known.pose);
   walker_.step(stop.at.value, Patience::kNone, stop.at);
   const bool same = agrees(pose, known.pose);
   if (same) {
     pose.iterations = known.pose.iterations;
     pose.seconds = known.pose.seconds;
     if (!known.pose.remark.empty()) pose.remark = known.pose.remark;
+    // Derivatives of a sum over points are not the same to the last bits from another start.
+    if (pose.stability == known.pose.stability) pose.lowest_stiffness = known.pose.lowest_stiffness;
+    if (pose.joint_stiffness && known.pose.joint_stiffness)
+      pose.joint_stiffness = known.pose.joint_stiffness;
     pose.trace.origin = PoseOrigin::kEarlierRun;
     if (known.pose.trace.told()) pose.trace = known.pose.trace;
   }

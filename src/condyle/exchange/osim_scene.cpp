@@ -13,6 +13,7 @@
 #include "condyle/input_error.h"
 #include "condyle/math/rotation.h"
 #include "condyle/mesh_files/load_mesh.h"
+#include "condyle/scene_file/read_scene.h"
 #include "condyle/scene_file/scene_words.h"
 
 namespace condyle {
@@ -296,6 +297,18 @@ class SceneText {
   OsimScene out_;
 };
 
+/// What is written can be read. Where it cannot, a number of the model is to blame, not a line of a scene that nobody has.
+void expect_readable(const OsimScene& made, const fs::path& model, const fs::path& scene) {
+  try {
+    (void)parse_scene(made.text, scene);
+  } catch (const InputError& error) {
+    std::string words = error.what();
+    const std::string place = scene.string() + ":";
+    if (words.starts_with(place)) words.erase(0, words.find(": ", place.size()) + 2);
+    throw InputError(fmt::format("{}: makes no scene: {}", model.string(), words));
+  }
+}
+
 }  // namespace
 
 OsimScene osim_scene(const OsimModel& model,
@@ -303,7 +316,9 @@ OsimScene osim_scene(const OsimModel& model,
                      const fs::path& file,
                      const fs::path& scene,
                      const OsimSceneOptions& options) {
-  return SceneText(model, knee, file, scene, options).scene();
+  OsimScene made = SceneText(model, knee, file, scene, options).scene();
+  expect_readable(made, file, scene);
+  return made;
 }
 
 }  // namespace condyle

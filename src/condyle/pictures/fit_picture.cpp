@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "condyle/pictures/color_bar.h"
 #include "condyle/pictures/fit_map.h"
@@ -174,10 +176,15 @@ Image draw_page(Renderer& renderer, int slot, const Page& page) {
   return image;
 }
 
-std::string file_name(std::string surface, const char* what) {
+/// A word for the names of a surface's files that none of the others has.
+std::string file_word_of(std::string surface, std::set<std::string>& taken) {
+  constexpr std::size_t kLongest = 100;  // of the 255 bytes that names of files have at most
   for (char& c : surface)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  return surface + "_" + what;
+  surface.resize(std::min(surface.size(), kLongest));
+  std::string word = surface;
+  for (int k = 2; !taken.insert(word).second; ++k) word = fmt::format("{}_{}", surface, k);
+  return word;
 }
 
 }  // namespace
@@ -186,14 +193,16 @@ std::vector<FitPicture> draw_fit(const Scene& scene, const std::vector<FittedSur
   Renderer renderer(kPanelWidth, kPanelHeight);
   const int slot = renderer.add({});
   std::vector<FitPicture> pictures;
+  std::set<std::string> taken;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     if (!surfaces[i].report) continue;
     const FittedSurface& fitted = surfaces[i];
     const FitReport& report = *fitted.report;
     const auto& patch = dynamic_cast<const Patch&>(*fitted.surface);
     const int body = scene.surfaces[i].body;
+    const std::string word = file_word_of(report.surface, taken);
     pictures.push_back(
-        {file_name(report.surface, "deviation"),
+        {word + "_deviation",
          draw_page(renderer, slot,
                    {scene,
                     fitted,
@@ -202,7 +211,7 @@ std::vector<FitPicture> draw_fit(const Scene& scene, const std::vector<FittedSur
                     fmt::format("patch to mesh: rms {:.3f} mm, 95 % {:.3f} mm, greatest {:.3f} mm",
                                 report.back_rms, report.back_p95, report.back_max)})});
     pictures.push_back(
-        {file_name(report.surface, "curvature"),
+        {word + "_curvature",
          draw_page(
              renderer, slot,
              {scene,

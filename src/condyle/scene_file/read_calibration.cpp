@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "condyle/scene_file/read_numbers.h"
 #include "condyle/scene_file/read_sections.h"
@@ -66,8 +67,11 @@ void read_nuisance(const Section& section,
                    CalibrationDescription& calibration) {
   if (section.has("curve_sd")) calibration.curve_sd = read_deviations(section, "curve_sd", scene);
   if (section.has("frame_sd")) read_frames(section, scene, calibration);
+  constexpr double kHalfTurn = std::numbers::pi;
   calibration.flexion_sd =
       scene.angle_to_rad * section.number_or("flexion_sd", 0, "an angle", Range::kNotNegative);
+  if (calibration.flexion_sd > kHalfTurn)
+    section.fail("flexion_sd", "an angle of at most half a turn");
   calibration.level_sd =
       section.number_or("level_sd", 0, "a part of the level, 0.02 for 2 %", Range::kNotNegative);
   if (calibration.level_sd >= 1)
@@ -75,9 +79,14 @@ void read_nuisance(const Section& section,
 }
 
 void read_search(const Section& section, CalibrationDescription& calibration) {
-  if (section.has("huber"))
+  if (section.has("huber")) {
+    constexpr double kLeast =
+        1e-3;  // below it is as good as absolute values, until roots of it vanish
     calibration.huber =
         section.number("huber", "a number of standard deviations", Range::kPositive);
+    if (*calibration.huber < kLeast)
+      section.fail("huber", fmt::format("a number of standard deviations >= {}", kLeast));
+  }
   calibration.starts = static_cast<int>(whole_number_or(section, "starts", 1, calibration.starts));
   calibration.seed = static_cast<unsigned>(
       whole_number_or(section, "seed", 0, static_cast<int>(calibration.seed)));

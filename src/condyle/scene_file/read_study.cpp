@@ -38,9 +38,12 @@ void read_design(const Section& root, StudyDescription& study) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(table, error)) {
     const std::string meant = nearest(word, words);
-    root.fail("design", meant.empty()
-                            ? fmt::format("{} (there is no file {})", expected, table.string())
-                            : fmt::format("{}; did you mean \"{}\"?", expected, meant));
+    const bool is_there = std::filesystem::exists(table, error);
+    root.fail("design",
+              meant.empty() || is_there
+                  ? fmt::format("{} ({} {})", expected,
+                                is_there ? "no table is" : "there is no file", table.string())
+                  : fmt::format("{}; did you mean \"{}\"?", expected, meant));
   }
   study.design = DesignKind::kTable;
   study.table = table;

@@ -295,7 +295,11 @@ class HeightSide final : public SurfaceSide {
   };
   [[nodiscard]] Height height(double x, double y) const {
     Height h;
-    const auto power = [](double base, int k) { return k < 0 ? 0.0 : std::pow(base, k); };
+    const auto power = [](double base, int k) {
+      double product = k < 0 ? 0 : 1;
+      for (; k > 0; --k) product *= base;
+      return product;
+    };
     for (const PolynomialTerm& term : terms_) {
       const int i = term.i, j = term.j;
       const double xi = power(x, i), yj = power(y, j), dx = i * power(x, i - 1),

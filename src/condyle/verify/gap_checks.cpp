@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "condyle/verify/layer_checks.h"
 
 namespace condyle::verification {
 
@@ -10,28 +13,38 @@ GapCheck::GapCheck(const Subject& subject, std::vector<std::string>& not_checked
     : subject_(subject) {
   const Scene& scene = subject.run.scene;
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    if (scene.contacts[i].layer) continue;  // layers overlap: layer_checks.h
+    const bool layer = scene.contacts[i].layer.has_value();
     const std::string name = fmt::format("contact \"{}\"", scene.contacts[i].name);
-    if (scene.contacts[i].state == ContactState::kOpen) {
+    if (!layer && scene.contacts[i].state == ContactState::kOpen) {
       not_checked.push_back(name + " is held open by the scene: its surfaces may overlap");
       continue;
     }
     const PairOfSides sides = pair_of(subject, i);
-    pairs_.push_back(
-        {i, sides, GapProbe(*sides.fixed, *sides.moving), GapProbe(*sides.moving, *sides.fixed)});
+    pairs_.push_back({i, sides, GapProbe(*sides.fixed, *sides.moving),
+                      GapProbe(*sides.moving, *sides.fixed),
+                      layer ? 1.01 * bearable_depth(subject, i) : 0});
     if (!pairs_.back().from_fixed.covers() && !pairs_.back().from_moving.covers())
       not_checked.push_back(name + ": neither surface has bounds, so no gaps were looked at");
   }
+}
+
+/// Of both sides; an overlap that one of them finds is one whatever the other could look at.
+LowestGap GapCheck::lowest(const Pair& pair, const RigidTransform& X_BA, bool& on_fixed) {
+  const LowestGap fixed = pair.from_fixed.lowest(X_BA.inverse(), -pair.may_overlap);
+  const LowestGap moving =
+      std::isnan(fixed.gap) ? fixed : pair.from_moving.lowest(X_BA, -pair.may_overlap);
+  on_fixed = std::isnan(fixed.gap) || fixed.gap < moving.gap;
+  LowestGap lowest = on_fixed ? fixed : moving;
+  lowest.exact = (fixed.exact && moving.exact) || lowest.gap < -pair.may_overlap;
+  return lowest;
 }
 
 void GapCheck::check(const PoseResult& pose, Ledger& ledger) const {
   const Scene& scene = subject_.run.scene;
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
   for (const Pair& pair : pairs_) {
-    const LowestGap fixed = pair.from_fixed.lowest(pose.X_BA.inverse()),
-                    moving = std::isnan(fixed.gap) ? fixed : pair.from_moving.lowest(pose.X_BA);
-    const bool on_fixed = std::isnan(fixed.gap) || fixed.gap < moving.gap;
-    const LowestGap& lowest = on_fixed ? fixed : moving;
+    bool on_fixed = false;
+    const LowestGap lowest = GapCheck::lowest(pair, pose.X_BA, on_fixed);
     const int surface = on_fixed ? pair.sides.fixed_surface : pair.sides.moving_surface;
     const std::string& body = scene.bodies[at(scene.surfaces[at(surface)].body)].name;
     const double rounding = 1e-13 * pose.X_BA.p.norm();
@@ -39,13 +52,20 @@ void GapCheck::check(const PoseResult& pose, Ledger& ledger) const {
     const std::string between =
         fmt::format("surfaces \"{}\" and \"{}\"", name(pair.sides.fixed_surface),
                     name(pair.sides.moving_surface));
+    if (!lowest.exact) {
+      ledger.leave_out(fmt::format("the gap of {}: too many places to look at", between));
+      continue;
+    }
     const std::string words =
         std::isnan(lowest.gap)
-            ? between +
-                  " cannot be told apart: their gap has no number, or too many places to look at"
-            : fmt::format("{} overlap by {:.6g} mm at [{:.3f}, {:.3f}, {:.3f}] mm of {}", between,
-                          -lowest.gap, lowest.point.x(), lowest.point.y(), lowest.point.z(), body);
-    ledger.note(Check::kGap, std::isnan(lowest.gap) ? lowest.gap : std::max(0.0, -lowest.gap),
+            ? between + " cannot be told apart: their gap has no number"
+            : fmt::format("{} overlap by {:.6g} mm at [{:.3f}, {:.3f}, {:.3f}] mm of {}{}", between,
+                          -lowest.gap, lowest.point.x(), lowest.point.y(), lowest.point.z(), body,
+                          pair.may_overlap > 0 ? fmt::format(", their layers bear {:.4g} mm",
+                                                             pair.may_overlap / 1.01)
+                                               : "");
+    const double deeper = std::max(0.0, -lowest.gap - pair.may_overlap);
+    ledger.note(Check::kGap, std::isnan(lowest.gap) ? lowest.gap : deeper,
                 fmt::format("contact \"{}\"", scene.contacts[pair.contact].name), words,
                 1e-6 + rounding);
   }

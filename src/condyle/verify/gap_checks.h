@@ -1,6 +1,7 @@
 #pragma once
 
-/// Overlap: the lowest gap of each pair of surfaces at a pose, looked for from both sides.
+/// Overlap: the lowest gap of each pair of surfaces at a pose, looked for from both sides. Those with layers
+/// overlap by what their layers bear, at most.
 
 #include <memory>
 #include <vector>
@@ -22,7 +23,11 @@ class GapCheck {
     std::size_t contact;
     PairOfSides sides;
     GapProbe from_fixed, from_moving;
+    double may_overlap;  ///< [mm]
   };
+  [[nodiscard]] static LowestGap lowest(const Pair& pair,
+                                        const RigidTransform& X_BA,
+                                        bool& on_fixed);
   const Subject& subject_;
   std::vector<Pair> pairs_;
 };

@@ -121,8 +121,8 @@ LowestGap GapProbe::refine(
 }
 
 /// By the quadratic of the gap at the cell's middle, each principal direction at its worst, less 1.5 times what
-/// the gradient at the corners departs from it on the way (an estimate, as that of the curvatures is): surfaces that nearly
-/// conform are told apart by that alone, as the curvatures of either say nothing of their difference.
+/// the gradient at the corners departs from it on the way, along either parameter (an estimate, as that of the curvatures is):
+/// surfaces that nearly conform are told apart by that alone, as the curvatures of either say nothing of their difference.
 double GapProbe::bound_by_bending(const Node& node, const Reading& at, Search& search) const {
   search.left -= 6;
   const Cell& c = node.cell;
@@ -134,13 +134,14 @@ double GapProbe::bound_by_bending(const Node& node, const Reading& at, Search& s
     for (const double b : {c.v0, c.v1}) {
       const Eigen::Vector2d way = Eigen::Vector2d(a - u, b - v).cwiseQuotient(scale);
       const Reading corner = read(search.X, c.chart, a, b, &at.closest);
-      departs = std::max(departs, (corner.gradient.cwiseProduct(scale) - g - H * way).norm());
+      const Eigen::Vector2d off = corner.gradient.cwiseProduct(scale) - g - H * way;
+      departs = std::max(departs, off.cwiseProduct(way).lpNorm<1>());
       r = std::max(r, way.norm());
     }
   if (!H.allFinite() || !std::isfinite(departs)) return -INFINITY;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal;
   principal.computeDirect(H);
-  double bound = at.gap - kMoreThanSeen * departs * r;
+  double bound = at.gap - kMoreThanSeen * departs;
   for (int i = 0; i < 2; ++i) {
     const double slope = std::abs(principal.eigenvectors().col(i).dot(g)),
                  bend = principal.eigenvalues()[i];
@@ -172,9 +173,8 @@ void GapProbe::look(const Node& node, const ClosestPoint* near, Search& search) 
 /// Over a cell of radius r the gap is no lower than φ - r, nor than φ - s r - k r²/2 with its slope
 /// s and the curvatures of both surfaces.
 void GapProbe::look_into(const Node& node, const Reading& at, Search& search) const {
-  const double found = std::min(search.best.gap, 0.0), r = node.radius;
+  const double found = std::min(search.best.gap, search.wanted), r = node.radius;
   const double wanted = found - std::max(kNoise, -kOfDepth * found);
-  const Cell& c = node.cell;
   if (at.known) keep({at.gap, at.point}, search.best);
   // Below what is not known of the other side nothing is said.
   if (at.gap < 0 && at.closest.edge < -3 * r) return;
@@ -185,13 +185,27 @@ void GapProbe::look_into(const Node& node, const Reading& at, Search& search) co
   if (bound > wanted) return;
   if (r < kBent && bound_by_bending(node, at, search) > wanted) return;
   if (!(r > leaf_)) return look_closely(node, &at.closest, search);
-  const double du = (c.u1 - c.u0) / 2, dv = (c.v1 - c.v0) / 2;
-  for (const double a : {c.u0, c.u0 + du})
-    for (const double b : {c.v0, c.v0 + dv}) {
-      const double u = a + du / 2, v = b + dv / 2;
+  divide(node, at, search);
+}
+
+/// Into four, or along its longer side into two.
+void GapProbe::divide(const Node& node, const Reading& at, Search& search) const {
+  constexpr double kLong = 2, kMore = 1.1;  // a way on the surface is longer than the chord
+  const Cell& c = node.cell;
+  const Eigen::Vector2d sides =
+      Eigen::Vector2d(c.u1 - c.u0, c.v1 - c.v0)
+          .cwiseQuotient(scales(c.chart, (c.u0 + c.u1) / 2, (c.v0 + c.v1) / 2));
+  const int nu = sides.y() > kLong * sides.x() ? 1 : 2, nv = sides.x() > kLong * sides.y() ? 1 : 2;
+  const double du = (c.u1 - c.u0) / nu, dv = (c.v1 - c.v0) / nv, r = node.radius;
+  const double part_of_r = kMore * std::hypot(sides.x() / nu, sides.y() / nv) / sides.norm();
+  for (int i = 0; i < nu; ++i)
+    for (int j = 0; j < nv; ++j) {
+      const double a = c.u0 + i * du, b = c.v0 + j * dv, u = a + du / 2, v = b + dv / 2;
       if (sampled_.edge(c.chart, u, v) < -1.5 * r) continue;
-      const Node part{
-          {c.chart, a, a + du, b, b + dv}, sampled_.at(c.chart, u, v).p, 0.55 * r, node.curvature};
+      const Node part{{c.chart, a, a + du, b, b + dv},
+                      sampled_.at(c.chart, u, v).p,
+                      part_of_r * r,
+                      node.curvature};
       look(part, r < kBeside ? &at.closest : nullptr, search);
     }
 }
@@ -219,7 +233,7 @@ void GapProbe::group(std::size_t begin, std::size_t end) {
   groups_.push_back(made);
 }
 
-LowestGap GapProbe::lowest(const RigidTransform& X) const {
+LowestGap GapProbe::lowest(const RigidTransform& X, double wanted) const {
   struct Seen {
     const Node* node;
     Reading at;
@@ -239,15 +253,14 @@ LowestGap GapProbe::lowest(const RigidTransform& X) const {
   // First where it is lowest by the middles of the cells: all bounds are then the sharper.
   std::sort(seen.begin(), seen.end(),
             [](const Seen& a, const Seen& b) { return a.at.gap < b.at.gap; });
-  Search search{X};
+  Search search{X, wanted};
   for (const Seen& one : seen) {
     if (!one.at.known) continue;
     look_closely(*one.node, &one.at.closest, search);
     break;
   }
   for (const Seen& one : seen) look_into(*one.node, one.at, search);
-  if (search.left < 0 && search.best.gap > -kNoise)
-    search.best.gap = std::numeric_limits<double>::quiet_NaN();
+  search.best.exact = search.left >= 0 || search.best.gap < wanted - kNoise;
   return search.best;
 }
 

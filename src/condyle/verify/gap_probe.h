@@ -15,7 +15,8 @@ namespace condyle::verification {
 struct LowestGap {
   /// [mm], negative: overlap; NaN: no number.
   double gap = std::numeric_limits<double>::infinity();
-  Vector3d point;  ///< in the frame of the sampled side
+  Vector3d point;     ///< in the frame of the sampled side
+  bool exact = true;  ///< false: nothing is found, and there were too many places to look at all
 };
 
 /// Samples one side; the sides must outlive it.
@@ -27,9 +28,10 @@ class GapProbe {
   [[nodiscard]] bool covers() const { return !cells_.empty(); }
 
   /// X takes the sampled side's frame to the other's. Exact where the lowest gap is within a fraction
-  /// of a cell of zero; where it is greater, the lowest that was met; an overlap to 1 % of its depth.
-  /// NaN where numbers are too great to tell, or where nothing is found and not all was looked at.
-  [[nodiscard]] LowestGap lowest(const RigidTransform& X) const;
+  /// of a cell of `wanted` or below it; where it is greater, the lowest that was met; an overlap to 1 % of
+  /// its depth. `wanted` [mm], at most 0: gaps above it need not be told apart.
+  /// NaN where numbers are too great to tell.
+  [[nodiscard]] LowestGap lowest(const RigidTransform& X, double wanted = 0) const;
 
  private:
   struct Node {
@@ -65,12 +67,14 @@ class GapProbe {
   /// What is looked for at one pose.
   struct Search {
     const RigidTransform& X;
+    double wanted = 0;  ///< as of lowest()
     LowestGap best = {};
     int left =
         120000;  ///< closest points that may still be asked for; below 0 not all was looked at
   };
   void look(const Node& node, const ClosestPoint* near, Search& search) const;
   void look_into(const Node& node, const Reading& at, Search& search) const;
+  void divide(const Node& node, const Reading& at, Search& search) const;
   [[nodiscard]] double bound_by_bending(const Node& node, const Reading& at, Search& search) const;
   void look_closely(const Node& node, const ClosestPoint* near, Search& search) const;
   /// The local minimum that a place leads to; infinite where it is not known.

@@ -10,8 +10,11 @@
 namespace condyle::verification {
 
 /// Depth, pressure and place of every stored point; what they add up to; what the law gives on
-/// cells of half a millimetre over both surfaces; how deep the layers are pressed.
+/// cells over both surfaces that are halved until the force settles; how deep the layers are pressed.
 void check_layers(const Subject& subject, const PoseResult& pose, Ledger& ledger);
+
+/// So deep a contact's surfaces may overlap by its layers [mm].
+[[nodiscard]] double bearable_depth(const Subject& subject, std::size_t contact);
 
 /// Energy of the layers of a pose's contacts, its stored points carried to X [N mm].
 [[nodiscard]] double layer_energy(const Subject& subject,

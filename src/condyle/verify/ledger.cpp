@@ -95,6 +95,11 @@ void Ledger::warn(const std::string& key, double weight, const std::string& text
   warning.text = pose_name_.empty() ? text : pose_name_ + ": " + text;
 }
 
+void Ledger::leave_out(const std::string& words) {
+  Warning& left_out = left_out_[words];
+  if (left_out.count++ == 0) left_out.text = words + " (" + pose_name_;
+}
+
 void Ledger::close(Verification& result) const {
   result.checks.assign(checks_.begin(), checks_.end());
   std::set<std::size_t> poses;
@@ -107,6 +112,11 @@ void Ledger::close(Verification& result) const {
     result.warnings.push_back(
         warning.count == 1 ? warning.text
                            : fmt::format("{} (the greatest of {})", warning.text, warning.count));
+  for (const auto& [words, left_out] : left_out_)
+    result.not_checked.push_back(
+        left_out.count == 1
+            ? left_out.text + ")"
+            : fmt::format("{}, and {} more poses)", left_out.text, left_out.count - 1));
 }
 
 }  // namespace condyle::verification

@@ -34,6 +34,9 @@ class Ledger {
   /// A warning; of many with the same key only the one with the greatest weight stays.
   void warn(const std::string& key, double weight, const std::string& text);
 
+  /// What could not be looked at; of many poses with the same words one is named, with their count.
+  void leave_out(const std::string& words);
+
   /// "flexion = 45 deg"
   [[nodiscard]] const std::string& pose_name() const { return pose_name_; }
 
@@ -51,7 +54,7 @@ class Ledger {
   std::string pose_name_;
   std::array<CheckSummary, kCheckCount> checks_;
   std::map<std::pair<std::size_t, Check>, Fault> faults_;
-  std::map<std::string, Warning> warnings_;
+  std::map<std::string, Warning> warnings_, left_out_;
 };
 
 }  // namespace condyle::verification
