@@ -98,8 +98,8 @@ inline Model quadric_knee(const QuadricKneeView& view = {}) {
     element.law = law;
     model.element_names.emplace_back(ligament.name);
   }
-  const auto add_pair = [&](const char* name, std::shared_ptr<const Surface> condyle,
-                            std::shared_ptr<const Surface> plateau) {
+  const auto add_pair = [&](const char* name, const std::shared_ptr<const Surface>& condyle,
+                            const std::shared_ptr<const Surface>& plateau) {
     ContactPair pair;
     pair.name = name;
     pair.on_B = view.femur_moves ? plateau : condyle;

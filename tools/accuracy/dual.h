@@ -48,5 +48,6 @@ struct Eigen::NumTraits<condyle::accuracy::Dual<N>> : Eigen::NumTraits<double> {
   using Real = condyle::accuracy::Dual<N>;
   using NonInteger = Real;
   using Nested = Real;
+  // NOLINTNEXTLINE(readability-identifier-naming) names that Eigen asks for
   enum { IsComplex = 0, IsInteger = 0, RequireInitialization = 1, AddCost = N, MulCost = 3 * N };
 };

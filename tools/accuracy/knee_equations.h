@@ -92,7 +92,7 @@ struct KneeEquations {
   }
 
   template <class T>
-  Unknowns<T> residual(const Unknowns<T>& x) const {
+  [[nodiscard]] Unknowns<T> residual(const Unknowns<T>& x) const {
     using std::atan2;
     using std::sqrt;
     const T L(model.length);
@@ -102,7 +102,7 @@ struct KneeEquations {
     Vec3<T> f = R * load.vector.template cast<T>();
     Vec3<T> m = (R * load.at.template cast<T>()).cross(f);
     add_ligaments<T>(a, R, f, m);
-    const T y = R(1, 2), z = R(2, 2);
+    const T &y = R(1, 2), &z = R(2, 2);
     const Vec3<T> k(R(0, 2), y, z), J(T(0), T(1), T(0)), K(T(0), T(0), T(1));
     m -= x[6] * (z * k.cross(J) - y * k.cross(K)) / (y * y + z * z);
     Unknowns<T> r;

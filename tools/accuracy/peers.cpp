@@ -153,7 +153,7 @@ Unknowns<double> unknowns_of(const EquilibriumState& state,
   x.segment<3>(0) = state.X.p;
   x[6] = state.sigma[0];
   for (std::size_t k = 0; k < state.contacts.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(7 + 5 * state.contacts[k].pair);
+    const auto at = 7 + Eigen::Index{5} * state.contacts[k].pair;
     x.segment<3>(at) = system.contacts()[k].B.c;
     x[at + 3] = 1;
     x[at + 4] = state.contacts[k].p;

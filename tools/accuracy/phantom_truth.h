@@ -55,6 +55,7 @@ struct PatchErrors {
 struct Texture {
   double cell, roughness, correlation;
   int seed;
+  // NOLINTNEXTLINE(modernize-use-nullptr) made by the compiler (clang-tidy 14)
   auto operator<=>(const Texture&) const = default;
 };
 

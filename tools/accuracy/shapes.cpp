@@ -23,7 +23,7 @@ using Height = std::function<double(double, double)>;
 
 ArticularRegion sheet(const Height& height, double noise) {
   ArticularRegion region;
-  region.mesh = testing::height_sheet(kSide, kCells, height);
+  region.mesh = test::height_sheet(kSide, kCells, height);
   std::mt19937 generator(1);
   std::normal_distribution<double> normal(0, 1);
   for (Eigen::Vector3d& vertex : region.mesh.vertices)

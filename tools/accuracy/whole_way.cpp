@@ -45,8 +45,9 @@ double median_pose_time(const SweepResult& run) {
   for (std::size_t i = 1; i < run.poses.size(); ++i)
     if (run.poses[i].converged()) times.push_back(run.poses[i].seconds * 1e6);
   if (times.empty()) return 1e300;
-  std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
-  return times[times.size() / 2];
+  const auto middle = times.begin() + std::ssize(times) / 2;
+  std::nth_element(times.begin(), middle, times.end());
+  return *middle;
 }
 
 SweepResult plain_sweep(const Scene& scene, const std::vector<FittedSurface>& surfaces) {

@@ -26,7 +26,7 @@ void sweep(SceneLines& out, const SceneNames& names) {
   out.perhaps("path", out.word({"steps", "arc length"}));
   if (!out.choices().once_in(2)) return;
   const std::string owner = out.word(names.ligaments);
-  const std::string number = kNumbers[out.choices().below(kNumbers.size())];
+  const std::string& number = kNumbers[out.choices().below(kNumbers.size())];
   out.line("sensitivities",
            fmt::format("[{}.{}\", \"*.stiffness\"]", owner.substr(0, owner.size() - 1), number));
 }

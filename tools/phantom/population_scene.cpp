@@ -51,8 +51,8 @@ class Edits {
       set(point.items.at(c),
           fmt::format("{:.7f}", p[static_cast<Eigen::Index>(c)] / scene_.length_to_mm));
   }
-  const Value& document() const { return document_; }
-  std::string text() const { return edited(scene_.text, edits_); }
+  [[nodiscard]] const Value& document() const { return document_; }
+  [[nodiscard]] std::string text() const { return edited(scene_.text, edits_); }
 
  private:
   const Scene& scene_;

@@ -30,7 +30,7 @@ Json run_json(const std::string& command, const std::filesystem::path& folder, s
   const int status = std::system(
       fmt::format("{} --json > '{}' 2> '{}' < /dev/null", command, out.string(), err.string())
           .c_str());
-  const Json json = Json::parse(contents(out), nullptr, false);
+  Json json = Json::parse(contents(out), nullptr, false);
   if (WIFSIGNALED(status) || WEXITSTATUS(status) > 2)
     error = fmt::format("ended by signal or status {}", status);
   else if (json.is_discarded())

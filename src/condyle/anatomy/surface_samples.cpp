@@ -29,10 +29,11 @@ std::vector<int> connected_parts(const TriangleMesh& mesh) {
 std::uint64_t cell_of(const Vector3d& p, const Vector3d& normal, double spacing) {
   int axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
-  std::uint64_t key = static_cast<std::uint64_t>(2 * axis + (normal[axis] < 0 ? 1 : 0));
-  for (int k = 0; k < 3; ++k)
-    key = (key << 20) |
-          (static_cast<std::uint64_t>(std::floor(p[k] / spacing) + (1 << 19)) & 0xfffff);
+  std::uint64_t key = 2 * static_cast<std::uint64_t>(axis) + (normal[axis] < 0 ? 1 : 0);
+  for (int k = 0; k < 3; ++k) {
+    const auto cube = static_cast<std::int64_t>(std::floor(p[k] / spacing)) + (1 << 19);
+    key = (key << 20) | (static_cast<std::uint64_t>(cube) & 0xfffff);
+  }
   return key;
 }
 

@@ -13,7 +13,7 @@ std::filesystem::path default_template() {
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
   for (const fs::path& folder : {program.parent_path() / "share" / "condyle", program.parent_path(),
                                  fs::path(CONDYLE_TEMPLATES)}) {
-    const fs::path scene = folder / "data" / "phantom" / "knee.toml";
+    fs::path scene = folder / "data" / "phantom" / "knee.toml";
     if (fs::is_regular_file(scene, error) &&
         fs::is_regular_file(folder / "meshes" / "femur.stl", error))
       return scene;

@@ -63,7 +63,7 @@ void check_formats(const ExportCommand& command, const std::string& ending) {
 /// The ending of a file of one format, or nothing for a folder.
 std::string file_ending(const ExportCommand& command) {
   const fs::path path(command.output);
-  const std::string ending = path.extension().string();
+  std::string ending = path.extension().string();
   if (is_one_of(kFileEndings, ending)) return ending;
   if (ending == ".vtp" || ending == ".pvd") {
     throw InputError(fmt::format("{}: a series of many files, expected a folder, with --format vtk",

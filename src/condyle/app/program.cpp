@@ -79,7 +79,8 @@ void check_options(const CLI::App& command, int argc, char** argv, const std::st
 
 /// What CLI11 says, in our words where its own say less than it knows.
 std::string words_of(const CLI::ParseError& error, const CLI::App& program) {
-  const std::string words = error.what(), unconverted = "Could not convert: ";
+  const std::string unconverted = "Could not convert: ";
+  std::string words = error.what();
   if (words.rfind(unconverted, 0) == 0)
     return words.substr(unconverted.size()) + ", expected a number";
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)

@@ -44,7 +44,7 @@ std::string bundle_of(const Scene& scene, const CalibrationParameter& asked) {
 std::string owners(const Scene& scene, const CalibrationParameter& asked) {
   constexpr std::size_t kMost = 3;
   if (asked.of.size() > kMost)
-    if (const std::string bundle = bundle_of(scene, asked); !bundle.empty()) return bundle;
+    if (std::string bundle = bundle_of(scene, asked); !bundle.empty()) return bundle;
   std::string name;
   for (std::size_t i = 0; i < std::min(asked.of.size(), kMost); ++i)
     name += (i > 0 ? "+" : "") + owner_of(scene, asked.what, static_cast<std::size_t>(asked.of[i]));

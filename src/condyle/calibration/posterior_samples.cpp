@@ -43,7 +43,7 @@ PosteriorSamples posterior_samples(const FitProblem& problem,
       const auto at = static_cast<std::size_t>(k);
       if (reach(worker, theta))
         fits[at] = fit_by(worker, randomised(problem.rows, seed, k), theta, progress, options);
-      done[at] = !fits[at].stopped;
+      done[at] = fits[at].stopped ? 0 : 1;
     };
   };
   in_parallel("samples", static_cast<int>(fits.size()), problem.threads, make_task, progress);

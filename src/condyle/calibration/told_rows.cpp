@@ -67,8 +67,8 @@ void find_frames(const std::vector<FreeParameter>& parameters, ToldRows& told) {
     const bool femur = parameters[j].kind == FreeParameter::Kind::kFemurFrame;
     if (!femur && parameters[j].kind != FreeParameter::Kind::kTibiaFrame) continue;
     told.frames = true;
-    told.frame_parameters.at(static_cast<std::size_t>(parameters[j].component + (femur ? 0 : 6))) =
-        static_cast<int>(j);
+    const int component = parameters[j].component + (femur ? 0 : 6);
+    told.frame_parameters.at(static_cast<std::size_t>(component)) = static_cast<int>(j);
   }
 }
 

@@ -20,8 +20,9 @@ double median_seconds(const SweepResult& sweep) {
   for (const PoseResult& pose : sweep.poses)
     if (pose.converged()) seconds.push_back(pose.seconds);
   if (seconds.empty()) return std::nan("");
-  std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
-  return seconds[seconds.size() / 2];
+  const auto middle = seconds.begin() + std::ssize(seconds) / 2;
+  std::nth_element(seconds.begin(), middle, seconds.end());
+  return *middle;
 }
 
 double mean_iterations(const SweepResult& sweep) {

@@ -149,6 +149,7 @@ double ContactSearch::height_over(int sample, int neighbour) const {
   const double way = (sampled().sample(neighbour).c - sampled().sample(sample).c).squaredNorm();
   if (way >= kNeighbour * kNeighbour * spacing_ * spacing_) return kInfinity;
   const double above = there.gap + there.error - (own.gap - own.error);
+  // NOLINTNEXTLINE(bugprone-narrowing-conversions) double to double: clang-tidy 14 takes infinity for none
   return above == 0 && neighbour > sample ? kInfinity : above;
 }
 
@@ -213,6 +214,7 @@ void ContactSearch::add_minimum(int sample,
   looked_at_ += kRefinement;
   // The ends of a line may lie lower than any minimum.
   const std::optional<GapMinimum> minimum =
+      // NOLINTNEXTLINE(bugprone-narrowing-conversions) as above
       refine(sample, X_BA, cover_->lines ? kInfinity : cutoff);
   if (!minimum) return;
   // A sample stands for a minimum of its own only where it is the lowest and faces what is known.

@@ -313,7 +313,7 @@ bool ContactSearch::visit(int index, const RigidTransform& X_from_to, double cut
   }
   const bool first = visit(cluster.child[0], X_from_to, cutoff);
   const bool second = visit(cluster.child[1], X_from_to, cutoff);
-  split = !(first && second);
+  split = first && second ? 0 : 1;
   return false;
 }
 

@@ -65,10 +65,10 @@ SurfacePoint mean_quadric(const SurfacePoint& about, SurfaceCells cells) {
 }
 
 SurfaceCell fit_quadric(const SurfacePoint& about, SurfaceCells cells) {
-  const SurfaceCell given = enclosed(about, cells);
+  SurfaceCell given = enclosed(about, cells);
   const double least = cells.front()->rise;
   if (given.rise <= least || given.rise == kInfinity) return given;
-  const SurfaceCell mean = enclosed(mean_quadric(about, cells), cells);
+  SurfaceCell mean = enclosed(mean_quadric(about, cells), cells);
   return mean.rise < given.rise ? mean : given;
 }
 

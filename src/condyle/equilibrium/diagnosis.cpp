@@ -328,7 +328,7 @@ std::string why_singular(Newton& newton) {
   const auto& [state, drive] = newton.stopped();
   newton.system().assemble(state, drive);
   const Linearization at = linearization(newton.system(), state, drive);
-  const std::string dependent = dependent_constraints(at);
+  std::string dependent = dependent_constraints(at);
   if (!dependent.empty()) return dependent;
   const Stability now = stability(at);
   if (now.neutral) return "nothing resists " + name_motions(at.model, state.X, now.free);

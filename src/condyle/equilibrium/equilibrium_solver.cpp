@@ -56,7 +56,8 @@ EquilibriumSolver::EquilibriumSolver(std::shared_ptr<const Model> model,
   reset();
 }
 
-EquilibriumSolver::EquilibriumSolver(std::shared_ptr<const Model> model, EquilibriumOptions options)
+EquilibriumSolver::EquilibriumSolver(const std::shared_ptr<const Model>& model,
+                                     EquilibriumOptions options)
     : EquilibriumSolver(model, cover_pairs(*model), options) {}
 
 EquilibriumSolver::EquilibriumSolver(Model model, EquilibriumOptions options)

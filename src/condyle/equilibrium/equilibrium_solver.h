@@ -51,7 +51,8 @@ enum class Patience {
 
 class EquilibriumSolver {
  public:
-  explicit EquilibriumSolver(std::shared_ptr<const Model> model, EquilibriumOptions options = {});
+  explicit EquilibriumSolver(const std::shared_ptr<const Model>& model,
+                             EquilibriumOptions options = {});
   /// `covers` as from cover_pairs(*model), shared with other solvers of the model. Throws
   /// std::invalid_argument for those of another one.
   EquilibriumSolver(std::shared_ptr<const Model> model,

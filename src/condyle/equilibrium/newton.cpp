@@ -166,7 +166,9 @@ bool NewtonSystem::revise(EquilibriumState& state) {
 }
 
 bool NewtonSystem::is_assembled_at(const EquilibriumState& state) const {
+  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison) bits are what is asked for
   return std::memcmp(X_.R.data(), state.X.R.data(), sizeof(double) * 9) == 0 &&
+         // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
          std::memcmp(X_.p.data(), state.X.p.data(), sizeof(double) * 3) == 0 &&
          contacts_.size() == state.contacts.size();
 }

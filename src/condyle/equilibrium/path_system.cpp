@@ -50,7 +50,7 @@ double PathSystem::gap_rate(const ContactLinearization& contact, const Direction
   double rate = 0;
   for (int i = 0; i < 3; ++i)
     rate += contact.B.n[i] * direction.d[static_cast<std::size_t>(i)] +
-            contact.arm[i] / model_.length * direction.d[static_cast<std::size_t>(3 + i)];
+            contact.arm[i] / model_.length * direction.d[static_cast<std::size_t>(i) + 3];
   return rate;
 }
 

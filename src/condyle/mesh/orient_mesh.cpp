@@ -41,7 +41,7 @@ std::vector<int> make_consistent(const TriangleLinks& links,
                                  int seed,
                                  std::vector<bool>& turned,
                                  std::vector<bool>& seen) {
-  const std::vector<int> members = walk(links, seed, seen, [&](int from, std::size_t k, int other) {
+  std::vector<int> members = walk(links, seed, seen, [&](int from, std::size_t k, int other) {
     turned[other] = turned[from] != !links.agrees(from, k);
   });
   const auto count =

@@ -178,7 +178,7 @@ class Integration {
   bool steps_are_spent() { return moving_.ode().steps() - steps_before_ >= options_.most_steps; }
 
   /// The next time after t at which a driver jumps, or never.
-  double next_jump(double t) const {
+  [[nodiscard]] double next_jump(double t) const {
     double next = INFINITY;
     for (const double jump : options_.breaks)
       if (jump > t) next = std::min(next, jump);

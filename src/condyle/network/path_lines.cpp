@@ -20,7 +20,7 @@ PathLines::Pull PathLines::pull(std::size_t line, const Kinematics& at) {
   constexpr int kMostChanges = 16;  // of what it touches
   const LineComponent& component = network_.lines[line];
   const RigidTransform& X = at.poses()[static_cast<std::size_t>(network_.ports[component.to].body)];
-  const Eigen::Vector3d x_D = at.point(component.to);
+  const Eigen::Vector3d& x_D = at.point(component.to);
   const LineEnds ends{at.point(component.from), x_D, x_D - X.p};
   double* kept = kept_.data() + first_[line];
   Pull pull;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -102,7 +103,7 @@ std::vector<std::pair<Group, RowCurve>> row_curves(const Scene& scene,
 
 /// By how many of its deviations the quantity changes along the curve.
 double signal(const CalibrationResult& result, const RowCurve& curve) {
-  double low = INFINITY, high = -INFINITY, sd = 0;
+  double low = std::numeric_limits<double>::infinity(), high = -low, sd = 0;
   for (const auto& [x, i] : curve.points) {
     low = std::min(low, result.table.rows[i].value);
     high = std::max(high, result.table.rows[i].value);

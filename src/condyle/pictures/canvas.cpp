@@ -26,13 +26,18 @@ double distance_to_segment(const Eigen::Vector2d& p,
   return (p - a - t * ab).norm();
 }
 
+std::size_t index_of(const TextMask& mask, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.width) +
+         static_cast<std::size_t>(x);
+}
+
 /// The mask grown by `radius` pixels.
 TextMask grown(const TextMask& mask, int radius) {
   TextMask result = mask;
   std::fill(result.coverage.begin(), result.coverage.end(), std::uint8_t{0});
   for (int y = 0; y < mask.height; ++y) {
     for (int x = 0; x < mask.width; ++x) {
-      const std::uint8_t value = mask.coverage[static_cast<std::size_t>(y * mask.width + x)];
+      const std::uint8_t value = mask.coverage[index_of(mask, x, y)];
       if (value == 0) continue;
       for (int dy = -radius; dy <= radius; ++dy) {
         for (int dx = -radius; dx <= radius; ++dx) {
@@ -40,7 +45,7 @@ TextMask grown(const TextMask& mask, int radius) {
           if (dx * dx + dy * dy > radius * radius || tx < 0 || ty < 0 || tx >= mask.width ||
               ty >= mask.height)
             continue;
-          std::uint8_t& to = result.coverage[static_cast<std::size_t>(ty * mask.width + tx)];
+          std::uint8_t& to = result.coverage[index_of(mask, tx, ty)];
           to = std::max(to, value);
         }
       }
@@ -103,8 +108,7 @@ void Canvas::text(const Eigen::Vector2d& at, const std::string& text, const Text
   const auto stamp = [&](const TextMask& mask, Rgb color, double opacity) {
     for (int y = 0; y < mask.height; ++y) {
       for (int x = 0; x < mask.width; ++x) {
-        blend(left + x, top + y, color,
-              opacity * mask.coverage[static_cast<std::size_t>(y * mask.width + x)] / 255.0);
+        blend(left + x, top + y, color, opacity * mask.coverage[index_of(mask, x, y)] / 255.0);
       }
     }
   };

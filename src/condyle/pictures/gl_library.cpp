@@ -20,6 +20,7 @@ void* find(void* library, const char* name) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-macro-parentheses) a name is declared
 #define CONDYLE_DEFINE(function) decltype(&::function) function = nullptr;
 CONDYLE_GL_FUNCTIONS(CONDYLE_DEFINE)
 #undef CONDYLE_DEFINE

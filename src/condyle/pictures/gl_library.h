@@ -29,6 +29,7 @@
 
 namespace condyle {
 
+// NOLINTNEXTLINE(bugprone-macro-parentheses) a name is declared
 #define CONDYLE_DECLARE(function) extern decltype(&::function) function;
 CONDYLE_GL_FUNCTIONS(CONDYLE_DECLARE)
 #undef CONDYLE_DECLARE

@@ -38,6 +38,7 @@ void expect_room() {
   ::munmap(room, bytes);
 }
 
+// NOLINTNEXTLINE(performance-no-int-to-ptr) OpenGL takes an offset into a buffer as a pointer
 const void* byte_offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
 }  // namespace

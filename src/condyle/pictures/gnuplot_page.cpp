@@ -91,7 +91,7 @@ std::string plot_style(PlotFormat format, int width, int height) {
 
 Title page_title(const std::string& title, const std::string& what, double room) {
   if (title.empty()) return {{what}};
-  const Title one{{title + ": " + what}};
+  Title one{{title + ": " + what}};
   if (widest(one.lines, one.size) <= room) return one;
   Title two{{title + ":", what}};
   while (two.size > kLeastTitleSize && widest(two.lines, two.size) > room) two.size -= 0.5;

@@ -24,19 +24,20 @@ void fit_height_polynomial(const std::vector<Vector3d>& points,
   std::vector<PolynomialTerm> terms;
   for (int i = 0; i <= degree; ++i)
     for (int j = 0; i + j <= degree; ++j) terms.push_back({i, j, 0});
-  Eigen::MatrixXd A(points.size(), terms.size());
-  Eigen::VectorXd b(points.size());
+  Eigen::MatrixXd A(std::ssize(points), std::ssize(terms));
+  Eigen::VectorXd b(std::ssize(points));
   for (std::size_t k = 0; k < points.size(); ++k) {
     const double weight = std::sqrt(weights[k]);
+    const auto row = static_cast<Eigen::Index>(k);
     for (std::size_t t = 0; t < terms.size(); ++t) {
-      A(k, t) = weight * std::pow(at[k].x() / reach, terms[t].i) *
-                std::pow(at[k].y() / reach, terms[t].j);
+      A(row, static_cast<Eigen::Index>(t)) = weight * std::pow(at[k].x() / reach, terms[t].i) *
+                                             std::pow(at[k].y() / reach, terms[t].j);
     }
-    b[k] = weight * surface.axes.col(2).dot(points[k] - surface.origin);
+    b[row] = weight * surface.axes.col(2).dot(points[k] - surface.origin);
   }
   const Eigen::VectorXd a = A.colPivHouseholderQr().solve(b);
   for (std::size_t t = 0; t < terms.size(); ++t)
-    terms[t].a = a[t] / std::pow(reach, terms[t].i + terms[t].j);
+    terms[t].a = a[static_cast<Eigen::Index>(t)] / std::pow(reach, terms[t].i + terms[t].j);
   surface.terms = std::move(terms);
   surface.outline = convex_outline(std::move(at));
 }

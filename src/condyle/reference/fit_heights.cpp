@@ -103,7 +103,7 @@ class HeightFitter {
   HeightFitter(const Scene& scene, const std::vector<FittedSurface>& surfaces, int degree)
       : scene_(scene), surfaces_(surfaces), degree_(degree), range_(scene) {}
 
-  HeightFit fit(std::size_t index, std::size_t opposite) const {
+  [[nodiscard]] HeightFit fit(std::size_t index, std::size_t opposite) const {
     const SurfaceDescription& description = scene_.surfaces[index];
     if (description.kind == SurfaceKind::kPlane || description.kind == SurfaceKind::kPolynomial)
       return as_it_is(description);

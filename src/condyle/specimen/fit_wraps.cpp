@@ -154,7 +154,7 @@ EllipsoidFit good_ellipsoid(const Scene& scene,
     const std::vector<Vector3d> vertices =
         touched_vertices(bone, strands, region, options.least_cosine);
     if (vertices.size() < kLeast) continue;
-    const EllipsoidFit ellipsoid = fit_ellipsoid(vertices, start, kRadius);
+    EllipsoidFit ellipsoid = fit_ellipsoid(vertices, start, kRadius);
     wrap.fit->region = region;
     wrap.fit->vertices = static_cast<int>(vertices.size());
     if (is_good(ellipsoid, options)) return ellipsoid;

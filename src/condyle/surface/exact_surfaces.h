@@ -49,7 +49,7 @@ struct PolynomialTerm {
 /// radius².
 [[nodiscard]] std::unique_ptr<Surface> make_polynomial(const Eigen::Vector3d& origin,
                                                        const Eigen::Matrix3d& axes,
-                                                       std::vector<PolynomialTerm> terms,
+                                                       const std::vector<PolynomialTerm>& terms,
                                                        bool solid_inside,
                                                        double radius = kUnbounded);
 

@@ -49,7 +49,7 @@ class HeightPolynomial final : public ExactSurface {
       rows_ = std::max(rows_, term.i + 1);
       columns_ = std::max(columns_, term.j + 1);
     }
-    coefficients_.assign(static_cast<std::size_t>(rows_ * columns_), 0.0);
+    coefficients_.assign(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_), 0.0);
     for (const PolynomialTerm& term : terms) coefficients_[term.i * columns_ + term.j] += term.a;
   }
 
@@ -158,10 +158,10 @@ class HeightPolynomial final : public ExactSurface {
 
 std::unique_ptr<Surface> make_polynomial(const Vector3d& origin,
                                          const Matrix3d& axes,
-                                         std::vector<PolynomialTerm> terms,
+                                         const std::vector<PolynomialTerm>& terms,
                                          bool solid_inside,
                                          double radius) {
-  return std::make_unique<HeightPolynomial>(origin, axes, std::move(terms), solid_inside, radius);
+  return std::make_unique<HeightPolynomial>(origin, axes, terms, solid_inside, radius);
 }
 
 }  // namespace condyle

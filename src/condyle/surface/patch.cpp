@@ -169,7 +169,7 @@ void bicubic(const double* coefficients_u,
     Four s0 = {}, s1 = {}, s2 = {};
     for (int j = 0; j < 4; ++j) {
       Four p;
-      __builtin_memcpy(&p, net + 4 * j, sizeof p);
+      __builtin_memcpy(&p, net + std::ptrdiff_t{4} * j, sizeof p);
       s0 += bv[0][j] * p;
       s1 += bv[1][j] * p;
       if (second) s2 += bv[2][j] * p;
@@ -231,7 +231,8 @@ PatchDerivatives Patch::bicubic_derivatives(double u, double v, bool second) con
           net_[static_cast<std::size_t>(i) * data_.nv + j].data(),
           4 * static_cast<std::size_t>(data_.nv), second, out);
   const auto vector = [&](int k) {
-    return Eigen::Vector3d(out[4 * k], out[4 * k + 1], out[4 * k + 2]);
+    const double* at = out + std::ptrdiff_t{4} * k;
+    return Eigen::Vector3d(at[0], at[1], at[2]);
   };
   return {vector(0), vector(1), vector(2), vector(3), vector(4), vector(5)};
 }

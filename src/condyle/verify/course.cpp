@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "condyle/verify/coordinates.h"
 #include "condyle/verify/parts.h"
@@ -94,7 +95,7 @@ Deepest runs_into(const WrapAt& wrap, const Vector3d& from, const Vector3d& to) 
     const Field field = field_at(wrap.wrap->shape, wrap.larger, wrap.own(x));
     return -field.f / std::max(1e-12, field.gradient.norm());
   };
-  double depth = -INFINITY, at = 0;
+  double depth = -std::numeric_limits<double>::infinity(), at = 0;
   for (int k = 1; k < places; ++k) {
     const double here = depth_at(k);
     if (here > depth) depth = here, at = k;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace condyle::verification {
 namespace {
@@ -138,7 +139,7 @@ double GapProbe::bound_by_bending(const Node& node, const Reading& at, Search& s
       departs = std::max(departs, off.cwiseProduct(way).lpNorm<1>());
       r = std::max(r, way.norm());
     }
-  if (!H.allFinite() || !std::isfinite(departs)) return -INFINITY;
+  if (!H.allFinite() || !std::isfinite(departs)) return -std::numeric_limits<double>::infinity();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal;
   principal.computeDirect(H);
   double bound = at.gap - kMoreThanSeen * departs;

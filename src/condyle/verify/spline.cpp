@@ -88,7 +88,8 @@ double mask_distance(const PatchData& patch, double u, double v) {
   const int i = parts_of(std::floor(s), 0, patch.mask_nu - 1),
             j = parts_of(std::floor(t), 0, patch.mask_nv - 1);
   const auto corner = [&](int a, int b) {
-    return patch.mask[static_cast<std::size_t>((i + a) * (patch.mask_nv + 1) + j + b)];
+    const auto row = static_cast<std::size_t>(i + a), column = static_cast<std::size_t>(j + b);
+    return patch.mask[row * (static_cast<std::size_t>(patch.mask_nv) + 1) + column];
   };
   const double x = s - i, y = t - j;
   const double low = corner(0, 0) + y * (corner(0, 1) - corner(0, 0));
