@@ -113,9 +113,9 @@ std::optional<RimMinimum> rim_minimum(const Surface& rim,
   };
   constexpr int kParts = 4;        // of the reach
   constexpr double kLeast = 1e-4;  // of the reach
-  std::array<double, 2 * kParts + 1> gaps;
+  constexpr std::size_t kGaps = 2 * kParts + 1;
+  std::array<double, kGaps> gaps;
   for (int i = -kParts; i <= kParts; ++i)
-    // cppcheck-suppress containerOutOfBounds ; it takes the size for 2 (cppcheck 2.10)
     gaps[static_cast<std::size_t>(i) + kParts] = look(reach * i / kParts);
   // Where what it faces ends, it may lie lowest: at a corner of both edges.
   const auto look_where_it_ends = [&](double facing_way, double other_way) {
