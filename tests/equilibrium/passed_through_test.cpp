@@ -17,13 +17,18 @@
 namespace condyle {
 namespace {
 
+/// Two discs that face each other, the fixed one about the origin.
+ContactPair discs(double fixed_radius, double moving_radius) {
+  ContactPair pair;
+  pair.on_B = make_plane(Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), fixed_radius);
+  pair.on_A = make_plane(Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), moving_radius);
+  return pair;
+}
+
 // Two discs that face each other: one that slid off the other's edge and went on behind it faces
 // nothing, beside it and in front it is only open.
 TEST(PassedThrough, WhatSlidOffAnEdgeAndWentOnBehindIsBehind) {
-  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), origin = Eigen::Vector3d::Zero();
-  ContactPair pair;
-  pair.on_B = make_plane(origin, up, 12);
-  pair.on_A = make_plane(origin, -up, 12);
+  const ContactPair pair = discs(12, 12);
   const PassedThrough passed(pair, 30);
   const auto depth = [&](double x, double z) {
     return passed.depth({exp_rotation({0.05, -0.1, 0.3}), {x, 0, z}});
@@ -39,10 +44,7 @@ TEST(PassedThrough, WhatSlidOffAnEdgeAndWentOnBehindIsBehind) {
 
 // A large disc stands beside a small one, its lower half behind it: as much of it lies in front.
 TEST(PassedThrough, WhatStandsHalfBehindAnEdgeIsBehind) {
-  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), origin = Eigen::Vector3d::Zero();
-  ContactPair pair;
-  pair.on_B = make_plane(origin, up, 12);
-  pair.on_A = make_plane(origin, -up, 30);
+  const ContactPair pair = discs(12, 30);
   const PassedThrough passed(pair, 30);
   const Eigen::Matrix3d upright = exp_rotation({0, 1.3, 0});
   ASSERT_TRUE(passed.depth({upright, {60, 0, 0}}).has_value());

@@ -16,6 +16,7 @@
 #include "condyle/exchange/glb_run.h"
 #include "condyle/exchange/opensim_run.h"
 #include "condyle/exchange/pressure_export.h"
+#include "condyle/exchange/run_table.h"
 #include "condyle/exchange/stl_run.h"
 #include "condyle/exchange/vtk_run.h"
 #include "condyle/input_error.h"
@@ -174,9 +175,8 @@ void expect_names_that_differ(const fs::path& folder, const std::vector<ExportFi
 /// Sources are known by path and by bytes; of measurements the run holds no bytes, and its paths start where it was
 /// computed. So no table is replaced that is not one of these.
 void refuse_to_overwrite_measurements(const fs::path& file, const Run& run) {
-  constexpr const char* kHead = "pose,swept,";
   if (!run.scene.calibration || file.extension() != ".csv" || !fs::is_regular_file(file)) return;
-  if (!bytes_of_file(file).starts_with(kHead))
+  if (!bytes_of_file(file).starts_with(kTableHead))
     throw InputError(
         file.string() +
         ": is a table of another kind, maybe of measurements, expected another file to write");

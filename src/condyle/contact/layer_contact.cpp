@@ -5,162 +5,25 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <vector>
 
 #include "condyle/contact/contact_pair.h"
 #include "condyle/contact/contact_rates.h"
-#include "condyle/contact/layer_side.h"
+#include "condyle/contact/layer_sides.h"
 
 namespace condyle {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::array<int, 6> kCells = {1, 2, 3, 4, 6, 8};  // in a knot span, in either direction
 constexpr double kMostWrong = 0.01;  // of the forces that act, and 3 tolerances
 constexpr double kError = 0.39;      // N^5/4 times the error of N on a side
-constexpr std::size_t kLevels = kCells.size();
-
-/// The lattices of a pair's surfaces, made when they are first asked for.
-class Lattices {
- public:
-  explicit Lattices(const ContactPair& pair)
-      : on_B(pair.on_B),
-        on_A(pair.on_A),
-        into_B(*on_B),
-        into_A(*on_A),
-        uses_B_(has_fine_lattice(*on_B) || !has_fine_lattice(*on_A)),
-        uses_A_(has_fine_lattice(*on_A) || !has_fine_lattice(*on_B)) {
-    if (of_A(0) == nullptr && of_B(0) == nullptr)
-      throw std::invalid_argument("contact \"" + pair.name +
-                                  "\": a layer needs bounds of one of its surfaces at least");
-  }
-
-  /// Null for a surface without points.
-  [[nodiscard]] const LayerLattice* of_A(std::size_t level) const {
-    return uses_A_ ? lattice(*on_A, of_A_[level], level) : nullptr;
-  }
-  [[nodiscard]] const LayerLattice* of_B(std::size_t level) const {
-    return uses_B_ ? lattice(*on_B, of_B_[level], level) : nullptr;
-  }
-  /// Of lattices that have points.
-  [[nodiscard]] const LayerCorners& corners_of(bool A, std::size_t level) const {
-    Entry& entry = A ? of_A_[level] : of_B_[level];
-    std::call_once(entry.corners_once, [&] {
-      entry.corners = layer_corners(A ? *on_A : *on_B, kCells[level], entry.lattice);
-    });
-    return entry.corners;
-  }
-
-  const std::shared_ptr<const Surface> on_B, on_A;
-  const LayerClosestPoints into_B, into_A;
-
- private:
-  struct Entry {
-    std::once_flag once, corners_once;
-    LayerLattice lattice;
-    LayerCorners corners;
-  };
-  static const LayerLattice* lattice(const Surface& surface, Entry& entry, std::size_t level) {
-    std::call_once(entry.once, [&] { entry.lattice = layer_lattice(surface, kCells[level]); });
-    return entry.lattice.x.empty() ? nullptr : &entry.lattice;
-  }
-
-  bool uses_B_, uses_A_;
-  mutable std::array<Entry, kLevels> of_A_, of_B_;
-};
-
-/// Both sides on one lattice.
-class BothSides {
- public:
-  BothSides(const Lattices& lattices, std::size_t level) : lattices_(lattices), level_(level) {
-    if (const LayerLattice* points = lattices.of_A(level)) add(*points, true, lattices.into_B);
-    if (const LayerLattice* points = lattices.of_B(level)) add(*points, false, lattices.into_A);
-  }
-
-  void reset() {
-    for (LayerSide& side : sides_) side.reset();
-    has_sums_ = false;
-  }
-  /// Of the sides that have points.
-  [[nodiscard]] double count() const { return static_cast<double>(sides_.size()); }
-  /// At a pose, of layers `factor` times as stiff.
-  const LayerSums& sums(const RigidTransform& X, const LayerLaw& law, double factor = 1) {
-    if (has_sums_ && X_.R == X.R && X_.p == X.p && factor_ == factor) return sums_;
-    sums_ = {};
-    for (LayerSide& side : sides_) side.add_to(X, law, factor * share(), sums_);
-    X_ = X;
-    factor_ = factor;
-    has_sums_ = true;
-    return sums_;
-  }
-  LayerRateSums rate_sums(const RigidTransform& X, const LayerLaw& law) {
-    LayerRateSums all;
-    for (LayerSide& side : sides_) side.add_to(X, law, share(), all);
-    return all;
-  }
-  /// Their wrench on A, added; the sum of the forces' magnitudes [N].
-  double add_to(
-      const RigidTransform& X, const LayerLaw& law, double factor, LayerCare care, Wrench& wrench) {
-    double force = 0;
-    for (LayerSide& side : sides_) force += side.add_to(X, law, factor * share(), care, wrench);
-    return force;
-  }
-  /// What the corners of the lattices' cells would carry.
-  CornerForce at_corners(const RigidTransform& X, const LayerLaw& law) {
-    CornerForce all;
-    for (std::size_t i = 0; i < sides_.size(); ++i) {
-      const CornerForce side = sides_[i].at_corners(X, law, lattices_.corners_of(of_A_[i], level_));
-      all.force += share() * side.force;
-      all.along_n += share() * side.along_n;
-    }
-    return all;
-  }
-  /// How many points are pressed.
-  std::size_t pressed(const RigidTransform& X) {
-    std::size_t points = 0;
-    for (LayerSide& side : sides_) points += side.pressed(X);
-    return points;
-  }
-  [[nodiscard]] long looked_at() const {
-    long points = 0;
-    for (const LayerSide& side : sides_) points += side.looked_at();
-    return points;
-  }
-  [[nodiscard]] bool come_within(const RigidTransform& X, double margin) {
-    return std::any_of(sides_.begin(), sides_.end(),
-                       [&](LayerSide& side) { return side.comes_within(X, margin); });
-  }
-  /// The points that are pressed, B's first.
-  void add_pressures(const RigidTransform& X,
-                     const LayerLaw& law,
-                     std::vector<PressurePoint>& points) {
-    for (std::size_t i = sides_.size(); i-- > 0;) sides_[i].add_pressures(X, law, points);
-  }
-
- private:
-  [[nodiscard]] double share() const { return 1 / count(); }
-  void add(const LayerLattice& points, bool of_A, const LayerClosestPoints& into) {
-    sides_.emplace_back(points, of_A, into);
-    of_A_.push_back(of_A);
-  }
-
-  const Lattices& lattices_;
-  std::size_t level_;
-  std::vector<LayerSide> sides_;
-  std::vector<bool> of_A_;
-  LayerSums sums_;  ///< at X_, of layers factor_ times as stiff
-  RigidTransform X_;
-  double factor_ = 1;
-  bool has_sums_ = false;
-};
 
 class LayerContact final : public ContactPotential {
  public:
-  LayerContact(std::shared_ptr<const Lattices> lattices,
+  LayerContact(std::shared_ptr<const PairLattices> lattices,
                const ContactPair& pair,
                const LayerOptions& options,
                const Vector3d& origin)
@@ -196,15 +59,15 @@ class LayerContact final : public ContactPotential {
     level_ = 0;
     double points = pressed_on_a_side(X_BA);
     if (points == 0 && sides().come_within(X_BA, kBetween))
-      while (points == 0 && level_ + 1 < kLevels) {
+      while (points == 0 && level_ + 1 < kLayerLevels) {
         ++level_;
         points = pressed_on_a_side(X_BA);
       }
     if (points == 0) level_ = 0;
-    while (points > 0 && level_ + 1 < kLevels) {
+    while (points > 0 && level_ + 1 < kLayerLevels) {
       const double finer = std::sqrt(fewest_points(options_.tolerance) / points);
       if (!(finer > 1)) break;
-      level_ = points < kEnough ? level_ + 1 : level_of(finer * kCells[level_]);
+      level_ = points < kEnough ? level_ + 1 : level_of(finer * kLayerCells[level_]);
       if (points >= kEnough) break;
       points = pressed_on_a_side(X_BA);
     }
@@ -215,7 +78,7 @@ class LayerContact final : public ContactPotential {
     constexpr double kSame = 1e-6;  // of the force; lattices differ by a thousandth
     held_.reset();
     if (!told.layer) return;
-    for (level_ = 0; level_ < kLevels; ++level_)
+    for (level_ = 0; level_ < kLayerLevels; ++level_)
       if (std::abs(sides().sums(X_BA, law_).on_A.norm() - told.force) <= kSame * told.force) {
         held_ = Held{X_BA, level_};
         return;
@@ -238,7 +101,7 @@ class LayerContact final : public ContactPotential {
   bool accepts(const RigidTransform& X_BA) override {
     if (factor_ < 1) return true;
     estimate_error(X_BA);
-    if (error_ <= options_.tolerance || level_ + 1 == kLevels) return true;
+    if (error_ <= options_.tolerance || level_ + 1 == kLayerLevels) return true;
     if (sides().sums(X_BA, law_).deepest > law_.deepest()) return true;
     level_ = finer(level_, error_);
     return false;
@@ -271,8 +134,8 @@ class LayerContact final : public ContactPotential {
   bool rates(const RigidTransform& X_BA, ContactRates& rates) override;
 
  private:
-  BothSides& sides() {
-    std::optional<BothSides>& sides = sides_[level_];
+  LayerSides& sides() {
+    std::optional<LayerSides>& sides = sides_[level_];
     if (!sides) sides.emplace(*lattices_, level_);
     return *sides;
   }
@@ -306,21 +169,22 @@ class LayerContact final : public ContactPotential {
   /// The coarsest with at least so many cells, or the finest.
   [[nodiscard]] static std::size_t level_of(double cells) {
     std::size_t level = 0;
-    while (level + 1 < kLevels && kCells[level] < cells) ++level;
+    while (level + 1 < kLayerLevels && kLayerCells[level] < cells) ++level;
     return level;
   }
   /// The coarsest lattice that should do: errors of the force fall as the width of cells to 5/2.
   [[nodiscard]] std::size_t finer(std::size_t level, double error) const {
-    return std::max(level + 1, level_of(kCells[level] * std::pow(error / options_.tolerance, 0.4)));
+    return std::max(level + 1,
+                    level_of(kLayerCells[level] * std::pow(error / options_.tolerance, 0.4)));
   }
   [[nodiscard]] std::optional<Objection> objection(const LayerSums& sums) const;
 
-  std::shared_ptr<const Lattices> lattices_;
+  std::shared_ptr<const PairLattices> lattices_;
   std::string name_;
   LayerLaw law_;
   LayerOptions options_;
   Vector3d origin_;  ///< of the model's frame of B, in the file's [mm]
-  std::array<std::optional<BothSides>, kLevels> sides_;
+  std::array<std::optional<LayerSides>, kLayerLevels> sides_;
   std::size_t level_ = 0;
   struct Held {
     RigidTransform X;
@@ -413,13 +277,13 @@ std::optional<Objection> LayerContact::uncertain(const RigidTransform& X_BA, dou
 ContactLaw layer_contact(const LayerOptions& options, const Vector3d& origin) {
   struct Shared {
     std::mutex mutex;
-    std::shared_ptr<const Lattices> lattices;
+    std::shared_ptr<const PairLattices> lattices;
   };
   return [options, origin, shared = std::make_shared<Shared>()](const ContactPair& pair) {
     const std::lock_guard lock(shared->mutex);
-    std::shared_ptr<const Lattices>& lattices = shared->lattices;
+    std::shared_ptr<const PairLattices>& lattices = shared->lattices;
     if (!lattices || lattices->on_B != pair.on_B || lattices->on_A != pair.on_A)
-      lattices = std::make_shared<const Lattices>(pair);
+      lattices = std::make_shared<const PairLattices>(pair);
     return std::make_unique<LayerContact>(lattices, pair, options, origin);
   };
 }

@@ -13,7 +13,7 @@ namespace condyle {
 std::string csv_of_poses(const Run& run, const std::vector<ShownPose>& shown) {
   const SweptQuantity quantity = swept_quantity(run);
   const std::vector<TableColumn> columns = run_columns(run, shown);
-  std::string text = "pose,swept,swept_unit,quantity,name,component,value,unit\n";
+  std::string text = std::string(kTableHead) + "quantity,name,component,value,unit\n";
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const double swept = quantity.shown(run.sweep.poses[shown[i].index].value);
     const std::string head = fmt::format("{},{},{},", shown[i].index, swept, quantity.unit.name);

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "condyle/calibration/csv_text.h"
+#include "condyle/exchange/run_table.h"
 #include "condyle/exchange/vtk_file.h"
 
 namespace condyle {
@@ -38,9 +39,8 @@ bool has_layers(const Run& run) {
 
 std::string csv_of_pressures(const Run& run, const std::vector<ShownPose>& shown) {
   const SweptQuantity quantity = swept_quantity(run);
-  std::string text =
-      "pose,swept,swept_unit,contact,surface,u_mm,v_mm,x_mm,y_mm,z_mm,pressure_N/mm2,depth_mm,"
-      "area_mm2\n";
+  std::string text = std::string(kTableHead) +
+                     "contact,surface,u_mm,v_mm,x_mm,y_mm,z_mm,pressure_N/mm2,depth_mm,area_mm2\n";
   for (const ShownPose& step : shown) {
     const PoseResult& pose = run.sweep.poses[step.index];
     const std::string head =

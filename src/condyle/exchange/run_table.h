@@ -10,6 +10,9 @@
 
 namespace condyle {
 
+/// How each table of a run in CSV begins.
+inline constexpr const char* kTableHead = "pose,swept,swept_unit,";
+
 struct TableColumn {
   std::string quantity;   ///< pose, joint, contact, ligament, condition, sensitivity, solver
   std::string name;       ///< of the body, contact, ligament or condition

@@ -22,29 +22,30 @@ GapCheck::GapCheck(const Subject& subject, std::vector<std::string>& not_checked
     const PairOfSides sides = pair_of(subject, i);
     pairs_.push_back({i, sides, GapProbe(*sides.fixed, *sides.moving),
                       GapProbe(*sides.moving, *sides.fixed),
-                      layer ? 1.01 * bearable_depth(subject, i) : 0});
+                      layer ? bearable_depth(subject, i) : 0});
     if (!pairs_.back().from_fixed.covers() && !pairs_.back().from_moving.covers())
       not_checked.push_back(name + ": neither surface has bounds, so no gaps were looked at");
   }
 }
 
+double GapCheck::Pair::may_overlap() const { return kDepthAllowed * bears; }
+
 /// Of both sides; an overlap that one of them finds is one whatever the other could look at.
-LowestGap GapCheck::lowest(const Pair& pair, const RigidTransform& X_BA, bool& on_fixed) {
-  const LowestGap fixed = pair.from_fixed.lowest(X_BA.inverse(), -pair.may_overlap);
-  const LowestGap moving =
-      std::isnan(fixed.gap) ? fixed : pair.from_moving.lowest(X_BA, -pair.may_overlap);
-  on_fixed = std::isnan(fixed.gap) || fixed.gap < moving.gap;
+GapCheck::FoundGap GapCheck::find_lowest(const Pair& pair, const RigidTransform& X_BA) {
+  const double wanted = -pair.may_overlap();
+  const LowestGap fixed = pair.from_fixed.lowest(X_BA.inverse(), wanted);
+  const LowestGap moving = std::isnan(fixed.gap) ? fixed : pair.from_moving.lowest(X_BA, wanted);
+  const bool on_fixed = std::isnan(fixed.gap) || fixed.gap < moving.gap;
   LowestGap lowest = on_fixed ? fixed : moving;
-  lowest.exact = (fixed.exact && moving.exact) || lowest.gap < -pair.may_overlap;
-  return lowest;
+  lowest.exact = (fixed.exact && moving.exact) || lowest.gap < wanted;
+  return {lowest, on_fixed};
 }
 
 void GapCheck::check(const PoseResult& pose, Ledger& ledger) const {
   const Scene& scene = subject_.run.scene;
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
   for (const Pair& pair : pairs_) {
-    bool on_fixed = false;
-    const LowestGap lowest = GapCheck::lowest(pair, pose.X_BA, on_fixed);
+    const auto [lowest, on_fixed] = find_lowest(pair, pose.X_BA);
     const int surface = on_fixed ? pair.sides.fixed_surface : pair.sides.moving_surface;
     const std::string& body = scene.bodies[at(scene.surfaces[at(surface)].body)].name;
     const double rounding = 1e-13 * pose.X_BA.p.norm();
@@ -59,12 +60,11 @@ void GapCheck::check(const PoseResult& pose, Ledger& ledger) const {
     const std::string words =
         std::isnan(lowest.gap)
             ? between + " cannot be told apart: their gap has no number"
-            : fmt::format("{} overlap by {:.6g} mm at [{:.3f}, {:.3f}, {:.3f}] mm of {}{}", between,
-                          -lowest.gap, lowest.point.x(), lowest.point.y(), lowest.point.z(), body,
-                          pair.may_overlap > 0 ? fmt::format(", their layers bear {:.4g} mm",
-                                                             pair.may_overlap / 1.01)
-                                               : "");
-    const double deeper = std::max(0.0, -lowest.gap - pair.may_overlap);
+            : fmt::format(
+                  "{} overlap by {:.6g} mm at [{:.3f}, {:.3f}, {:.3f}] mm of {}{}", between,
+                  -lowest.gap, lowest.point.x(), lowest.point.y(), lowest.point.z(), body,
+                  pair.bears > 0 ? fmt::format(", their layers bear {:.4g} mm", pair.bears) : "");
+    const double deeper = std::max(0.0, -lowest.gap - pair.may_overlap());
     ledger.note(Check::kGap, std::isnan(lowest.gap) ? lowest.gap : deeper,
                 fmt::format("contact \"{}\"", scene.contacts[pair.contact].name), words,
                 1e-6 + rounding);

@@ -23,11 +23,14 @@ class GapCheck {
     std::size_t contact;
     PairOfSides sides;
     GapProbe from_fixed, from_moving;
-    double may_overlap;  ///< [mm]
+    double bears;  ///< depth that layers bear [mm], 0 without
+    [[nodiscard]] double may_overlap() const;
   };
-  [[nodiscard]] static LowestGap lowest(const Pair& pair,
-                                        const RigidTransform& X_BA,
-                                        bool& on_fixed);
+  struct FoundGap {
+    LowestGap lowest;
+    bool on_fixed;  ///< the surface that its point is on
+  };
+  [[nodiscard]] static FoundGap find_lowest(const Pair& pair, const RigidTransform& X_BA);
   const Subject& subject_;
   std::vector<Pair> pairs_;
 };

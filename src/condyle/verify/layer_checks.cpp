@@ -80,7 +80,7 @@ void check_force(const std::optional<LayerResultant>& anew,
   ledger.note(Check::kLayerDepth, anew->deepest, element,
               fmt::format("is pressed {:.4g} mm deep, its layers bear {:.4g} mm", anew->deepest,
                           law.deepest()),
-              1.01 * law.deepest());
+              kDepthAllowed * law.deepest());
 }
 
 }  // namespace

@@ -13,6 +13,9 @@ namespace condyle::verification {
 /// cells over both surfaces that are halved until the force settles; how deep the layers are pressed.
 void check_layers(const Subject& subject, const PoseResult& pose, Ledger& ledger);
 
+/// Of the depth that layers bear, so much is allowed.
+inline constexpr double kDepthAllowed = 1.01;
+
 /// So deep a contact's surfaces may overlap by its layers [mm].
 [[nodiscard]] double bearable_depth(const Subject& subject, std::size_t contact);
 

@@ -111,8 +111,8 @@ class Grid {
 }  // namespace
 
 std::array<LayerPoints, 2> sides_of(const PairOfSides& pair, const RigidTransform& X) {
-  return {LayerPoints{*pair.fixed, *pair.moving, false, X.inverse(), pair.fixed_surface},
-          LayerPoints{*pair.moving, *pair.fixed, true, X, pair.moving_surface}};
+  return {LayerPoints{*pair.fixed, *pair.moving, false, X.inverse()},
+          LayerPoints{*pair.moving, *pair.fixed, true, X}};
 }
 
 double share_of_a_side(const PairOfSides& pair) {

@@ -18,7 +18,6 @@ struct LayerPoints {
   const SurfaceSide &own, &other;
   bool on_A;
   RigidTransform to_other;  ///< from the frame of the body that carries the points
-  int surface;
 };
 
 [[nodiscard]] std::array<LayerPoints, 2> sides_of(const PairOfSides& pair, const RigidTransform& X);
