@@ -130,6 +130,49 @@ TEST(VerifyCatches, AForceThatIsWrongByAMillionth) {
   EXPECT_WORDS(fault_of(held, Check::kMoments), "flexion = 25 deg: moments add up to");
 }
 
+// A weight hangs on a string of 40 mm, 4 m from the origin: all forces act along one line, and no arm is known better than
+// numbers of 4000 mm are. The string pulls at its end, so that moments are measured by arms of its length.
+TEST(VerifyCatches, AMomentOfForcesAlongOneLine) {
+  condyle::Run run;
+  run.scene = parse_scene(R"(title = "pendulum"
+[units]
+length = "mm"
+angle = "deg"
+force = "N"
+[[body]]
+name = "ceiling"
+fixed = true
+[[body]]
+name = "weight"
+[[condition]]
+name = "string"
+kind = "distance"
+value = 40
+ends = [{ body = "ceiling", at = [2300, -2700, 1840] }, { body = "weight", at = [0, 0, 0] }]
+[[load]]
+name = "gravity"
+body = "weight"
+kind = "force"
+vector = [0, 0, -18]
+at = [2e-11, 0, -60]
+follows = "ground"
+[sweep]
+vary = "string"
+values = [40, 40, 40]
+)",
+                          "pendulum.toml");
+  PoseResult pose;
+  pose.value = 40;
+  pose.status = PoseStatus::kConverged;
+  pose.conditions = {{40, 18}};
+  run.sweep.poses.assign(3, pose);
+  for (PoseResult& hanging : run.sweep.poses) hanging.X_BA.p = {2300, -2700, 1800};
+  EXPECT_TRUE(verify_run(run).verified())
+      << "2e-11 mm beside the line is nothing that such numbers tell";
+  pose_of(run).X_BA.R = exp_rotation({0, 1e-7, 0});
+  EXPECT_WORDS(fault_of(run, Check::kMoments), "string = 40 mm: moments add up to");
+}
+
 TEST(VerifyCatches, AContactThatPulls) {
   condyle::Run run = test::phantom_poses();
   ContactPointResult& point = pose_of(run).contacts[1].points[0];

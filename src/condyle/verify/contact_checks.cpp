@@ -39,6 +39,9 @@ Vector3d middle_of(const Scene& scene, const PoseResult& pose) {
   double count = 0;
   for (const LigamentDescription& ligament : scene.ligaments)
     for (const Attachment& end : ligament.ends) sum += in_ground(scene, end, pose.X_BA), ++count;
+  for (const ConditionDescription& condition : scene.conditions)
+    if (condition.kind == ConditionKind::kDistance)
+      for (const Attachment& end : condition.ends) sum += in_ground(scene, end, pose.X_BA), ++count;
   for (const ContactResult& contact : pose.contacts)
     if (contact.closed)
       for (const ContactPointResult& point : contact.points) sum += point.point_ground, ++count;
@@ -95,12 +98,16 @@ void add_contacts(const PoseResult& pose, Sums& sums) {
         sums.pull(point.point_ground, point.force * point.normal_ground);
 }
 
-/// A multiplier does the work -σ dk.
+/// A multiplier does the work -σ dk. That of a distance pulls at its end, as a ligament does.
 void add_reactions(const Scene& scene, const PoseResult& pose, Sums& sums) {
   for (std::size_t i = 0; i < scene.conditions.size(); ++i) {
     const double sigma = pose.conditions[i].multiplier;
     const Eigen::Matrix<double, 6, 1> dk =
         gradient(scene, scene.conditions[i], pose.X_BA, sums.about);
+    if (scene.conditions[i].kind == ConditionKind::kDistance) {
+      sums.pull(end_on_moving(scene, scene.conditions[i], pose.X_BA), -sigma * dk.head<3>());
+      continue;
+    }
     sums.force -= sigma * dk.head<3>();
     sums.forces += std::abs(sigma) * dk.head<3>().norm();
     sums.twist(-sigma * dk.tail<3>(), std::abs(sigma) * dk.tail<3>().norm());

@@ -82,6 +82,13 @@ Vector3d in_ground(const Scene& scene, const Attachment& end, const RigidTransfo
   return end.body == scene.moving_body() ? Vector3d(X_BA * end.at) : end.at;
 }
 
+Vector3d end_on_moving(const Scene& scene,
+                       const ConditionDescription& distance,
+                       const RigidTransform& X_BA) {
+  const bool first = distance.ends[0].body == scene.moving_body();
+  return in_ground(scene, distance.ends[first ? 0 : 1], X_BA);
+}
+
 double coordinate(const Scene& scene,
                   const ConditionDescription& condition,
                   const RigidTransform& X_BA) {
@@ -202,7 +209,7 @@ Vector6 gradient(const Scene& scene,
     }
     case ConditionKind::kDistance: {
       const bool first = condition.ends[0].body == scene.moving_body();
-      const Vector3d on_A = in_ground(scene, condition.ends[first ? 0 : 1], X_BA);
+      const Vector3d on_A = end_on_moving(scene, condition, X_BA);
       return motion.of_point((on_A - condition.ends[first ? 1 : 0].at).normalized(), on_A);
     }
     default:

@@ -31,6 +31,11 @@ namespace condyle::verification {
                                         const Attachment& end,
                                         const RigidTransform& X_BA);
 
+/// The end of a distance that is prescribed which goes with the moving body, in the ground frame [mm].
+[[nodiscard]] Eigen::Vector3d end_on_moving(const Scene& scene,
+                                            const ConditionDescription& distance,
+                                            const RigidTransform& X_BA);
+
 /// What a condition prescribes [rad] or [mm].
 [[nodiscard]] double coordinate(const Scene& scene,
                                 const ConditionDescription& condition,
