@@ -100,9 +100,9 @@ for name in "$@"; do
       done
       jobs "$work/one-processor" "$work/$name" ;;
     libm) GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2 jobs "$reference" "$work/$name" ;;
-    o1) jobs "$(build o1 -DCMAKE_CXX_FLAGS_RELEASE='-O1 -DNDEBUG')" "$work/$name" ;;
-    clang) jobs "$(build clang -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++)" "$work/$name" ;;
-    contract) jobs "$(build contract -DCMAKE_CXX_FLAGS='-mfma -ffp-contract=fast')" "$work/$name" ;;
+    o1) built=$(build o1 -DCMAKE_CXX_FLAGS_RELEASE='-O1 -DNDEBUG'); jobs "$built" "$work/$name" ;;
+    clang) built=$(build clang -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++); jobs "$built" "$work/$name" ;;
+    contract) built=$(build contract -DCMAKE_CXX_FLAGS='-mfma -ffp-contract=fast'); jobs "$built" "$work/$name" ;;
     *) echo "unknown configuration $name, expected threads, libm, o1, clang, or contract" >&2; exit 1 ;;
   esac
   /usr/bin/python3 "$compare" "$name" "$work/reference" "$work/$name" || away=1

@@ -115,6 +115,11 @@ TEST(RecogniseFaults, CartilageThatLiesElsewhere) {
   EXPECT_EQ(recognise_knee({femur, tibia, of_femur, of_tibia}).side, Side::kRight);
   expect_refused({femur, tibia, of_tibia, of_femur}, "lies on the other bone");
   expect_refused({femur, tibia, scaled(of_femur, 1e-3), {}}, "expected both in one unit");
+  for (const double side : {1.0, -1.0})
+    expect_refused({femur, tibia, of_femur,
+                    part(of_tibia, [&](const Vector3d& p) { return side * p.z() > 4; })},
+                   side > 0 ? "the tibial cartilage covers the lateral side alone"
+                            : "the tibial cartilage covers the medial side alone");
 }
 
 }  // namespace condyle

@@ -135,6 +135,9 @@ TEST_F(CommandLine, FitsOnlyWhatIsAPatch) {
 TEST_F(CommandLine, SaysWhichRangeLeadsNowhere) {
   expect_bad_input(run("sweep knee.toml -o run.h5 --step -1"),
                    "--from, --to, --step: step = -1, expected a step > 0 to get from 0 to 20");
+  expect_bad_input(
+      run("sweep knee.toml -o run.h5 --from 1e308 --to 1e308 --step 1"),
+      "--from, --to, --step: from = 1e+308, to = 1e+308, step = 1, expected numbers below 1e+100");
 }
 
 TEST_F(CommandLine, NamesTheRangeInTheNumbersOfTheScene) {

@@ -256,6 +256,32 @@ TEST(LineContact, ALineThatOnePointCarriesIsUndetermined) {
   }
 }
 
+// Where the roller may tilt, one point balances only a load right over it: over an end, or where the first estimate happened to
+// be. The ends share it as when two points were solved for.
+TEST(LineContact, OnePointUnderTheLoadIsALineToo) {
+  for (const double off : {0.0, 5.0, 15.0, -15.0})
+    for (const bool one : {false, true}) {
+      Model model = roller(off);
+      for (const int axis : {0, 1}) hold(model, ConditionKind::kTranslation, axis);
+      for (const int axis : {0, 2}) hold(model, ConditionKind::kRotation, axis);
+      EquilibriumSolver solver(model);
+      const Drive drive = drive_of(solver.model());
+      if (one) {
+        EquilibriumState state;
+        state.X.p.z() = 10;
+        state.contacts = {{0, {{Vector3d(off, 0, 0)}, {Vector3d(off, 0, -10)}}, 12}};
+        state.sigma.assign(4, 0);
+        solver.set_state(state, drive);
+      }
+      const PoseResult pose = solver.solve(drive);
+      ASSERT_TRUE(pose.converged()) << off << one << pose.reason;
+      EXPECT_EQ(pose.contacts[0].shape, ContactShape::kLine);
+      const auto [low, high] = ends_of(pose, Vector3d::UnitX());
+      EXPECT_NEAR(low.force, 12 * (15 - off) / 30, 1e-8) << off << one;
+      EXPECT_NEAR(high.force, 12 * (15 + off) / 30, 1e-8) << off << one;
+    }
+}
+
 void expect_conforming(const std::optional<Objection>& objection) {
   ASSERT_TRUE(objection);
   EXPECT_EQ(objection->status, PoseStatus::kSingular);

@@ -6,11 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "condyle/equilibrium/carried_pose.h"
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/math/degree.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "support/known_part.h"
 #include "support/quadric_knee.h"
 #include "support/same_sweep.h"
@@ -282,6 +285,26 @@ TEST(CarriedPose, MeetsConditionsWithoutAJoint) {
     EXPECT_NEAR(evaluate(condition, condition.value, X).k, 0, 1e-10);
   EXPECT_NEAR(X.p.x(), 1, 1e-10);
   EXPECT_NEAR(X.p.y(), 2, 1e-10);
+}
+
+// At 90 degrees the axes of a Cardan angle are parallel: what prescribes it may hold there, but has no direction to carry
+// along. The shipped spring asks nothing of it; one that pulls sideways does.
+TEST(GimbalLock, AConditionWithoutADirectionCarriesNothing) {
+  for (const bool sideways : {false, true}) {
+    Scene scene = read_scene(std::filesystem::path(CONDYLE_SOURCE_DIR) / "data/hard/cardan.toml");
+    if (sideways) scene.ligaments[0].ends[0].at.x() = 30;
+    const SweepResult swept = sweep(scene, fit_surfaces(scene));
+    ASSERT_EQ(swept.poses.size(), 7U);
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_TRUE(swept.poses[i].converged()) << i;
+    const PoseResult& locked = swept.poses[5];
+    EXPECT_NEAR(locked.value, M_PI / 2, 1e-12);
+    EXPECT_EQ(locked.status, sideways ? PoseStatus::kSingular : PoseStatus::kConverged);
+    if (sideways) {
+      EXPECT_NE(locked.reason.find("\"rotation x\": its first and last axes are parallel"),
+                std::string::npos)
+          << locked.reason;
+    }
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -187,6 +188,20 @@ TEST(Resume, OfThePhantomIsTheSweepThatWasNeverStopped) {
   }
 }
 
+/// Of a layered contact: the same lattice, told by its points, and the same pose on it.
+void expect_same_layers(const PoseResult& expected, const PoseResult& pose) {
+  ASSERT_EQ(pose.status, expected.status);
+  if (!expected.converged()) return;
+  EXPECT_LT((pose.X_BA.p - expected.X_BA.p).norm(), 1e-9);
+  EXPECT_LT((pose.X_BA.R - expected.X_BA.R).norm(), 1e-11);
+  for (std::size_t i = 0; i < expected.contacts.size(); ++i) {
+    ASSERT_EQ(pose.contacts[i].layer.has_value(), expected.contacts[i].layer.has_value());
+    if (!expected.contacts[i].layer) continue;
+    EXPECT_EQ(pose.contacts[i].layer->points, expected.contacts[i].layer->points);
+    EXPECT_EQ(pose.contacts[i].pressures.size(), expected.contacts[i].pressures.size());
+  }
+}
+
 // The sum over the points of a layer changes its last digits with the way to a pose, and its derivatives more of them.
 TEST(Resume, OfLayersIsTheSweepThatWasNeverStopped) {
   Scene scene = read_scene(std::filesystem::path(CONDYLE_SOURCE_DIR) / "data/phantom/layered.toml");
@@ -196,7 +211,10 @@ TEST(Resume, OfLayersIsTheSweepThatWasNeverStopped) {
   const SweepResult whole = sweep(scene, surfaces, options);
   options.known = known_poses(whole);
   options.known.resize(whole.poses.size() / 2);
+  std::size_t computed = 0;
+  options.on_computed = [&](const KnownPose&) { ++computed; };
   const SweepResult resumed = sweep(scene, surfaces, options);
+  EXPECT_EQ(computed, whole.poses.size() - options.known.size());
   for (std::size_t i = 0; i < options.known.size(); ++i) {
     const PoseResult &expected = whole.poses[i], &pose = resumed.poses[i];
     ASSERT_EQ(pose.status, expected.status) << i;
@@ -205,6 +223,25 @@ TEST(Resume, OfLayersIsTheSweepThatWasNeverStopped) {
     ASSERT_TRUE(pose.joint_stiffness && expected.joint_stiffness);
     EXPECT_EQ(pose.joint_stiffness->stiffness, expected.joint_stiffness->stiffness) << i;
     EXPECT_EQ(pose.joint_stiffness->compliance, expected.joint_stiffness->compliance) << i;
+  }
+  for (std::size_t i = 0; i < whole.poses.size(); ++i) {
+    SCOPED_TRACE(i);
+    expect_same_layers(whole.poses[i], resumed.poses[i]);
+  }
+}
+
+// Where a way to a pose begins says how many points are pressed there, and the lattice is chosen by that of the pose itself.
+TEST(Resume, OfLayersNoPoseDependsOnThoseBefore) {
+  const Scene up =
+      read_scene(std::filesystem::path(CONDYLE_SOURCE_DIR) / "data/phantom/layered.toml");
+  const std::vector<FittedSurface> surfaces = fit_surfaces(up);
+  Scene down = up;
+  std::reverse(down.sweep->values.begin(), down.sweep->values.end());
+  const SweepResult whole = sweep(up, surfaces), other = sweep(down, surfaces);
+  ASSERT_EQ(whole.poses.size(), other.poses.size());
+  for (std::size_t i = 0; i < whole.poses.size(); ++i) {
+    SCOPED_TRACE(i);
+    expect_same_layers(whole.poses[i], other.poses[other.poses.size() - 1 - i]);
   }
 }
 

@@ -88,12 +88,16 @@ TEST_F(Exchange, DoesNotWriteOverMeasurements) {
   write("knee.csv", test::kTable);
   fs::create_directory(folder_ / "other");
   ASSERT_GE(run("sweep ../knee.toml -o ../run.h5 --quiet", "cd other; ").code, 0);
-  expect_bad_input(run("export run.h5 -o knee.csv"),
-                   "knee.csv: is a table of another kind, maybe of measurements, expected another "
-                   "file to write");
+  expect_bad_input(
+      run("export run.h5 -o knee.csv"),
+      "knee.csv: begins otherwise than a table of a run (\"pose,swept,swept_unit,\"), it may "
+      "hold measurements, expected another file to write");
   EXPECT_EQ(contents(folder_ / "knee.csv"), test::kTable);
   EXPECT_EQ(run("export run.h5 -o poses.csv").out, "wrote poses.csv\n");
   EXPECT_EQ(run("export run.h5 -o poses.csv").out, "wrote poses.csv\n") << "once more";
+  write("empty.csv", "");
+  EXPECT_EQ(run("export run.h5 -o empty.csv").out, "wrote empty.csv\n")
+      << "nothing is lost with it";
 }
 
 TEST_F(Exchange, NamesWhatItCannotWrite) {

@@ -162,7 +162,7 @@ TEST_F(LaxityTables, AsAUserMakesThem) {
       contents(folder_ / "table.csv").find("\"k1\",\"EI1\",30,external,5,adduction,-0.75,1,fit"),
       std::string::npos);
   expect_bad_input(run("import EI1_kinematics_in_JCS_experiment.csv -o t.csv --sd-length 1"),
-                   "--sd-angle 0: expected a standard deviation > 0");
+                   "--sd-angle is missing or 0, expected a standard deviation > 0");
   expect_bad_input(
       run("import EI1_kinematics_in_JCS_experiment.csv -o t.csv --sd-length 1 --sd-angle 1"),
       "EI1_kinematics_in_JCS_experiment.csv: kinematics alone, expected EI1_kinetics... beside it, "

@@ -55,7 +55,17 @@ INSTANTIATE_TEST_SUITE_P(
                 "kind = \"ellipsoid\"\ncenter = [0, 20, 0]\nsemi_axes = [1, 2, 3]\naxes = "
                 "[[1,0,0],[0,1,0],[0,0,-1]]",
                 "27: [[surface]] \"ball\": axes = [[1, 0, 0], [0, 1, 0], [0, 0, -1]], expected a "
-                "right-handed triad"}));
+                "right-handed triad"},
+        Mistake{"kind = \"sphere\"\ncenter = [0, 20, 0]\nradius = 20",
+                "kind = \"ellipsoid\"\ncenter = [0, 20, 0]\nsemi_axes = [6, 8, 1e-8]",
+                "26: [[surface]] \"ball\": semi_axes = [6, 8, 1e-08], expected three lengths > 0, "
+                "the least no less "
+                "than 1e-6 of the greatest"},
+        Mistake{"kind = \"sphere\"\ncenter = [0, 20, 0]\nradius = 20",
+                "kind = \"polynomial\"\ncoefficients = [[2, 0, -1e308]]",
+                "25: [[surface]] \"ball\": coefficients = [2, 0, -1e+308], expected terms [[i, j, "
+                "a], ...] of the "
+                "height a x^i y^j, |a| below 1e100"}));
 
 // A patch needs a mesh; its file is looked for by read_scene only.
 const std::string kSphere = "kind = \"sphere\"\ncenter = [0, 20, 0]\nradius = 20";

@@ -114,6 +114,10 @@ const WrapMistake kMistakes[] = {
     {kWrapSphere, kOn + "\nside = [[1, 2, 3], [4, 5, 6]]",
      "50: [[ligament]] \"aACL\": side = [[1, 2, 3], [4, 5, 6]], expected a point [x, y, z] on the "
      "side that is passed"},
+    {kWrapSphere, kOn + "\nside = [3, 50, 0]",
+     "50: [[ligament]] \"aACL\": side = [3, 50, 0], expected points on whose sides of the wraps "
+     "there is a shortest path at "
+     "the start pose, as there is without"},
     {kWrapSphere, kOn + "\ninside = \"bent\"",
      "50: [[ligament]] \"aACL\": inside = \"bent\", expected \"anchor\" or \"straight\""},
     {kWrapSphere, "thickness = 2",

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "condyle/input_error.h"
@@ -255,6 +256,29 @@ TEST(FitSurfaces, NamesTheSurfaceThatCannotBeFitted) {
   scene = knee(phantom_files());
   scene.bodies[0].mesh->to_mm = 1000;
   EXPECT_NE(complaint(scene).find("look like mm"), std::string::npos) << complaint(scene);
+}
+
+// Which corner a triangle begins with says nothing of its surface, and a tool that turns faces over begins with another one.
+TEST(FitSurfaces, DoNotDependOnWhereTrianglesBegin) {
+  const Scene scene =
+      read_scene(std::filesystem::path(CONDYLE_SOURCE_DIR) / "data/phantom/knee.toml");
+  const MeshReader rolled = [](const MeshFile& file) {
+    TriangleMesh mesh = load_mesh(file.path, file.to_mm);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      std::rotate(mesh.triangles[t].begin(), mesh.triangles[t].begin() + t % 3,
+                  mesh.triangles[t].end());
+    return mesh;
+  };
+  const std::vector<FittedSurface> expected = fit_surfaces(scene),
+                                   found = fit_surfaces(scene, {}, rolled);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto& own = dynamic_cast<const Patch&>(*expected[i].surface).data();
+    const auto& other = dynamic_cast<const Patch&>(*found[i].surface).data();
+    ASSERT_EQ(other.control_points.size(), own.control_points.size());
+    for (std::size_t k = 0; k < own.control_points.size(); ++k)
+      ASSERT_LT((other.control_points[k] - own.control_points[k]).norm(), 1e-8) << i;
+  }
 }
 
 }  // namespace

@@ -154,16 +154,24 @@ TEST(GapProbe, FindsNoMoreThanIsWanted) {
   EXPECT_NEAR(GapProbe(*ball, ground).lowest(raised(16), -2).gap, -4, 0.04);
 }
 
-// A needle's curvature bounds nothing of its broad sides: that not all was looked at is no overlap.
+// A long roller lies on a floor, and a sheet as an ellipsoid stands on it: no bound tells that all of a line, or of a sheet's broad
+// sides, is free. That not all was looked at is no overlap.
 TEST(GapProbe, SaysWhereItGaveUp) {
+  SurfaceDescription roller = described(SurfaceKind::kCylinder);
+  roller.direction = Vector3d::UnitX();
+  roller.radius = 5;
+  roller.length = 1000;
   SurfaceDescription ellipsoid = described(SurfaceKind::kEllipsoid);
   ellipsoid.semi_axes = {100, 0.1, 100};
   ellipsoid.axes.setIdentity();
-  const auto sheet = make_exact_side(ellipsoid), ground = floor_of(300);
-  const RigidTransform X{exp_rotation({M_PI / 2, 0, 0}), Vector3d(0, 0, 0.1)};
-  const LowestGap lowest = GapProbe(*sheet, *ground).lowest(X);
-  EXPECT_FALSE(std::isnan(lowest.gap));
-  EXPECT_TRUE(!lowest.exact || std::abs(lowest.gap) < 1e-6);
+  const auto ground = floor_of(800);
+  const RigidTransform lying{Eigen::Matrix3d::Identity(), Vector3d(0, 0, 5)},
+      standing{exp_rotation({M_PI / 2, 0, 0}), Vector3d(0, 0, 0.1)};
+  for (const auto& [surface, X] : {std::pair{roller, lying}, std::pair{ellipsoid, standing}}) {
+    const LowestGap lowest = GapProbe(*make_exact_side(surface), *ground).lowest(X);
+    EXPECT_FALSE(lowest.exact);
+    EXPECT_LT(std::abs(lowest.gap), 1e-6);
+  }
 }
 
 TEST(GapProbe, SaysThatNumbersAreTooGreat) {

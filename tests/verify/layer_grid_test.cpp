@@ -56,6 +56,7 @@ TEST(LayerGrid, ABallOfAnySize) {
       EXPECT_NEAR(found->force.z(), force, 0.005 * (force + kLightForce))
           << radius << ", " << depth;
       EXPECT_LE(found->deepest, depth * (1 + 1e-9));
+      EXPECT_GE(found->deepest, 0.5 * depth);
     }
 }
 

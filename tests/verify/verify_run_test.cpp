@@ -4,9 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <fstream>
 
 #include "condyle/input_error.h"
 #include "condyle/math/rotation.h"
+#include "condyle/results/line_file.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/verify/verify.h"
 #include "verify/computed_run.h"
@@ -19,6 +21,8 @@ using test::computed_run;
 using test::kSource;
 using test::kSpecimens;
 using test::phantom_run;
+
+#define EXPECT_WORDS(text, words) EXPECT_NE((text).find(words), std::string::npos) << (text)
 
 void expect_verified(const Run& run, const std::string& name, bool meshes = true) {
   VerifyOptions options;
@@ -73,6 +77,32 @@ TEST(VerifyRun, LooksAtEverythingThatTheFileHolds) {
         << layered.checks[i].name;
 }
 
+// A roller of a metre: no bound tells along its line that it is free, and a gap of no more than rounding is none that was found.
+TEST(VerifyRun, SaysWhatItCouldNotLookAt) {
+  std::string text = bytes_of_file(kSource / "data/hard/line.toml");
+  const auto put = [&text](const std::string& place, const std::string& words) {
+    ASSERT_NE(text.find(place), std::string::npos) << place;
+    text.replace(text.find(place), place.size(), words);
+  };
+  put("length = 40", "length = 1000");
+  put("normal = [0, 0, 1]", "normal = [0, 0, 1]\nradius = 800");
+  put("vary = \"translation y\"", "vary = \"rotation z\"");
+  const std::filesystem::path file = test::fresh_folder("condyle verify line") / "line.toml";
+  std::ofstream(file) << text;
+  const Verification v = verify_run(computed_run(file));
+  EXPECT_EQ(v.converged, 3U);
+  EXPECT_TRUE(v.verified());
+  EXPECT_EQ(v.checks.at(static_cast<std::size_t>(Check::kGap)).count, 0);
+  EXPECT_EQ(
+      std::count_if(
+          v.not_checked.begin(), v.not_checked.end(),
+          [](const std::string& what) {
+            return what.find("too many places to look at (rotation z = 0 deg, and 2 more poses)") !=
+                   std::string::npos;
+          }),
+      1);
+}
+
 /// The fault of one kind at 25 degrees, and that there is none at another pose.
 std::string fault_of(const Run& run, Check check, bool alone = true) {
   VerifyOptions options;
@@ -91,8 +121,6 @@ std::string fault_of(const Run& run, Check check, bool alone = true) {
 }
 
 PoseResult& pose_of(Run& run) { return run.sweep.poses.at(1); }
-
-#define EXPECT_WORDS(text, words) EXPECT_NE((text).find(words), std::string::npos) << (text)
 
 TEST(VerifyCatches, APoseThatMovedByAHundredthOfAMillimetre) {
   for (int axis = 0; axis < 3; ++axis) {

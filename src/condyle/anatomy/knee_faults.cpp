@@ -249,6 +249,25 @@ void check_shafts(const CleanMesh& femur_mesh,
           name, angle * 180 / M_PI));
 }
 
+void check_both_sides(const TriangleMesh& cartilage,
+                      double to_mm,
+                      const BoneFrame& frame,
+                      double width,
+                      const char* name) {
+  constexpr double kLeast = 0.15;  // of the width; an inner edge lies within 0.1 of the middle
+  double medial = 0, lateral = 0;
+  for (const Vector3d& p : cartilage.vertices) {
+    const double z = frame.lateral.dot(to_mm * p - frame.origin);
+    medial = std::max(medial, -z);
+    lateral = std::max(lateral, z);
+  }
+  if (std::min(medial, lateral) < kLeast * width)
+    throw InputError(
+        fmt::format("the {} cartilage covers the {} side alone, expected both: of several files "
+                    "name each",
+                    name, medial < lateral ? "lateral" : "medial"));
+}
+
 void check_they_fit(const FemoralShape& femur, const TibialShape& tibia, const KneeEnds& ends) {
   const double w = femur.width, ratio = w / tibia.plateau.width;
   if (ratio < kLeastRatio || ratio > kMostRatio)

@@ -30,6 +30,14 @@ void check_shafts(const CleanMesh& femur_mesh,
                   const CleanMesh& tibia_mesh,
                   const TibialShape& tibia);
 
+/// Cartilage reaches to both sides of the middle of its bone, not one compartment alone. `frame` in mm, in the axes of the
+/// meshes, which `to_mm` makes mm; `width` of the bone [mm].
+void check_both_sides(const TriangleMesh& cartilage,
+                      double to_mm,
+                      const BoneFrame& frame,
+                      double width,
+                      const char* name);
+
 /// Widths of one person, ends that face each other.
 void check_they_fit(const FemoralShape& femur, const TibialShape& tibia, const KneeEnds& ends);
 

@@ -186,6 +186,12 @@ RecognisedKnee recognise_knee(const KneeMeshes& meshes, const RecogniseOptions& 
                 femur.shaft};
   knee.tibia = {in_file_frame(tibia.frame, origin, knee.side), tibial_rule(tibia),
                 tibia.plateau.width, tibia.shaft};
+  if (meshes.femoral_cartilage)
+    check_both_sides(*meshes.femoral_cartilage, knee.to_mm, knee.femur.frame, femur.width,
+                     "femoral");
+  if (meshes.tibial_cartilage)
+    check_both_sides(*meshes.tibial_cartilage, knee.to_mm, knee.tibia.frame, tibia.plateau.width,
+                     "tibial");
   doubt_shafts(knee);
   doubt_pose(knee, ends);
   return knee;

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "condyle/app/commands.h"
@@ -20,7 +22,6 @@
 #include "condyle/exchange/stl_run.h"
 #include "condyle/exchange/vtk_run.h"
 #include "condyle/input_error.h"
-#include "condyle/results/line_file.h"
 #include "condyle/results/make_run.h"
 #include "condyle/results/output_file.h"
 
@@ -109,7 +110,7 @@ class Exporter {
   [[nodiscard]] std::vector<ExportFile> folder(const std::vector<std::string>& formats) const {
     const std::string stem = file_word(fs::path(command_.run).stem().string());
     std::vector<ExportFile> files;
-    for (const std::string& format : formats) {
+    for (const std::string& format : std::set<std::string>(formats.begin(), formats.end())) {
       if (format == "glb") files.push_back({stem + ".glb", bytes(".glb")});
       if (format == "csv") files.push_back({stem + ".csv", bytes(".csv")});
       if (format == "csv" && has_layers(run_))
@@ -176,10 +177,15 @@ void expect_names_that_differ(const fs::path& folder, const std::vector<ExportFi
 /// computed. So no table is replaced that is not one of these.
 void refuse_to_overwrite_measurements(const fs::path& file, const Run& run) {
   if (!run.scene.calibration || file.extension() != ".csv" || !fs::is_regular_file(file)) return;
-  if (!bytes_of_file(file).starts_with(kTableHead))
-    throw InputError(
-        file.string() +
-        ": is a table of another kind, maybe of measurements, expected another file to write");
+  const std::string_view expected = kTableHead;
+  std::string head(expected.size(), ' ');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  if (stream.gcount() > 0 && head != expected)
+    throw InputError(fmt::format(
+        "{}: begins otherwise than a table of a run (\"{}\"), it may hold measurements, expected "
+        "another file to write",
+        file.string(), expected));
 }
 
 void refuse_to_overwrite_any_source(const fs::path& file, const Run& run) {

@@ -40,7 +40,9 @@ void check_table_options(const ImportCommand& command) {
   for (const auto& [name, sd] : {std::pair{"--sd-length", command.tests.sd_length},
                                  std::pair{"--sd-angle", command.tests.sd_angle}})
     if (!(sd > 0))
-      throw InputError(fmt::format("{} {}: expected a standard deviation > 0", name, sd));
+      throw InputError(
+          sd == 0 ? fmt::format("{} is missing or 0, expected a standard deviation > 0", name)
+                  : fmt::format("{} {}: expected a standard deviation > 0", name, sd));
   if (!(command.tests.held >= 0))
     throw InputError(fmt::format("--held {}: expected a difference >= 0", command.tests.held));
   if (command.step != "end" && command.step != "mean")

@@ -21,7 +21,7 @@ namespace condyle {
 struct ContactPair;
 struct ContactRates;
 
-/// Of one pair and one thread: it may keep places from pose to pose. Nothing but prepare and accepts
+/// Of one pair and one thread: it may keep places from pose to pose. Nothing but prepare, accepts and refines
 /// changes what is computed at a pose, and after reset, and of
 /// what is held after forget_places, no bit depends on what was asked before.
 class ContactPotential {
@@ -37,13 +37,12 @@ class ContactPotential {
   /// Chooses at a pose what is held while poses near it are solved: a quadrature, say.
   virtual void prepare(const RigidTransform& /*X_BA*/) {}
 
-  /// The pose was solved before, by another of the kind, and told so: asked to prepare at that very pose it holds what was
-  /// held then.
-  virtual void hold(const RigidTransform& /*X_BA*/, const ContactResult& /*told*/) {}
-
   /// At a pose that has been solved: false where what is held had to be changed; then the pose is
   /// solved on.
   virtual bool accepts(const RigidTransform& /*X_BA*/) { return true; }
+
+  /// What is held becomes as fine as a pose asks for, never coarser: false where it had to be changed.
+  virtual bool refines(const RigidTransform& /*X_BA*/) { return true; }
 
   /// How wrong at a pose what is held makes the force, for describe to tell; accepts knows it too.
   virtual void estimate_error(const RigidTransform& /*X_BA*/) {}

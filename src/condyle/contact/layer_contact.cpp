@@ -19,7 +19,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kMostWrong = 0.01;  // of the forces that act, and 3 tolerances
-constexpr double kError = 0.39;      // N^5/4 times the error of N on a side
+constexpr double kLight =
+    5;  // as if that acted besides: the first touch is known to no part of itself [N]
+constexpr double kError = 0.39;  // N^5/4 times the error of N on a side
 
 class LayerContact final : public ContactPotential {
  public:
@@ -36,7 +38,8 @@ class LayerContact final : public ContactPotential {
   void reset() override {
     level_ = 0;
     factor_ = 1;
-    held_.reset();
+    tried_ = {};
+    held_ = false;
     forget_places();
   }
 
@@ -45,45 +48,10 @@ class LayerContact final : public ContactPotential {
       if (sides) sides->reset();
   }
 
-  /// The coarsest lattice that should do by the number of its points, as one that is coarser tells
-  /// that. What is pressed between the points of a coarse one, finer ones tell.
   void prepare(const RigidTransform& X_BA) override {
-    constexpr double kEnough = 8;  // points, to tell those of other lattices
-    constexpr double kBetween =
-        0.5;  // a ball of 2 mm rises so far over points 2 mm from each other [mm]
-    if (held_ && held_->X.R == X_BA.R && held_->X.p == X_BA.p) {
-      level_ = held_->level;
-      return;
-    }
-    held_.reset();
-    level_ = 0;
-    double points = pressed_on_a_side(X_BA);
-    if (points == 0 && sides().come_within(X_BA, kBetween))
-      while (points == 0 && level_ + 1 < kLayerLevels) {
-        ++level_;
-        points = pressed_on_a_side(X_BA);
-      }
-    if (points == 0) level_ = 0;
-    while (points > 0 && level_ + 1 < kLayerLevels) {
-      const double finer = std::sqrt(fewest_points(options_.tolerance) / points);
-      if (!(finer > 1)) break;
-      level_ = points < kEnough ? level_ + 1 : level_of(finer * kLayerCells[level_]);
-      if (points >= kEnough) break;
-      points = pressed_on_a_side(X_BA);
-    }
-  }
-
-  /// The lattice whose force is the one that was told.
-  void hold(const RigidTransform& X_BA, const ContactResult& told) override {
-    constexpr double kSame = 1e-6;  // of the force; lattices differ by a thousandth
-    held_.reset();
-    if (!told.layer) return;
-    for (level_ = 0; level_ < kLayerLevels; ++level_)
-      if (std::abs(sides().sums(X_BA, law_).on_A.norm() - told.force) <= kSame * told.force) {
-        held_ = Held{X_BA, level_};
-        return;
-      }
-    level_ = 0;
+    tried_ = {};
+    held_ = false;
+    choose(X_BA);
   }
 
   void soften(double factor) override { factor_ = factor; }
@@ -96,15 +64,31 @@ class LayerContact final : public ContactPotential {
 
   void estimate_error(const RigidTransform& X_BA) override { error_ = lattice_error(X_BA); }
 
-  /// Softer layers are on the way to others, and what is pressed deeper than they bear is refused: neither
-  /// needs a finer lattice.
+  /// Softer layers are on the way to others, and need no other lattice. Of two poses that ask for each other's lattice the
+  /// finer one is held.
   bool accepts(const RigidTransform& X_BA) override {
     if (factor_ < 1) return true;
+    const std::size_t before = level_;
+    if (!held_) {
+      choose_by_error(X_BA);
+      const std::size_t chosen = level_;
+      // A lattice whose points all lie beside what is pressed would tell less.
+      const std::size_t wanted = presses(X_BA) ? chosen : before;
+      if (wanted == before && chosen == before) return true;
+      held_ = tried_[wanted];
+      tried_[wanted] = true;
+      level_ = held_ ? std::max(wanted, before) : wanted;
+      if (level_ != before) return false;
+    }
     estimate_error(X_BA);
-    if (error_ <= options_.tolerance || level_ + 1 == kLayerLevels) return true;
-    if (sides().sums(X_BA, law_).deepest > law_.deepest()) return true;
-    level_ = finer(level_, error_);
-    return false;
+    return true;
+  }
+
+  bool refines(const RigidTransform& X_BA) override {
+    const std::size_t before = level_;
+    estimate_error(X_BA);
+    if (misses_tolerance(X_BA)) level_ = finer(level_, error_);
+    return level_ == before;
   }
 
   double add_to(const RigidTransform& X_BA, Wrench& wrench) override {
@@ -138,6 +122,45 @@ class LayerContact final : public ContactPotential {
     std::optional<LayerSides>& sides = sides_[level_];
     if (!sides) sides.emplace(*lattices_, level_);
     return *sides;
+  }
+  /// The coarsest lattice that should do by the number of its points, as one that is coarser tells
+  /// that. What is pressed between the points of a coarse one, finer ones tell.
+  void choose(const RigidTransform& X_BA) {
+    constexpr double kEnough = 8;  // points, to tell those of other lattices
+    constexpr double kBetween =
+        0.5;  // a ball of 2 mm rises so far over points 2 mm from each other [mm]
+    level_ = 0;
+    double points = pressed_on_a_side(X_BA);
+    if (points == 0 && !sides().come_within(X_BA, kBetween)) return;
+    for (; level_ + 1 < kLayerLevels; points = pressed_on_a_side(X_BA)) {
+      const double finer = points > 0 ? std::sqrt(fewest_points(options_.tolerance) / points) : 2;
+      if (!(finer > 1)) return;
+      if (points >= kEnough) {
+        level_ = level_of(finer * kLayerCells[level_]);
+        return;
+      }
+      ++level_;
+    }
+    if (points == 0) level_ = 0;
+  }
+  /// With an error that is told there: a function of the pose alone.
+  void choose_by_error(const RigidTransform& X_BA) {
+    choose(X_BA);
+    for (estimate_error(X_BA); misses_tolerance(X_BA); estimate_error(X_BA)) {
+      const std::size_t coarser = level_;
+      level_ = finer(level_, error_);
+      if (presses(X_BA)) continue;
+      level_ = coarser;
+      return;
+    }
+  }
+  [[nodiscard]] bool presses(const RigidTransform& X_BA) {
+    return sides().sums(X_BA, law_).force > 0;
+  }
+  /// What is pressed deeper than the layers bear is refused, and needs no finer lattice.
+  [[nodiscard]] bool misses_tolerance(const RigidTransform& X_BA) {
+    return error_ > options_.tolerance && level_ + 1 < kLayerLevels &&
+           !(sides().sums(X_BA, law_).deepest > law_.deepest());
   }
   [[nodiscard]] double pressed_on_a_side(const RigidTransform& X_BA) {
     return static_cast<double>(sides().pressed(X_BA)) / sides().count();
@@ -186,11 +209,8 @@ class LayerContact final : public ContactPotential {
   Vector3d origin_;  ///< of the model's frame of B, in the file's [mm]
   std::array<std::optional<LayerSides>, kLayerLevels> sides_;
   std::size_t level_ = 0;
-  struct Held {
-    RigidTransform X;
-    std::size_t level;
-  };
-  std::optional<Held> held_;  ///< of a pose that was solved before
+  std::array<bool, kLayerLevels> tried_{};  ///< of those that a solved pose asked for since prepare
+  bool held_ = false;                       ///< whatever the next one asks for
   double error_ = 0;
   double factor_ = 1;  ///< of the stiffness
 };
@@ -263,13 +283,14 @@ std::optional<Objection> LayerContact::objection(const LayerSums& sums) const {
 std::optional<Objection> LayerContact::uncertain(const RigidTransform& X_BA, double acting) {
   const double wrong = kMostWrong + 3 * options_.tolerance;
   const double force = sides().sums(X_BA, law_).force;
-  if (!(error_ * force > wrong * acting)) return std::nullopt;
+  if (!(error_ * force > wrong * (acting + kLight))) return std::nullopt;
   return Objection{
       PoseStatus::kIterationLimit,
-      fmt::format("contact \"{}\": the force of its layers is uncertain by {:.1f} % on "
-                  "the finest lattice, by {:.1f} % of the forces that act, {:.1f} % at "
-                  "most: few points for surfaces of that size",
-                  name_, 100 * error_, 100 * error_ * force / acting, 100 * wrong)};
+      fmt::format(
+          "contact \"{}\": the force of its layers is uncertain by {:.1f} %, by {:.1f} % of "
+          "the forces that act, {:.1f} % at most: the finest lattice has few points for "
+          "surfaces of that size",
+          name_, 100 * error_, 100 * error_ * force / acting, 100 * wrong)};
 }
 
 }  // namespace

@@ -78,6 +78,7 @@ void cardan_angle(const KinematicCondition& condition,
                   const Matrix3d& R,
                   ConditionDerivatives& out) {
   const AxisPair p(Vector3d::UnitZ(), R.col(1));
+  out.node = p.v.norm();
   switch (condition.cardan_axis) {
     case 0:
       set_angle(std::atan2(p.s, p.v.norm()), out);
@@ -126,6 +127,7 @@ void joint_angle(const KinematicCondition& condition,
                  ConditionDerivatives& out) {
   const JointPose pose(condition.frames, X_BA);
   const AxisPair axes = pose.axes();
+  out.node = axes.v.norm();
   const double side = condition.frames.side, sigma = pose.sigma;
   const bool tibia_moves = condition.frames.tibia_moves;
   if (condition.kind == ConditionKind::kAdduction) {
@@ -196,6 +198,7 @@ void along_node(const OriginDistance& h, const AxisPair& p, ConditionDerivatives
   const Matrix3d G_w =
       w * w * w * (p.v * p.v.transpose() + p.s * V) + 3 * p.s * w * w * p.v * g_w.transpose();
 
+  out.node = p.v.norm();
   out.coordinate = y * w;
   out.alpha = w * sigma * n;
   out.eta = w * eta_y + y * g_w;

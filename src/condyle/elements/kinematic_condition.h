@@ -45,6 +45,9 @@ struct ConditionDerivatives {
   double k;                    ///< coordinate - value, angles wrapped to (-π, π]
   Eigen::Vector3d alpha, eta;  ///< ∂k/∂a, ∂k/∂π
   Eigen::Matrix3d D1, D2, D3, D4;
+  /// |m x b|, the sine of the angle between the first and the last axis of an angle; where it vanishes
+  /// the coordinate has no derivative. 1 for what has no such axes.
+  double node = 1;
 };
 
 /// `value` is prescribed [rad] or [mm]. Finite everywhere except where the coordinate itself has no

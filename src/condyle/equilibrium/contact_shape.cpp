@@ -1,5 +1,7 @@
 #include "condyle/equilibrium/contact_shape.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -91,6 +93,21 @@ Objection held_parallel(const std::string& contact) {
           named(contact) +
               ": the surfaces touch along a line and are held parallel, rigid contact does not say "
               "where along it they carry"};
+}
+
+std::optional<Objection> deeper_than_borne(const ContactPair& pair,
+                                           const ContactPotential& potential,
+                                           ContactSearch& search,
+                                           const RigidTransform& X_BA,
+                                           double L,
+                                           std::vector<GapMinimum>& minima) {
+  if (!std::isfinite(potential.bears())) return std::nullopt;
+  const double length = search.length(L);
+  search.find(X_BA, -potential.bears() - kAllowedOverlap * length, minima, kMerge * length);
+  if (minima.empty()) return std::nullopt;
+  return Objection{PoseStatus::kOverlap,
+                   fmt::format("{}: its surfaces overlap by {:.2f} mm, its layers bear {:.2f}",
+                               named(pair.name), -minima.front().gap, potential.bears())};
 }
 
 std::optional<std::size_t> conforming_pair(const Model& model,

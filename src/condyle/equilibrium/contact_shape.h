@@ -41,6 +41,15 @@ struct TouchReport {
 /// One point carries a line: something else holds the bodies parallel.
 [[nodiscard]] Objection held_parallel(const std::string& contact);
 
+/// Of a pair with a law of its own: its surfaces overlap somewhere deeper than that bears. Points that face each other's backs
+/// carry nothing, so the law does not tell. `minima` is room to work in.
+[[nodiscard]] std::optional<Objection> deeper_than_borne(const ContactPair& pair,
+                                                         const ContactPotential& potential,
+                                                         ContactSearch& search,
+                                                         const RigidTransform& X_BA,
+                                                         double L,
+                                                         std::vector<GapMinimum>& minima);
+
 /// A pair whose surfaces, near each other, have the same curvature in every direction: a ball in a
 /// cup of its radius. Nothing says where they will touch.
 [[nodiscard]] std::optional<std::size_t> conforming_pair(const Model& model,

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 
 #include "condyle/contact/contact_scales.h"
 #include "condyle/contact/hertz.h"
+#include "condyle/equilibrium/admissible_motions.h"
 #include "condyle/equilibrium/contact_rules.h"
 #include "condyle/equilibrium/contact_shape.h"
 #include "condyle/equilibrium/edge_in_words.h"
@@ -60,6 +63,20 @@ void carry_by_ends(const ContactPair& pair,
     set_status(result, tips_over(pair.name));
 }
 
+/// Does something else keep the bodies from turning out of the line that contact k lies on? Then its one point may lie
+/// anywhere along it. Else the balance of moments says where its force acts.
+bool is_held_parallel(const Linearization& at, std::size_t k, const TouchReport& touch) {
+  constexpr double kHeld = 1e-6;  // of the turn that is left
+  const ContactLinearization& contact = at.contacts()[k];
+  const auto way = [&](const GapMinimum& end) { return (end.point_B - contact.B.c).norm(); };
+  const GapMinimum& far = touch.ends[way(touch.ends[0]) < way(touch.ends[1]) ? 1 : 0];
+  const Eigen::Vector3d turn = (far.point_B - contact.B.c).cross(contact.B.n);
+  if (!(turn.norm() > 0)) return false;
+  Eigen::Matrix<double, 6, 1> apart = Eigen::Matrix<double, 6, 1>::Zero();
+  apart.tail<3>() = turn.normalized();
+  return (admissible_motions(at).transpose() * apart).norm() < kHeld;
+}
+
 TouchReport touch_of(const Linearization& at, std::size_t k) {
   const ClosedContact& closed = at.state.contacts[k];
   return examine_touch(at.pair(k), at.contacts()[k], closed.places, at.state.X, at.model.length);
@@ -96,10 +113,10 @@ void describe_closed(const Linearization& at, double edge_margin, PoseResult& re
     if (contact.shape != ContactShape::kLine || contact.points.size() > 2) continue;
     const TouchReport touch = touch_of(at, k);
     if (touch.kind != Touch::kLine) continue;
-    if (contact.points.size() == 2)
-      carry_by_ends(at.pair(k), at.state.X, touch, result, contact);
-    else
+    if (contact.points.size() == 1 && is_held_parallel(at, k, touch))
       set_status(result, held_parallel(at.pair(k).name));
+    else
+      carry_by_ends(at.pair(k), at.state.X, touch, result, contact);
   }
 }
 
@@ -153,30 +170,34 @@ void describe_open(const ContactPair& pair,
   contact.closed = pair.law && lowest.gap < 0;
 }
 
-/// A contact with a law of its own; one whose surfaces overlap deeper than that bears lowers the status. Points that face
-/// each other's backs carry nothing, so the law does not tell.
+/// A contact with a law of its own.
 void describe_law(const Linearization& at,
                   std::size_t p,
                   ContactSearch& search,
                   std::vector<GapMinimum>& minima,
                   PoseResult& result) {
   ContactPotential& potential = *at.system.potentials().of(p);
-  const ContactPair& pair = at.model.pairs[p];
-  if (const std::optional<Objection> reason = potential.describe(at.state.X, result.contacts[p]))
-    set_status(result, *reason);
-  if (!result.converged()) return;
-  if (std::isfinite(potential.bears())) {
-    const double length = search.length(at.model.length);
-    search.find(at.state.X, -potential.bears() - kAllowedOverlap * length, minima, kMerge * length);
-    if (!minima.empty())
-      return set_status(
-          result,
-          {PoseStatus::kOverlap,
-           fmt::format("contact {}: its surfaces overlap by {:.2f} mm, its layers bear {:.2f}",
-                       quoted(pair.name), -minima.front().gap, potential.bears())});
+  std::optional<Objection> reason = potential.describe(at.state.X, result.contacts[p]);
+  if (!reason && !result.converged()) return;
+  if (!reason)
+    reason = deeper_than_borne(at.model.pairs[p], potential, search, at.state.X, at.model.length,
+                               minima);
+  if (!reason) reason = potential.uncertain(at.state.X, at.force_scale());
+  if (reason) set_status(result, *reason);
+}
+
+/// A condition whose axes are parallel has no direction along which it could carry: it may hold where it carries nothing.
+void judge_conditions(const Linearization& at, PoseResult& result) {
+  constexpr double kParallel = 1e-7;  // the node is known to 1e-9 of its direction
+  constexpr double kNothing = 1e-9;   // of the forces that act
+  for (std::size_t i = 0; i < at.conditions().size(); ++i) {
+    const double arm = is_angle(at.model.conditions[i].kind) ? at.model.length : 1;
+    const bool carries = std::abs(at.state.sigma[i]) > kNothing * at.force_scale() * arm;
+    if (carries && at.conditions()[i].node < kParallel)
+      set_status(result, {PoseStatus::kSingular,
+                          "condition " + quoted(at.model.condition_names[i]) +
+                              ": its first and last axes are parallel here, so it cannot carry"});
   }
-  if (const std::optional<Objection> reason = potential.uncertain(at.state.X, at.force_scale()))
-    set_status(result, *reason);
 }
 
 /// A path of which something speaks against it lowers the status.
@@ -213,6 +234,7 @@ void describe_pose(const Linearization& at,
              result);
   for (std::size_t i = 0; i < model.conditions.size(); ++i)
     result.conditions.push_back({at.conditions()[i].coordinate, at.state.sigma[i]});
+  judge_conditions(at, result);
   describe_closed(at, options.edge_margin, result);
   judge_paths(at, result);
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {

@@ -103,12 +103,6 @@ void EquilibriumSolver::set_state(const EquilibriumState& state, const Drive& dr
   has_state_ = true;
 }
 
-void EquilibriumSolver::hold_laws(const PoseResult& told) {
-  for (std::size_t p = 0; p < told.contacts.size(); ++p)
-    if (ContactPotential* potential = newton_.system().potentials().of(p))
-      potential->hold(state_.X, told.contacts[p]);
-}
-
 void EquilibriumSolver::go_back(const Standing& standing) {
   if (standing.has_state) {
     check_state(standing.state, *model_);

@@ -95,9 +95,6 @@ class EquilibriumSolver {
   [[nodiscard]] const EquilibriumState& state() const { return state_; }
   void set_state(const EquilibriumState& state, const Drive& drive);
 
-  /// The state was told as that pose: laws of contact hold there what they held when it was solved, a lattice, say.
-  void hold_laws(const PoseResult& told);
-
   /// From where the next pose starts: the last converged state and its values, or none.
   struct Standing {
     EquilibriumState state;

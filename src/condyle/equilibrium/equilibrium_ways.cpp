@@ -218,8 +218,12 @@ bool EquilibriumSolver::solve_from_elsewhere(EquilibriumState& state, Attempt& a
   const bool singular = attempt.newton.outcome == NewtonOutcome::kSingular;
   if (!from_last && !from_start && !has_state_ && !attempt.off && !singular)
     return descend_from_beside_start(state, attempt);
-  if (from_last || from_start) newton_.system().assemble(state, drive_);
-  return from_last || from_start;
+  if (!from_last && !from_start) return false;
+  // Laws of contact hold what the last of both ways held, a lattice, say.
+  if (from_start && has_state_ && !newton_.system().potentials().empty())
+    return newton_.solve(state, drive_).outcome == NewtonOutcome::kConverged;
+  newton_.system().assemble(state, drive_);
+  return true;
 }
 
 /// The descent from the carried start moved out and in along the normals of where the surfaces are nearest:

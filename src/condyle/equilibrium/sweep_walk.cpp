@@ -58,7 +58,6 @@ bool SweepWalk::take_over(const KnownPose& known, Stop& stop) {
   }
   if (!can_restore(model(), known.pose)) return false;
   walker_.stand_at(stop.at.value, restore_state(model(), known.pose));
-  solver().hold_laws(known.pose);
   walker_.step(stop.at.value, Patience::kNone, stop.at);
   const bool same = agrees(pose, known.pose);
   if (same) {

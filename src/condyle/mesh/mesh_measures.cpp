@@ -13,6 +13,11 @@ Vector3d triangle_area(const TriangleMesh& mesh, const std::array<int, 3>& trian
   return 0.5 * (mesh.vertices[triangle[1]] - p).cross(mesh.vertices[triangle[2]] - p);
 }
 
+Vector3d triangle_middle(const TriangleMesh& mesh, const std::array<int, 3>& triangle) {
+  const auto& [a, b, c] = triangle;
+  return (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3;
+}
+
 std::vector<Vector3d> triangle_areas(const TriangleMesh& mesh) {
   std::vector<Vector3d> areas;
   areas.reserve(mesh.triangles.size());

@@ -14,6 +14,10 @@ namespace condyle {
 [[nodiscard]] Eigen::Vector3d triangle_area(const TriangleMesh& mesh,
                                             const std::array<int, 3>& triangle);
 
+/// The mean of its corners, whichever comes first [mm].
+[[nodiscard]] Eigen::Vector3d triangle_middle(const TriangleMesh& mesh,
+                                              const std::array<int, 3>& triangle);
+
 /// Vector area of each triangle [mm²]: half the cross product of two edges, along its normal.
 [[nodiscard]] std::vector<Eigen::Vector3d> triangle_areas(const TriangleMesh& mesh);
 

@@ -35,7 +35,7 @@ void refine_lattice(const LatticeRefinement& refinement, Network& network) {
     throw InputError("network: a lattice of an earlier run is of no contact of this one");
   ContactPotential& potential = *network.potentials[refinement.potential].potential;
   potential.forget_places();
-  (void)potential.accepts(refinement.at);
+  (void)potential.refines(refinement.at);
 }
 
 std::vector<LatticeRefinement> refine_lattices(const Motion& motion, Network& network) {
@@ -45,7 +45,7 @@ std::vector<LatticeRefinement> refine_lattices(const Motion& motion, Network& ne
     const RigidTransform* X = most_pressed(motion, contact);
     if (X == nullptr) continue;
     contact.potential->forget_places();  // so that whoever refines to this pose comes to the same
-    if (!contact.potential->accepts(*X)) refined.push_back({i, *X});
+    if (!contact.potential->refines(*X)) refined.push_back({i, *X});
   }
   return refined;
 }

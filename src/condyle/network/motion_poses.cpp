@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "condyle/contact/contact.h"
+#include "condyle/equilibrium/contact_shape.h"
 #include "condyle/equilibrium/model_covers.h"
 #include "condyle/equilibrium/pose_result.h"
 #include "condyle/network/contact_detection.h"
@@ -78,7 +79,11 @@ class FrameTeller {
       const auto p = static_cast<std::size_t>(knee_.potentials[i]);
       ContactResult& contact = pose.contacts[p];
       potential.estimate_error(pose.X_BA);
-      if (const std::optional<Objection> objection = potential.describe(pose.X_BA, contact)) {
+      std::optional<Objection> objection = potential.describe(pose.X_BA, contact);
+      if (!objection)
+        objection = deeper_than_borne(model_.pairs[p], potential, searches_[p], pose.X_BA,
+                                      model_.length, minima_);
+      if (objection) {
         pose.status = objection->status;
         pose.reason = objection->reason;
       }

@@ -126,6 +126,14 @@ StartPath start_path(const Scene& scene, const LigamentDescription& ligament) {
     }
   }
   const double length = ligament_length(scene, ligament, start);
+  if (!(length > 0) && !ligament.path.sides.empty()) {
+    LigamentDescription either = ligament;
+    either.path.sides.clear();
+    if (ligament_length(scene, either, start) > 0)
+      return {0, "side",
+              "points on whose sides of the wraps there is a shortest path at the start pose, as "
+              "there is without"};
+  }
   if (!(length > 0))
     return {0, "wraps", "wraps around which there is a shortest path at the start pose"};
   return {length, {}, {}};

@@ -21,9 +21,11 @@ double in_unit(double inside, const Unit& unit) {
 
 std::vector<double> range_values(double from, double to, double step) {
   constexpr double kMost = 1e6, kRounding = 1e-9, kApart = 1e-10;
-  if (!std::isfinite(from) || !std::isfinite(to) || !std::isfinite(step)) {
-    throw InputError(
-        fmt::format("from = {}, to = {}, step = {}, expected finite numbers", from, to, step));
+  constexpr double kGreatest = 1e100;  // as of the numbers of a scene
+  const auto is_usable = [](double number) { return std::abs(number) < kGreatest; };
+  if (!is_usable(from) || !is_usable(to) || !is_usable(step)) {
+    throw InputError(fmt::format("from = {}, to = {}, step = {}, expected numbers below {:g}", from,
+                                 to, step, kGreatest));
   }
   if (from == to) return {from};
   if (step == 0 || (step > 0) != (to > from)) {

@@ -129,14 +129,14 @@ void read_patch(const Section& section, const Scene& scene, SurfaceDescription& 
 }
 
 void read_terms(const Section& section, const Scene& scene, SurfaceDescription& surface) {
-  const std::string expected = "terms [[i, j, a], ...] of the height a x^i y^j";
+  const std::string expected = "terms [[i, j, a], ...] of the height a x^i y^j, |a| below 1e100";
   constexpr int kMostDegree = 20;
   const Value& list = section.value("coefficients", expected);
   if (list.type != Value::Type::kArray || list.items.empty())
     section.fail("coefficients", expected);
   for (const Value& item : list.items) {
     const bool fits = item.type == Value::Type::kArray && item.items.size() == 3 &&
-                      item.items[2].is_number() && std::isfinite(item.items[2].number);
+                      item.items[2].is_number() && is_usable(item.items[2].number);
     if (!fits) section.fail("coefficients", item, expected);
     const int i = read_whole_number(section, "coefficients", item.items[0], 0, kMostDegree);
     const int j = read_whole_number(section, "coefficients", item.items[1], 0, kMostDegree);
@@ -172,8 +172,12 @@ void read_torus(const Section& section, const Scene& scene, SurfaceDescription& 
 
 void read_ellipsoid(const Section& section, const Scene& scene, SurfaceDescription& surface) {
   if (section.has("axes")) surface.axes = read_axes(section, "axes", scene);
-  surface.semi_axes = scene.length_to_mm * section.vector("semi_axes", "three lengths > 0");
-  if (surface.semi_axes.minCoeff() <= 0) section.fail("semi_axes", "three lengths > 0");
+  constexpr double kFlattest = 1e-6;  // below it closest points lose more digits than verify allows
+  const std::string expected = "three lengths > 0, the least no less than 1e-6 of the greatest";
+  const Eigen::Vector3d lengths = section.vector("semi_axes", expected);
+  if (!(lengths.minCoeff() > 0 && lengths.minCoeff() >= kFlattest * lengths.maxCoeff()))
+    section.fail("semi_axes", expected);
+  surface.semi_axes = scene.length_to_mm * lengths;
 }
 
 }  // namespace

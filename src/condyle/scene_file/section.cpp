@@ -23,9 +23,6 @@ const char* suffix(Range range) {
   return "";
 }
 
-/// Finite, and so are its square and its product with any unit.
-bool is_usable(double number) { return std::abs(number) < 1e100; }
-
 bool within(double number, Range range) {
   if (!is_usable(number)) return false;
   return range == Range::kAny || number > 0 || (range == Range::kNotNegative && number == 0);
@@ -48,6 +45,8 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
+
+bool is_usable(double number) { return std::abs(number) < 1e100; }
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
   std::string best;

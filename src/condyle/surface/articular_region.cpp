@@ -140,7 +140,7 @@ Vector3d centroid(const TriangleMesh& mesh, const std::vector<bool>& keep) {
   double count = 0;
   for (std::size_t t = 0; t < keep.size(); ++t)
     if (keep[t]) {
-      sum += mesh.vertices[mesh.triangles[t][0]];
+      sum += triangle_middle(mesh, mesh.triangles[t]);
       ++count;
     }
   return sum / std::max(count, 1.0);
@@ -228,7 +228,7 @@ int face_out_of_femur(CleanMesh& mesh, const BoneFrame& frame) {
   std::vector<double> outwardness(mesh.closed.size(), 0.0);
   for (std::size_t t = 0; t < areas.size(); ++t) {
     const int c = mesh.component[t];
-    const Vector3d& p = mesh.mesh.vertices[mesh.mesh.triangles[t][0]];
+    const Vector3d p = triangle_middle(mesh.mesh, mesh.mesh.triangles[t]);
     outwardness[c] += frame.components(areas[t]).dot(frame.components(p) - boxes[c].center());
   }
   turn_components(mesh, outwardness);
@@ -370,14 +370,15 @@ ArticularRegion box_region(const TriangleMesh& mesh, const std::array<Vector3d, 
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (std::size_t t = 0; t < keep.size(); ++t)
     if (keep[t]) {
-      const Vector3d q = mesh.vertices[mesh.triangles[t][0]] - center;
+      const Vector3d q = triangle_middle(mesh, mesh.triangles[t]) - center;
       const Vector3d flat = q - height * height.dot(q);
       spread += flat * flat.transpose();
     }
   Vector3d forward = symmetric_eigenvalues(spread).vectors.col(2);
   double third = 0;  // moment: an axis has no sense of its own
   for (std::size_t t = 0; t < keep.size(); ++t)
-    if (keep[t]) third += std::pow(forward.dot(mesh.vertices[mesh.triangles[t][0]] - center), 3);
+    if (keep[t])
+      third += std::pow(forward.dot(triangle_middle(mesh, mesh.triangles[t]) - center), 3);
   if (third < 0) forward = -forward;
   return plane_region(mesh, keep, keep, center, height, forward);
 }

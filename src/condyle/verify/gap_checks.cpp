@@ -30,14 +30,14 @@ GapCheck::GapCheck(const Subject& subject, std::vector<std::string>& not_checked
 
 double GapCheck::Pair::may_overlap() const { return kDepthAllowed * bears; }
 
-/// Of both sides; an overlap that one of them finds is one whatever the other could look at.
+/// Of both sides; an overlap, or no number, that one of them finds is one whatever the other could look at.
 GapCheck::FoundGap GapCheck::find_lowest(const Pair& pair, const RigidTransform& X_BA) {
   const double wanted = -pair.may_overlap();
   const LowestGap fixed = pair.from_fixed.lowest(X_BA.inverse(), wanted);
   const LowestGap moving = std::isnan(fixed.gap) ? fixed : pair.from_moving.lowest(X_BA, wanted);
   const bool on_fixed = std::isnan(fixed.gap) || fixed.gap < moving.gap;
   LowestGap lowest = on_fixed ? fixed : moving;
-  lowest.exact = (fixed.exact && moving.exact) || lowest.gap < wanted;
+  lowest.exact = (fixed.exact && moving.exact) || !(lowest.gap >= wanted - GapProbe::kNoise);
   return {lowest, on_fixed};
 }
 

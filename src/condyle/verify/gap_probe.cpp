@@ -13,7 +13,6 @@ namespace condyle::verification {
 namespace {
 
 constexpr double kCell = 2;         ///< [mm]
-constexpr double kNoise = 5e-7;     ///< gaps of which no lower ones are looked for beside [mm]
 constexpr double kOfDepth = 0.01;   ///< and that of an overlap: how deep is told to 1 %
 constexpr std::size_t kGroup = 24;  ///< cells
 constexpr double kBeside =
@@ -175,7 +174,7 @@ void GapProbe::look(const Node& node, const ClosestPoint* near, Search& search) 
 /// s and the curvatures of both surfaces.
 void GapProbe::look_into(const Node& node, const Reading& at, Search& search) const {
   const double found = std::min(search.best.gap, search.wanted), r = node.radius;
-  const double wanted = found - std::max(kNoise, -kOfDepth * found);
+  const double wanted = found - std::max(GapProbe::kNoise, -kOfDepth * found);
   if (at.known) keep({at.gap, at.point}, search.best);
   // Below what is not known of the other side nothing is said.
   if (at.gap < 0 && at.closest.edge < -3 * r) return;

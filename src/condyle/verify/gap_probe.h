@@ -22,6 +22,9 @@ struct LowestGap {
 /// Samples one side; the sides must outlive it.
 class GapProbe {
  public:
+  static constexpr double kNoise =
+      5e-7;  ///< gaps of which no lower ones are looked for beside [mm]
+
   GapProbe(const SurfaceSide& sampled, const SurfaceSide& other);
 
   /// Does the sampled side have bounds, so that there is anything to look at?
