@@ -21,8 +21,8 @@ inline const std::filesystem::path kSource = CONDYLE_SOURCE_DIR;
 inline Run computed_run(const std::filesystem::path& scene, const std::string& command = "sweep") {
   const std::filesystem::path folder = fresh_folder("condyle verify run");
   const std::filesystem::path file = folder / "run.h5";
-  const std::string line = "'" CONDYLE_PROGRAM "' " + command + " \"" + scene.string() + "\" -o \"" +
-                           file.string() + "\" --quiet 2> /dev/null";
+  const std::string line = "'" CONDYLE_PROGRAM "' " + command + " \"" + scene.string() +
+                           "\" -o \"" + file.string() + "\" --quiet 2> /dev/null";
   EXPECT_GE(std::system(line.c_str()), 0);
   Run run = read_run(file);
   std::filesystem::remove_all(folder);

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "condyle/input_error.h"
+#include "condyle/scene/usable_number.h"
 
 namespace condyle {
 
@@ -21,11 +22,9 @@ double in_unit(double inside, const Unit& unit) {
 
 std::vector<double> range_values(double from, double to, double step) {
   constexpr double kMost = 1e6, kRounding = 1e-9, kApart = 1e-10;
-  constexpr double kGreatest = 1e100;  // as of the numbers of a scene
-  const auto is_usable = [](double number) { return std::abs(number) < kGreatest; };
   if (!is_usable(from) || !is_usable(to) || !is_usable(step)) {
     throw InputError(fmt::format("from = {}, to = {}, step = {}, expected numbers below {:g}", from,
-                                 to, step, kGreatest));
+                                 to, step, kGreatestNumber));
   }
   if (from == to) return {from};
   if (step == 0 || (step > 0) != (to > from)) {

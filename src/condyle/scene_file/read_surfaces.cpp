@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "condyle/scene/usable_number.h"
 #include "condyle/scene_file/read_sections.h"
 
 namespace condyle {

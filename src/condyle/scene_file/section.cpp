@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "condyle/input_error.h"
+#include "condyle/scene/usable_number.h"
 
 namespace condyle {
 namespace {
@@ -45,8 +46,6 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
-
-bool is_usable(double number) { return std::abs(number) < 1e100; }
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
   std::string best;

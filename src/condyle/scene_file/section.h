@@ -24,9 +24,6 @@ struct Source {
 
 enum class Range { kAny, kNotNegative, kPositive };
 
-/// Finite, and so are its square and its product with any unit: below 1e100.
-[[nodiscard]] bool is_usable(double number);
-
 template <typename T>
 using Choices = std::vector<std::pair<std::string, T>>;
 

@@ -174,7 +174,7 @@ void GapProbe::look(const Node& node, const ClosestPoint* near, Search& search) 
 /// s and the curvatures of both surfaces.
 void GapProbe::look_into(const Node& node, const Reading& at, Search& search) const {
   const double found = std::min(search.best.gap, search.wanted), r = node.radius;
-  const double wanted = found - std::max(GapProbe::kNoise, -kOfDepth * found);
+  const double wanted = found - std::max(kNoise, -kOfDepth * found);
   if (at.known) keep({at.gap, at.point}, search.best);
   // Below what is not known of the other side nothing is said.
   if (at.gap < 0 && at.closest.edge < -3 * r) return;
