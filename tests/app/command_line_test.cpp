@@ -206,6 +206,17 @@ TEST_F(CommandLine, TakesNoEmptyTextForAValue) {
                    "--at: expected a number (condyle export --help says more)");
 }
 
+TEST_F(CommandLine, TakesNoListWithAnItemThatIsNone) {
+  for (const char* list : {"0,,30", ",0", "0,", ",", "0,a", "0,nan"})
+    expect_bad_input(
+        run(std::string("export run.h5 -o run.glb --at ") + list),
+        std::string("--at = ") + list +
+            ", expected numbers with a comma between two (condyle export --help says more)");
+  expect_bad_input(run("export run.h5 -o out --format csv,,stl"),
+                   "--format = csv,,stl, expected words with a comma between two (condyle export "
+                   "--help says more)");
+}
+
 TEST_F(CommandLine, TakesNoNumberForAnotherOne) {
   const auto refuses = [&](const std::string& command, const std::string& option,
                            const std::string& value, const std::string& expected) {

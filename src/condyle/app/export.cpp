@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "condyle/app/commands.h"
+#include "condyle/app/list_option.h"
 #include "condyle/app/tell.h"
 #include "condyle/exchange/csv_run.h"
 #include "condyle/exchange/glb_run.h"
@@ -246,16 +247,10 @@ void setup_export(CLI::App& program, int& status) {
       ->add_option("-o,--output", options->output,
                    "a file that ends in .glb, .mot, .sto, .csv or .stl, or a folder")
       ->required();
-  command
-      ->add_option("--format", options->formats,
-                   "for a folder: glb, vtk, opensim, csv, stl; all but stl where none is named")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  command
-      ->add_option("--at", options->at,
-                   "values of what was swept, such as 0,30,60 degrees; the nearest poses are taken")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list(*command, "--format", options->formats,
+           "for a folder: glb, vtk, opensim, csv, stl; all but stl where none is named");
+  add_list(*command, "--at", options->at,
+           "values of what was swept, such as 0,30,60 degrees; the nearest poses are taken");
   command->add_option("--triangles", options->triangles,
                       "at most about so many triangles in each bone; 0: all of them");
   command->footer("Example: condyle export out/phantom.h5 -o out/phantom.glb");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "condyle/app/commands.h"
+#include "condyle/app/list_option.h"
 #include "condyle/app/run_names.h"
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
@@ -82,10 +83,7 @@ void setup_plot(CLI::App& program, int& status) {
       "plot", "Plot what a run or a study holds over what it sweeps; several runs over each other");
   command->add_option("RUN", options->runs, "result files (HDF5)")->required();
   command->add_option("-o,--output", options->folder, "folder for the plots")->required();
-  command->add_option("--format", options->formats, "png, svg, pdf, or several of them")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->capture_default_str();
+  add_list(*command, "--format", options->formats, "png, svg, pdf, or several of them");
   command->footer("Example: condyle plot out/phantom.h5 -o out --format png,svg");
   add_talk_options(*command, options->talk);
   command->callback([options, &status] {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "condyle/app/commands.h"
+#include "condyle/app/list_option.h"
 #include "condyle/app/progress.h"
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
@@ -287,17 +288,10 @@ void setup_render(CLI::App& program, int& status) {
       ->add_option("-o,--output", options->output,
                    "folder for the pictures; or a file, NAME.png or NAME.mp4, for a single one")
       ->required();
-  command
-      ->add_option("--at", options->at,
-                   "values of what was swept, such as 0,30,60 degrees; the nearest poses are drawn")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  command
-      ->add_option("--view", options->views,
-                   "anterior, posterior, medial, lateral, plateau, condyles, exploded")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->capture_default_str();
+  add_list(*command, "--at", options->at,
+           "values of what was swept, such as 0,30,60 degrees; the nearest poses are drawn");
+  add_list(*command, "--view", options->views,
+           "anterior, posterior, medial, lateral, plateau, condyles, exploded");
   command->add_option("--size", options->size, "width and height in pixels, else 1200x900");
   CLI::Option* proximity = command->add_flag("--proximity", options->proximity,
                                              "gap between the articular surfaces in colours");
