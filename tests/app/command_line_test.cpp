@@ -146,6 +146,24 @@ TEST_F(CommandLine, NamesTheRangeInTheNumbersOfTheScene) {
                    "--from, --to, --step: step = 0, expected a step > 0 to get from 0 to 120");
 }
 
+// What is not given is what the scene says: its own end and step, also where these are not met.
+TEST_F(CommandLine, RangesStandInForWhatTheSceneSays) {
+  write("knee.toml", small_scene_with("to = 120\nstep = 5", "to = 11\nstep = 4"));
+  EXPECT_EQ(run("sweep knee.toml -o run.h5 --step 1").code, 0);
+  EXPECT_EQ(read_run(folder_ / "run.h5").sweep.poses.size(), 12U);
+  write("knee.toml", small_scene_with("to = 120\nstep = 5", "to = 3\nstep = 4"));
+  EXPECT_EQ(run("sweep knee.toml -o run.h5 --to 8").code, 0);
+  EXPECT_EQ(read_run(folder_ / "run.h5").sweep.poses.size(), 3U);
+  write("knee.toml", small_scene_with("from = 0\nto = 120\nstep = 5", "values = [0, 20, 5]"));
+  expect_bad_input(
+      run("sweep knee.toml -o run.h5 --to 10"),
+      "knee.toml: [sweep] lists values, expected --from, --to and --step to stand in for "
+      "them");
+  expect_bad_input(
+      run("sweep knee.toml -o run.h5 --from 10 --to 1000 --step 90"),
+      "--from, --to, --step: from = 10, to = 1000, expected angles of at most one turn");
+}
+
 // What fish completes names every option; those with -r take a value.
 TEST_F(CommandLine, TakesNoEmptyTextForAValueOfAnyOption) {
   std::istringstream lines(run("completion fish").out);
@@ -239,7 +257,7 @@ TEST_F(CommandLine, SweepsOnASurfaceFarLargerThanAKneeAndDoubtsItsUnit) {
   write("large.toml",
         with(kScene, "kind = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\n", plateau));
   const std::string doubt =
-      "warning: surface \"plateau\": 40000 mm across, expected at most 2000 mm (suspect the "
+      "warning: surface \"plateau\": 40000 mm across, expected 0.5 to 2000 mm (suspect the "
       "units)\n";
   EXPECT_NE(run("check large.toml").out.find(doubt), std::string::npos);
   const Outcome outcome = run("sweep large.toml -o run.h5", "ulimit -v 2000000; ulimit -t 20; ");

@@ -53,7 +53,7 @@ TEST_F(NewCommand, RefusesInOneLineAndWritesNothing) {
 
 // Rounding at a vertex that is 1e30 away is larger than the bone.
 TEST_F(NewCommand, NamesTheFileOfAVertexThatIsFarOff) {
-  write("tibia.off", "OFF\n5 2 0\n0 0 0\n80 0 0\n0 80 0\n0 0 300\n1e30 0 0\n3 0 1 2\n3 1 2 3\n");
+  write("tibia.off", "OFF\n5 2 0\n0 0 0\n80 0 0\n0 80 0\n0 0 300\n1e30 0 0\n3 0 1 2\n3 1 2 4\n");
   const Outcome outcome = run("new meshes/femur.stl tibia.off -o new.toml");
   EXPECT_EQ(outcome.code, 1);
   EXPECT_NE(outcome.err.find("tibia.off: no triangle is left"), std::string::npos) << outcome.err;

@@ -95,6 +95,18 @@ TEST_F(ResumeCommand, ComputesOnlyWhatAFinerAndWiderRangeLacks) {
   test::expect_same_sweep(result("whole.h5"), result("run.h5"));
 }
 
+// Seconds of a motion are no degrees.
+TEST_F(ResumeCommand, GoesOnFromNoOtherKindOfResult) {
+  const std::string scene =
+      "'" CONDYLE_SOURCE_DIR "/data/wismans-type/knee.toml' -o run.h5 --from 0 --to 10";
+  ASSERT_EQ(run("compare " + scene).code, 0);
+  const Outcome outcome = run("sweep " + scene + " --resume");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("run.h5: is no sweep, expected the result of condyle sweep\n"),
+            std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(ResumeCommand, SaysWhenThereIsNothingToGoOnFrom) {
   const Outcome outcome = run("sweep knee.toml -o run.h5 --resume");
   EXPECT_EQ(outcome.code, 0) << outcome.err;

@@ -178,7 +178,7 @@ TEST_F(CalibrateCommand, OthersSayThatACalibrationHoldsNoPoses) {
   EXPECT_EQ(verified.code, 1);
   EXPECT_NE(verified.err.find("holds no poses (a calibration stores none)"), std::string::npos);
   expect_bad_input(run("sweep knee.toml -o fit.h5 --resume --quiet"),
-                   "fit.h5: is a calibration, expected the result of condyle sweep");
+                   "fit.h5: is no sweep, expected the result of condyle sweep");
 }
 
 }  // namespace

@@ -61,6 +61,7 @@ Scene scene_in(const std::string& length, const std::string& angle) {
   text = text.substr(0, from) + ligaments + "\n" + text.substr(to);
   text = with(text, "length = \"mm\"", "length = \"" + length + "\"");
   text = with(text, "angle = \"deg\"", "angle = \"" + angle + "\"");
+  if (angle == "rad") text = with(text, "to = 120\nstep = 5", "to = 2\nstep = 0.1");
   return parse_scene(text, "some/knee.toml");
 }
 

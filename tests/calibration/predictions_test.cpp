@@ -164,6 +164,25 @@ TEST(Predictions, ARowThatIsFittedNeedsAPoseAndATestIsLostWithoutOne) {
   }
 }
 
+// What a test holds has an error too: a part of that displacement.
+TEST(Predictions, VarianceOfAHeldLevel) {
+  Measured knee;
+  knee.scene.calibration->level_sd = 0.02;
+  constexpr double h = 1e-4, kLevel = -9;
+  for (const double level : {kLevel, kLevel * (1 - h), kLevel * (1 + h)})
+    add_coordinates("drawn", 20 * kDegree, 3, level, knee.table);
+  Predictions predictions = knee.predictions();
+  VectorXd y;
+  ASSERT_TRUE(predictions.evaluate(VectorXd(), y, nullptr));
+  const auto rows = static_cast<Eigen::Index>(knee.table.rows.size() / 3);
+  const VectorXd variance = predictions.input_variance(VectorXd());
+  EXPECT_GT(variance.head(rows).maxCoeff(), 1e-6);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const double by_level = (y[2 * rows + i] - y[rows + i]) / (2 * h) * 0.02;
+    EXPECT_NEAR(variance[i], by_level * by_level, 1e-4 * by_level * by_level + 1e-12);
+  }
+}
+
 // Errors of what is prescribed: against poses at other flexions and levels.
 TEST(Predictions, VarianceOfFlexionAndLevel) {
   Measured knee;

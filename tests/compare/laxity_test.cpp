@@ -58,6 +58,22 @@ TEST(Laxity, ALoadIsSweptLikeAnAngle) {
   EXPECT_GT(drawn.back(), 0);
 }
 
+// A load says how large it is by its vector or by its scale; the test is the same, and takes as long.
+TEST(Laxity, DoesNotDependOnHowTheLoadIsWritten) {
+  Scene scene = read_scene(kDrawer);
+  scene.laxity->flexions = {30 * kDegree};
+  const auto last = [](const Scene& s) {
+    return test_laxity(s, fit_surfaces(s)).curves[0].ours.poses.back();
+  };
+  const PoseResult expected = last(scene);
+  constexpr double kFactor = 1e12;
+  scene.loads[scene.sweep->index].vector /= kFactor;
+  for (double& value : scene.sweep->values) value *= kFactor;
+  const PoseResult same = last(scene);
+  ASSERT_TRUE(same.converged());
+  EXPECT_LT((same.X_BA.p - expected.X_BA.p).norm(), 1e-9);
+}
+
 // On layers the knee is laxer; four times as stiff they leave half of that.
 TEST(Laxity, OfLayersTendsToTheRigidOne) {
   Scene scene = read_scene(kDrawer);

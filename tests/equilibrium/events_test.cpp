@@ -92,6 +92,32 @@ TEST(Events, ASnapThroughIsALimitPoint) {
   EXPECT_NEAR(result.events[1].value, -Truss::limit_load(), 2e-9);
 }
 
+// Half of the limit load is carried above and below; a step that lands below has missed the way it was on.
+TEST(Events, APoseOnAnotherBranchIsNoEventButFoundAnew) {
+  using test::Truss;
+  EquilibriumSolver solver(Truss::model());
+  const Swept press = load_scale(0);
+  Walker walker(solver, press, drive_of(solver.model()));
+  const double half = Truss::limit_load() / 2;
+  SolvedPose start, above, snapped, below;
+  start.value = 0, above.value = below.value = half, snapped.value = 2 * Truss::limit_load();
+  ASSERT_TRUE(walker.step(0, Patience::kFirst, start));
+  ASSERT_TRUE(walker.step(half, Patience::kAll, above));
+  ASSERT_TRUE(walker.step(1.2 * Truss::limit_load(), Patience::kAll, snapped));
+  ASSERT_TRUE(walker.step(snapped.value, Patience::kAll, snapped));
+  ASSERT_TRUE(walker.step(half, Patience::kAll, below));
+  ASSERT_LT(below.result.X_BA.p.z(), -Truss::h);
+  std::vector<Event> events;
+  const std::optional<SolvedPose> there = locate_events(walker, start, below, events);
+  ASSERT_TRUE(there);
+  EXPECT_NEAR(there->result.X_BA.p.z(), above.result.X_BA.p.z(), 1e-9);
+  EXPECT_TRUE(events.empty());
+  // Beyond the limit load there is no way on: the limit point is told, and the pose stays.
+  EXPECT_FALSE(locate_events(walker, start, snapped, events));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_NEAR(events[0].value, Truss::limit_load(), 2e-9);
+}
+
 // Where the apex lands on a floor, the snap and the closing happen at the same load.
 TEST(Events, ASnapThroughThatClosesAContactIsBoth) {
   using test::Truss;

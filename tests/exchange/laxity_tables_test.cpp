@@ -11,6 +11,7 @@
 #include "app/run_program.h"
 #include "calibration/small_calibration.h"
 #include "condyle/calibration/measurement_table.h"
+#include "condyle/input_error.h"
 #include "condyle/math/degree.h"
 #include "exchange/jcs_files.h"
 
@@ -95,6 +96,27 @@ TEST_F(LaxityTables, OffsetsAreAddedInTheSensesOfTheirChannels) {
   const MeasurementTable same = read_by_scene(laxity_table(both(), options_).text);
   EXPECT_NEAR(same.rows[4].value, 2 - 30, 1e-12);
   EXPECT_NEAR(same.rows[0].flexion, 31.5 * kDegree, 1e-12);
+}
+
+TEST_F(LaxityTables, OffsetsThatCannotBeAreNamed) {
+  const auto refusal = [&](const std::string& file, const std::string& text) -> std::string {
+    write(file, text);
+    options_.offsets = folder_ / file;
+    try {
+      (void)laxity_table(both(), options_);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_NE(refusal("twice.csv", "Knee JCS Medial [mm],Knee JCS Lateral [mm]\n5,7\n")
+                .find("twice.csv:1: two columns of the motion of \"Knee JCS Lateral [mm]\""),
+            std::string::npos);
+  std::string counted = kState;
+  const std::size_t at = counted.rfind("\"6 ");
+  counted.replace(at, 2, "\"7");
+  EXPECT_NE(refusal("State.cfg", counted).find("expected 6, their count, and six numbers"),
+            std::string::npos);
 }
 
 TEST_F(LaxityTables, AStepThatIsHeldIsItsEndOrItsMean) {

@@ -95,6 +95,40 @@ TEST(DropFlatVertices, LeavesAMeshAloneWhoseVerticesAllTellSomething) {
   EXPECT_EQ(drop_flat_vertices(fine).vertices.size(), fine.vertices.size());
 }
 
+/// Triangles by the places of their corners, whatever those are called.
+std::vector<std::array<std::array<double, 3>, 3>> places(const TriangleMesh& mesh) {
+  std::vector<std::array<std::array<double, 3>, 3>> found;
+  for (const auto& t : mesh.triangles) {
+    auto& corners = found.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] = {mesh.vertices[t[k]].x(), mesh.vertices[t[k]].y(), mesh.vertices[t[k]].z()};
+    std::sort(corners.begin(), corners.end());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+// Uneven and flat in places: which vertices go, and onto which, is a matter of the shape alone.
+TEST(DropFlatVertices, DoesNotDependOnTheOrderOfAFile) {
+  TriangleMesh mesh = sheet(24, [](int i, int j) { return i < 12 ? 0.0 : bumpy(i, j); });
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const double s = static_cast<double>(v);
+    mesh.vertices[v] += 0.2 * Vector3d(std::sin(12.9898 * s), std::sin(78.233 * s), 0);
+  }
+  const TriangleMesh rest = drop_flat_vertices(mesh);
+  ASSERT_LT(rest.vertices.size(), mesh.vertices.size());
+  TriangleMesh turned = mesh;
+  for (auto& t : turned.triangles) std::rotate(t.begin(), t.begin() + 1, t.end());
+  EXPECT_EQ(places(drop_flat_vertices(turned)), places(rest));
+  TriangleMesh backwards = mesh;
+  std::reverse(backwards.vertices.begin(), backwards.vertices.end());
+  std::reverse(backwards.triangles.begin(), backwards.triangles.end());
+  const int last = static_cast<int>(mesh.vertices.size()) - 1;
+  for (auto& t : backwards.triangles)
+    for (int& v : t) v = last - v;
+  EXPECT_EQ(places(drop_flat_vertices(backwards)), places(rest));
+}
+
 // A fit wants points on planes too: no edge grows longer than what a patch resolves, and the sheet
 // stays the sheet.
 TEST(DropFlatVertices, LeavesPlanesSampled) {

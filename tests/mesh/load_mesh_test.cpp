@@ -98,6 +98,16 @@ std::string off(const TriangleMesh& mesh) {
   return s.str();
 }
 
+// A vertex that no triangle has is no part of the bone, wherever it lies.
+TEST_F(LoadMesh, AVertexOfNoTriangleSaysNothingAboutTheSize) {
+  TriangleMesh mesh = cube(40);
+  mesh.vertices.emplace_back(1e4, 1e4, 1e4);
+  EXPECT_EQ(complaint(write("stray.obj", obj(mesh))), "");
+  const CleanMesh clean = clean_mesh(mesh);
+  EXPECT_EQ(clean.report.unreferenced_vertices, 1);
+  EXPECT_EQ(clean.report.merged_vertices, 0);
+}
+
 std::string ply(const TriangleMesh& mesh, bool binary) {
   std::ostringstream s;
   s << "ply\nformat " << (binary ? "binary_little_endian" : "ascii") << " 1.0\nelement vertex "

@@ -160,6 +160,34 @@ TEST_F(SimulateCommand, CheckSaysTheMass) {
       << outcome.out;
 }
 
+/// Kinetic energies [J].
+std::vector<double> kinetic(const std::filesystem::path& file) {
+  const Hdf5Reader reader(file);
+  return reader.root().open("simulate").open("energy").read("kinetic", {6});
+}
+
+// A load says how large it is by its vector or by its scale, and where it is driven by the drive alone.
+TEST_F(SimulateCommand, AScaleActsOnce) {
+  const std::string weight = "vector = [0, 100, 0]";
+  write("plain.toml", released());
+  write("scaled.toml", with(released(), weight, "vector = [0, 25, 0]\nscale = 4"));
+  ASSERT_EQ(run("simulate plain.toml -o plain.h5").code, 0);
+  ASSERT_EQ(run("simulate scaled.toml -o scaled.h5").code, 0);
+  const std::string drive =
+      "drive = [{ load = \"weight\", shape = \"table\", times = [0, 0.1], factors = [1, 2] }]\n";
+  write("plain.toml", released(drive));
+  write("scaled.toml", with(released(drive), weight, weight + "\nscale = 0"));
+  ASSERT_EQ(run("simulate plain.toml -o plain_driven.h5").code, 0);
+  ASSERT_EQ(run("simulate scaled.toml -o scaled_driven.h5").code, 0);
+  for (const std::string kind : {"", "_driven"}) {
+    const std::vector<double> plain = kinetic(at("plain" + kind + ".h5")),
+                              scaled = kinetic(at("scaled" + kind + ".h5"));
+    EXPECT_GT(plain.back(), 0);
+    for (std::size_t i = 0; i < plain.size(); ++i)
+      EXPECT_NEAR(scaled[i], plain[i], 1e-6 * plain.back()) << kind << i;
+  }
+}
+
 TEST_F(SimulateCommand, BadInputIsNamed) {
   write("swing.toml", with(released(), kMass, ""));
   expect_bad_input(run("simulate swing.toml -o swing.h5"),
@@ -181,6 +209,17 @@ TEST_F(SimulateCommand, BadInputIsNamed) {
   const Outcome open = run("simulate swing.toml -o swing.h5");
   EXPECT_EQ(open.code, 1);
   EXPECT_NE(open.err.find("expected a closed mesh for its mass"), std::string::npos) << open.err;
+  write("swing.toml", released("hold = [\"bend\"]\nflexion_velocity = 10\n"));
+  const Outcome held = run("simulate swing.toml -o swing.h5");
+  EXPECT_EQ(held.code, 1);
+  EXPECT_NE(
+      held.err.find("flexion_velocity = 10, expected none, or a flexion that hold does not keep"),
+      std::string::npos)
+      << held.err;
+  write("swing.toml", released("tolerance = 1\n"));
+  EXPECT_NE(run("simulate swing.toml -o swing.h5")
+                .err.find("tolerance = 1, expected a tolerance of at most 1e-3"),
+            std::string::npos);
   const Outcome none = run("simulate knee.toml -o swing.h5");
   expect_bad_input(none, "knee.toml: [simulate] is missing, expected time, rate and gravity");
 }

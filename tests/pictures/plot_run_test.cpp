@@ -75,6 +75,15 @@ TEST(PlotRun, ARunWithoutAnyValueStillPlots) {
       << "joint coordinates and forces, with empty axes";
 }
 
+// An axis from -10 % on, and nothing on it.
+TEST(PlotRun, ARunOfSlackLigamentsStillPlots) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  auto run = block_run();
+  for (PoseResult& pose : run.sweep.poses)
+    for (LigamentResult& ligament : pose.ligaments) ligament.strain = -0.3;
+  EXPECT_GE(plot_run(run, test::fresh_folder("condyle_plots"), {PlotFormat::kPng}).size(), 3u);
+}
+
 TEST(PlotRun, AFolderThatDoesNotExistIsNamed) {
   EXPECT_THROW((void)plot_run(block_run(), "no/such/folder", {PlotFormat::kPng}), InputError);
 }

@@ -46,6 +46,13 @@ TEST(RandomKnees, KneesOnceFalseAreRight) {
 #endif
 }
 
+// A slack string whose pull ended with an arc that ran back on itself was called converged.
+TEST(RandomKnees, NoArcOfAConvergedPoseIsNegative) {
+  const SweepOutcome outcome = sweep_and_judge(random_knee(7, 5615), {true, false});
+  EXPECT_EQ(outcome.exception + outcome.refused, "");
+  EXPECT_TRUE(outcome.faults.empty()) << outcome.faults.front();
+}
+
 TEST(RandomKnees, AKneeIsAFunctionOfSeedAndNumber) {
   EXPECT_EQ(random_knee(1, 7).text, random_knee(1, 7).text);
   EXPECT_NE(random_knee(1, 7).text, random_knee(1, 8).text);

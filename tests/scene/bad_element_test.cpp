@@ -80,7 +80,17 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"slack_length = 30", "slack_length = 0.03",
                 "44: [[ligament]] \"aACL\": slack_length = 0.03, expected a length like that at "
                 "the start pose, 30 "
-                "(suspect the units)"}));
+                "(suspect the units)"},
+        Mistake{"law = \"toe-linear\"\nstiffness = 1500\nslack_length = 30",
+                "law = \"table\"\nlengths = [0.026, 0.03]\nforces = [0, 200]",
+                "43: [[ligament]] \"aACL\": lengths = [0.026, 0.03], expected lengths like that at "
+                "the start pose, 30 (suspect the units)"},
+        Mistake{"to = 120", "to = 380",
+                "60: [sweep]: to = 380, expected angles of at most one turn (suspect [units] "
+                "angle)"},
+        Mistake{"value = 0", "value = 3600",
+                "49: [[condition]] \"bend\": value = 3600, expected an angle of at most one turn "
+                "(suspect [units] angle)"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Motion,
@@ -126,6 +136,14 @@ INSTANTIATE_TEST_SUITE_P(
                 "mean \"arc length\"?"},
         Mistake{"step = 5", "setp = 5",
                 "61: [sweep]: unknown key setp = 5, did you mean \"step\"?"}));
+
+TEST(BadSweep, ANameThatTwoHaveIsNamed) {
+  const std::string text = with(small_scene_with("name = \"bend\"", "name = \"weight.scale\""),
+                                "vary = \"bend\"", "vary = \"weight.scale\"");
+  EXPECT_EQ(test::message_of(text),
+            "some/knee.toml:58: [sweep]: vary = \"weight.scale\", expected another name: a "
+            "condition and the scale of a load are both called that");
+}
 
 }  // namespace
 }  // namespace condyle

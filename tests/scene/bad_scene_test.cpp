@@ -78,6 +78,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "mass = 1\ncenter = [0,0,0]\ninertia = [[1,0,0],[0,1,0],[0,0,-1]]",
                 "16: [[body]] \"tibia\": inertia = [[1, 0, 0], [0, 1, 0], [0, 0, -1]], "
                 "expected a symmetric positive definite matrix"},
+        Mistake{"start.rotation = [0, 0, 0]",
+                "mass = 1\ncenter = [0,0,0]\ninertia = [[1,0,0],[0,1,0],[0,0,3]]",
+                "16: [[body]] \"tibia\": inertia = [[1, 0, 0], [0, 1, 0], [0, 0, 3]], "
+                "expected no principal moment above the sum of the two others: no body has one"},
         Mistake{
             "[joint]", "[[body]]\nname = \"fibula\"\n[joint]",
             "16: [[body]] \"fibula\": a second moving body, expected one fixed and one moving body "

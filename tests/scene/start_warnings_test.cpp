@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "condyle/scene/ligament_path.h"
+#include "condyle/scene/start_pose.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
 
@@ -54,6 +56,23 @@ TEST_F(StartWarnings, SeesAStrainThatCannotBe) {
   EXPECT_EQ(warning("slack length"), "");
   scene.ligaments[1].reference_strain.reset();
   EXPECT_NE(warning("slack length").find(scene.ligaments[1].name), std::string::npos);
+}
+
+// A strain of 2.7 was meant in per cent; a table ends where nobody measured.
+TEST_F(StartWarnings, SeesALawThatCannotBeMeant) {
+  LigamentDescription& ligament = scene.ligaments[1];
+  const double length = ligament_length(scene, ligament, start_pose(scene));
+  auto& law = std::get<ToeLinearLaw>(ligament.law);
+  law.slack_length = length / 3.7;
+  EXPECT_NE(warning("its reference strain is +270 %").find(ligament.name), std::string::npos);
+  law.slack_length = 2 * length;  // slack, as somebody wrote
+  EXPECT_EQ(warning("its reference strain"), "");
+  law.transition_strain = 6;
+  EXPECT_NE(warning("its transition strain is 600 %"), "");
+  ligament.law = make_table_law({1.1 * length, 1.3 * length}, {0, 100});
+  EXPECT_NE(warning("outside its table"), "");
+  ligament.law = make_table_law({0.9 * length, 1.1 * length}, {0, 100});
+  EXPECT_EQ(warning("outside its table"), "");
 }
 
 // Two planes have no places to look from, which says nothing about the scene.

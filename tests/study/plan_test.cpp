@@ -2,12 +2,14 @@
 
 #include "condyle/study/study_plan.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <fstream>
 
+#include "condyle/elements/force_law.h"
 #include "condyle/input_error.h"
 #include "study/small_study.h"
 #include "support/scratch_folder.h"
@@ -181,6 +183,41 @@ TEST_F(StudyTable, MayHoldTheNumbersThemselves) {
   std::vector<double> theta;
   plan.theta(0, theta);
   EXPECT_DOUBLE_EQ(theta[0], 0.02 - plan.knees[0].parameters[0].start);
+}
+
+// In a scene in cm the table is in cm too; several numbers with one change in common have no value.
+TEST_F(StudyTable, ItsNumbersAreInTheUnitsOfTheScene) {
+  const std::filesystem::path file = folder_ / "values.csv";
+  ReadStudy study = small_study("wismans-type/knee.toml", 0);
+  study.study.design = DesignKind::kTable;
+  study.study.table = file;
+  study.study.table_holds_values = true;
+  study.scenes[0].length_to_mm = 10;
+  study.varied[0] = {study.varied[0][0]};
+  study.varied[0][0].number.what = ParameterKind::kSlackLength;
+  study.varied[0][0].number.of = {0};
+  const LigamentDescription& ligament = study.scenes[0].ligaments[0];
+  const double slack = slack_length(ligament.law);
+  std::ofstream(file) << fmt::format("{}.slack_length\n{:.17g}\n", ligament.name, slack / 10);
+  std::vector<double> theta;
+  study_plan(study).theta(0, theta);
+  EXPECT_NEAR(theta[0], 0, 1e-12 * slack);
+
+  study.varied[0][0].number.of = {0, 1};
+  study.varied[0][0].number.together = true;
+  const std::string both = ligament.name + "+" + study.scenes[0].ligaments[1].name;
+  std::ofstream(file) << both << ".slack_length\n" << slack / 10 << "\n";
+  try {
+    (void)study_plan(study);
+    FAIL() << "nothing was thrown";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("values.csv:1: " + both +
+                        ".slack_length, a change that several numbers have in "
+                        "common, expected a table of \"changes\""),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST_F(StudyTable, WhatIsMissingIsNamed) {

@@ -139,6 +139,9 @@ sd = 0.1
   EXPECT_EQ(outcome.code, 2) << outcome.out;
   EXPECT_NE(outcome.err.find("condyle: no pose of any sample converged\n"), std::string::npos)
       << outcome.err;
+  const Outcome again = study("-o s.h5 --resume");  // it is complete, and no better
+  EXPECT_EQ(again.code, 2);
+  EXPECT_EQ(again.err, outcome.err);
 }
 
 TEST_F(StudyCommandLine, ResumeOfWhatIsCompleteComputesNothing) {

@@ -94,6 +94,29 @@ TEST(FitWraps, LeadsAsTheEllipsoidItself) {
   EXPECT_NEAR(ligament_length(scene, scene.ligaments[0], RigidTransform{}), fitted, 0.01);
 }
 
+// Strings and ellipsoid are found to the end: how a file numbers its vertices changes rounding and no more.
+TEST(FitWraps, DoNotDependOnTheOrderOfAFile) {
+  TriangleMesh bone = placed(ellipsoid_solid({9, 7, 6}, 0.8), kPlace);
+  for (std::size_t v = 0; v < bone.vertices.size(); ++v)  // rough as a scan
+    bone.vertices[v] *= 1 + 0.01 * std::sin(12.9898 * static_cast<double>(v));
+  TriangleMesh backwards = bone;
+  std::reverse(backwards.vertices.begin(), backwards.vertices.end());
+  std::reverse(backwards.triangles.begin(), backwards.triangles.end());
+  const int last = static_cast<int>(bone.vertices.size()) - 1;
+  for (auto& t : backwards.triangles)
+    for (int& v : t) v = last - v;
+  Scene a = fitted_wrap_scene(), b = fitted_wrap_scene();
+  fit_wraps(a, {TriangleMesh{}, bone});
+  fit_wraps(b, {TriangleMesh{}, backwards});
+  EXPECT_EQ(a.wraps[0].fit->vertices, b.wraps[0].fit->vertices);
+  EXPECT_LT((std::get<WrapEllipsoid>(a.wraps[0].shape).semi_axes -
+             std::get<WrapEllipsoid>(b.wraps[0].shape).semi_axes)
+                .norm(),
+            1e-5);
+  EXPECT_NEAR(ligament_length(a, a.ligaments[0], RigidTransform{}),
+              ligament_length(b, b.ligaments[0], RigidTransform{}), 1e-7);
+}
+
 TEST(FitWraps, RefusesWhatIsNoEllipsoid) {
   // A bar with edges.
   TriangleMesh bar;

@@ -3,17 +3,28 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdlib>
+#include <algorithm>
 
 #include "condyle/input_error.h"
 #include "condyle/scene/swept_quantity.h"
+#include "condyle/scene/usable_number.h"
 
 namespace condyle {
 namespace {
 
-// Without the last digits, which the way from degrees to radians and back has left.
-double rounded(double number) {
-  return std::strtod(fmt::format("{:.12g}", number).c_str(), nullptr);
+/// What the scene says, and the options in its place. A list of values has no step of its own.
+WrittenRange range_of(const std::string& file,
+                      const RangeOptions& options,
+                      const SweepDescription& sweep) {
+  const bool whole = options.from && options.to && (options.step || *options.from == *options.to);
+  if (!sweep.range && !whole)
+    throw InputError(
+        file + ": [sweep] lists values, expected --from, --to and --step to stand in for them");
+  WrittenRange range = sweep.range.value_or(WrittenRange{});
+  range.from = options.from.value_or(range.from);
+  range.to = options.to.value_or(range.to);
+  range.step = options.step.value_or(range.step);
+  return range;
 }
 
 }  // namespace
@@ -28,17 +39,21 @@ void override_range(const std::string& file, const RangeOptions& options, Scene&
   if (!scene.sweep)
     throw InputError(file + ": [sweep] is missing, expected what to vary and how far");
   if (!options.from && !options.to && !options.step) return;
-  std::vector<double>& values = scene.sweep->values;
   const double unit = quantity_of_sweep(scene).declared.factor;
-  const double from = rounded(values.front() / unit), to = rounded(values.back() / unit);
-  const double step = values.size() > 1 ? rounded((values[1] - values[0]) / unit) : 1;
+  const WrittenRange range = range_of(file, options, *scene.sweep);
+  std::vector<double>& values = scene.sweep->values;
   try {
-    values = range_values(options.from.value_or(from), options.to.value_or(to),
-                          options.step.value_or(step));
+    values = range_values(range);
   } catch (const InputError& error) {
     throw InputError(fmt::format("--from, --to, --step: {}", error.what()));
   }
+  scene.sweep->range = range;
   for (double& value : values) value *= unit;
+  const SweptQuantity swept = quantity_of_sweep(scene);
+  if (swept.unit.name == "deg" && !std::all_of(values.begin(), values.end(), is_usable_angle))
+    throw InputError(
+        fmt::format("--from, --to, --step: from = {}, to = {}, expected angles of at most one turn",
+                    range.from, range.to));
 }
 
 }  // namespace condyle

@@ -21,8 +21,8 @@ std::vector<KnownPose> poses_of_run(const std::filesystem::path& output,
   std::error_code unknown;
   if (!std::filesystem::exists(output, unknown)) return {};
   const Run run = read_run(output);
-  if (run.kind() == RunKind::kCalibration)
-    throw InputError(output.string() + ": is a calibration, expected the result of condyle sweep");
+  if (run.kind() != RunKind::kSweep)
+    throw InputError(output.string() + ": is no sweep, expected the result of condyle sweep");
   expect_same_scene(output.string(), run, scene, surfaces);
   return known_poses(run.sweep);
 }

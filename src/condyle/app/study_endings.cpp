@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -19,18 +21,38 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A line for each knee whose own sweep fails somewhere.
-std::vector<std::string> nominal_failures(const StudyWork& work) {
+/// Poses of a knee's own sweep of which nothing is known.
+std::size_t failed_poses(const StudySummary& knee, std::size_t poses) {
+  std::size_t failed = 0;
+  for (std::size_t p = 0; p < poses; ++p)
+    failed += std::all_of(knee.bands.begin(), knee.bands.end(),
+                          [p](const StudyBand& band) { return std::isnan(band.nominal[p]); });
+  return failed;
+}
+
+/// A line for each knee whose own sweep fails somewhere, and one where no sample has a pose.
+std::vector<std::string> failures_of(const StudyWork& work, const StudyView& view) {
   std::vector<std::string> lines;
+  const std::size_t poses = view.values.size();
   for (std::size_t k = 0; k < work.plan.knees.size(); ++k) {
-    const SweepResult& sweep = nominal_sweep(*work.models, k);
-    const auto poses = static_cast<int>(sweep.poses.size());
-    if (sweep.count_converged() < poses)
+    const StudySummary& knee = view.by_knee.empty() ? view.all : view.by_knee.at(k);
+    if (const std::size_t failed = failed_poses(knee, poses); failed > 0)
       lines.push_back(fmt::format("{}: {} of {} poses of the knee's own sweep did not converge",
-                                  work.plan.knees[k].scene.file.string(),
-                                  poses - sweep.count_converged(), poses));
+                                  work.plan.knees[k].scene.file.string(), failed, poses));
   }
+  if (view.all.failures.poses > 0 && view.all.failures.failed == view.all.failures.poses)
+    lines.emplace_back("no pose of any sample converged");
   return lines;
+}
+
+/// What went wrong is told; the exit code says so too.
+CommandSummary told(const StudyWork& work, const StudyView& view) {
+  const std::vector<std::string> failures = failures_of(work, view);
+  for (const std::string& line : failures) tell(stderr, "condyle: {}\n", line);
+  CommandSummary facts =
+      work.clock.summary(work.talk(), work.command.output, failures.empty() ? 0 : kSomePoseFailed);
+  facts.warnings = failures;
+  return facts;
 }
 
 void write_result(const StudyWork& work, const StudyJournals& journals) {
@@ -92,7 +114,7 @@ bool is_complete(const StudyWork& work) {
 int complete_already(const StudyWork& work) {
   const StudyView view = read_study_file(work.command.output);
   say(work.talk(), "{} holds all of this study already\n", work.command.output);
-  CommandSummary facts = work.clock.summary(work.talk(), work.command.output, 0);
+  CommandSummary facts = told(work, view);
   facts.files = write_summary_tables(work, view);
   if (work.talk().json) tell("{}\n", json_study(facts, view));
   return facts.exit_code;
@@ -127,14 +149,8 @@ int finished_study(const StudyWork& work, StudyJournals& journals) {
   say(work.talk(), "\nwrote {}\n", work.command.output);
   const std::vector<fs::path> files = write_study_tables(work, view, journals);
   journals.remove();
-  std::vector<std::string> failures = nominal_failures(work);
-  if (view.all.failures.poses > 0 && view.all.failures.failed == view.all.failures.poses)
-    failures.emplace_back("no pose of any sample converged");
-  for (const std::string& line : failures) tell(stderr, "condyle: {}\n", line);
-  CommandSummary facts =
-      work.clock.summary(work.talk(), work.command.output, failures.empty() ? 0 : kSomePoseFailed);
+  CommandSummary facts = told(work, view);
   facts.files = files;
-  facts.warnings = failures;
   if (work.talk().json) tell("{}\n", json_study(facts, view));
   return facts.exit_code;
 }

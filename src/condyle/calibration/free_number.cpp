@@ -134,7 +134,9 @@ class Maker {
       made.moves.push_back({{.kind = asked.what, .index = static_cast<std::size_t>(each)}, 1});
       narrow(asked, number(asked, each), made);
     }
-    made.start = asked.together ? 0 : number(asked, of.front());
+    made.together = of.size() > 1;
+    made.start =
+        of.size() > 1 && asked.what != ParameterKind::kLoadScale ? 0 : number(asked, of.front());
   }
 
   /// To where this number is within bounds; a transition strain stays above a tenth of itself.
@@ -187,6 +189,7 @@ class Maker {
                               (n ? kOnBone : kOfBody)[i]);
       made.units = "mm";
       made.prior_sd = n && i == 2 ? asked.normal_sd.value_or(asked.prior_sd / 4) : asked.prior_sd;
+      made.together = of.size() > 1;
       if (asked.bounds) made.bounds = *asked.bounds;
       for (const int each : of) add_moves(each, asked.body, triad.col(i), made);
     }

@@ -30,6 +30,7 @@ struct FreeParameter {
   /// kNumber: each moves by its factor times θ, or by exp(θ) where logarithmic.
   std::vector<std::pair<ModelParameter, double>> moves;
   bool logarithmic = false;    ///< θ = ln(number/number of the scene)
+  bool together = false;       ///< several numbers have this one change
   int component = 0;           ///< of a frame
   std::string test;            ///< kCurveOffset: of that curve,
   std::size_t coordinate = 0;  ///< and that joint coordinate

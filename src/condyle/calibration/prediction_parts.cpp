@@ -153,8 +153,16 @@ void PredictionParts::differentiate_by_inputs(std::size_t p) {
   const int flexion = model.conditions[static_cast<std::size_t>(calibration.flexion)];
   std::vector<ModelParameter> inputs = {
       {ParameterKind::kConditionValue, static_cast<std::size_t>(flexion)}};
-  if (pose.load >= 0)
+  double level =
+      0;  // what the test holds, as the model counts it: a load's scale, or a condition's value
+  if (pose.load >= 0) {
     inputs.push_back({ParameterKind::kLoadScale, static_cast<std::size_t>(pose.load)});
+    level = bench.drive(p).scales[static_cast<std::size_t>(pose.load)];
+  } else if (model.held >= 0) {
+    const int held = model.conditions[static_cast<std::size_t>(model.held)];
+    inputs.push_back({ParameterKind::kConditionValue, static_cast<std::size_t>(held)});
+    level = pose.level;
+  }
   const std::vector<PoseOutput>& outputs = study->told.outputs[p];
   MatrixXd& D = told[p].by_inputs;
   D.setZero(static_cast<Eigen::Index>(outputs.size()), 2);
@@ -163,9 +171,7 @@ void PredictionParts::differentiate_by_inputs(std::size_t p) {
   const FrameOffsets offsets = frame_offsets(study->told, bench.theta());
   tell_derivatives(study->told, outputs, offsets, bench.at(p), inputs, *sensitivity, by_numbers);
   D.col(0) = calibration.flexion_sd * by_numbers.col(0);
-  if (pose.load < 0) return;
-  const double scale = bench.drive(p).scales[static_cast<std::size_t>(pose.load)];
-  D.col(1) = calibration.level_sd * scale * by_numbers.col(1);
+  if (inputs.size() > 1) D.col(1) = calibration.level_sd * level * by_numbers.col(1);
 }
 
 }  // namespace condyle

@@ -19,7 +19,8 @@
 namespace condyle {
 namespace {
 
-constexpr double kFlexionStep = 5 * kDegree, kLoadStep = 0.1;
+constexpr double kFlexionStep = 5 * kDegree;
+constexpr double kLoadStep = 0.1;  // of the greatest load of the test
 
 /// From one value to another in steps of at most `step`, both ends included.
 std::vector<double> way(double from, double to, double step) {
@@ -27,6 +28,12 @@ std::vector<double> way(double from, double to, double step) {
   std::vector<double> values;
   for (int i = 0; i <= parts; ++i) values.push_back(from + (to - from) * i / parts);
   return values;
+}
+
+double greatest(const std::vector<double>& values) {
+  double size = 0;
+  for (const double value : values) size = std::max(size, std::abs(value));
+  return size > 0 ? size : 1;
 }
 
 /// What all curves of one knee share.
@@ -44,7 +51,7 @@ struct Ways {
   std::vector<double> to_load, loads;
   explicit Ways(const Scene& scene)
       : start(scene.conditions[scene.laxity->condition].value),
-        to_load(way(0, scene.sweep->values.front(), kLoadStep)),
+        to_load(way(0, scene.sweep->values.front(), kLoadStep * greatest(scene.sweep->values))),
         loads(scene.sweep->values) {}
 };
 

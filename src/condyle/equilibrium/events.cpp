@@ -241,6 +241,21 @@ class EventSearch {
         .value_or(middle);
   }
 
+  /// Where the way from `before`, within the tolerance of the value of `right`, arrives there; nothing where that is
+  /// in `right` itself, or where the way ends between.
+  std::optional<SolvedPose> arrival(const SolvedPose& before,
+                                    const SolvedPose& after,
+                                    const SolvedPose& right) {
+    if (after.value != right.value) return std::nullopt;
+    const double far = options_.jump * walker_.model().length;
+    std::optional<SolvedPose> there = pose_at(right.value, before);
+    if (!there || body_motion(before, *there, walker_.model().length) >= far ||
+        body_motion(*there, right, walker_.model().length) < far)
+      return std::nullopt;
+    const bool falls = there->result.stability == 0 && right.result.stability == 1;
+    return falls || !there->result.converged() ? std::nullopt : there;
+  }
+
  private:
   /// What the tangent at one pose says about the way to the value of another [mm].
   double foretold_motion(const SolvedPose& at, const SolvedPose& to) {
@@ -263,35 +278,44 @@ class EventSearch {
 
 }  // namespace
 
-void locate_events(Walker& walker,
-                   const SolvedPose& left,
-                   const SolvedPose& right,
-                   std::vector<Event>& events,
-                   const EventOptions& options) {
+std::optional<SolvedPose> locate_events(Walker& walker,
+                                        const SolvedPose& left,
+                                        const SolvedPose& right,
+                                        std::vector<Event>& events,
+                                        const EventOptions& options) {
   EventSearch search(walker, options);
   const double L = walker.model().length, straight = kStraight * std::abs(right.value - left.value);
   SolvedPose from = left;
   for (int k = 0; k < options.most_events && !same_contacts(from.result, right.result); ++k) {
     SolvedPose before = from, after = right;
-    if (!search.bisect_change(before, after)) return;
-    if (body_motion(before, after, L) >= options.jump * L) append_limit(before, after, events);
+    if (!search.bisect_change(before, after)) return std::nullopt;
+    if (body_motion(before, after, L) >= options.jump * L) {
+      if (auto there = search.arrival(before, after, right)) return there;
+      append_limit(before, after, events);
+    }
     append_changes(before, after, search.exact_value(before, after, straight), events);
     from = after;
   }
   if (same_contacts(left.result, right.result) && search.moved_unexpectedly(left, right)) {
     SolvedPose before = left, after = right;
     // Contacts that jump with the body are not told of again.
-    if (search.bisect_snap(before, after)) return append_limit(before, after, events);
+    if (search.bisect_snap(before, after)) {
+      if (auto there = search.arrival(before, after, right)) return there;
+      append_limit(before, after, events);
+      return std::nullopt;
+    }
   }
   for (std::size_t c = 0; c < left.result.contacts.size(); ++c) {
     if (!same_contacts(left.result, right.result) ||
         motion(left.result, right.result, c) < options.far * L)
       continue;
     SolvedPose before = left, after = right;
-    if (search.bisect_jump(before, after, c, options.jump * L))
-      events.push_back(
-          {search.exact_value(before, after, straight), EventKind::kJump, static_cast<int>(c)});
+    if (!search.bisect_jump(before, after, c, options.jump * L)) continue;
+    if (auto there = search.arrival(before, after, right)) return there;
+    events.push_back(
+        {search.exact_value(before, after, straight), EventKind::kJump, static_cast<int>(c)});
   }
+  return std::nullopt;
 }
 
 }  // namespace condyle

@@ -11,6 +11,7 @@
 /// jump. The body itself is followed likewise where it moved much farther than its path's tangent
 /// foretold: where it jumps, its branch of equilibria ends in a limit point (snap-through).
 
+#include <optional>
 #include <vector>
 
 #include "condyle/equilibrium/walker.h"
@@ -32,10 +33,14 @@ struct EventOptions {
 };
 
 /// Appends the events between two poses of one sweep. The walker does not stay where it stood.
-void locate_events(Walker& walker,
-                   const SolvedPose& left,
-                   const SolvedPose& right,
-                   std::vector<Event>& events,
-                   const EventOptions& options = {});
+///
+/// Where the way from `left` goes on to the very value of `right` and does not end there, `right` is on another
+/// branch: Newton's steps may lead from one to another where they are long. Then the pose in which the way from
+/// `left` arrives is given back, unless that one is unstable and `right` is stable, and no event is told.
+[[nodiscard]] std::optional<SolvedPose> locate_events(Walker& walker,
+                                                      const SolvedPose& left,
+                                                      const SolvedPose& right,
+                                                      std::vector<Event>& events,
+                                                      const EventOptions& options = {});
 
 }  // namespace condyle

@@ -159,10 +159,24 @@ void SweepWalk::find_events(Stop& stop) {
     return;
   }
   const auto begin = std::chrono::steady_clock::now();
-  locate_events(walker_, last.at, stop.at, stop.events);
+  std::optional<SolvedPose> there = locate_events(walker_, last.at, stop.at, stop.events);
+  if (there && last.converged() && stop.taken == nullptr) {
+    put_in_place(std::move(*there), stop);
+    stop.events.clear();
+    (void)locate_events(walker_, last.at, stop.at, stop.events);
+  }
   stand_at_last_converged();
   stop.at.result.event_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// The pose on the branch of those before it; what the other one took is counted.
+void SweepWalk::put_in_place(SolvedPose there, Stop& stop) {
+  there.result.seconds += stop.at.result.seconds;
+  there.result.iterations += stop.at.result.iterations;
+  there.result.trace.add_effort(stop.at.result.trace);
+  stop.at = std::move(there);
+  stop.from_elsewhere = false;
 }
 
 void SweepWalk::stand_at_last_converged() {

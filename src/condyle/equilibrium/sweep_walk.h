@@ -43,6 +43,7 @@ class SweepWalk {
   bool mend(Stop& stop, const Stop& from, std::optional<PoseOrigin> origin = {});
   void tell();
   void find_events(Stop& stop);
+  static void put_in_place(SolvedPose there, Stop& stop);
   void note_jump(Stop& stop);
   void stand_at_last_converged();
   void note_second_equilibria();

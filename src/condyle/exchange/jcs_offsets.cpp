@@ -61,12 +61,14 @@ std::vector<double> six_numbers(const Entry& entry, const std::filesystem::path&
   std::istringstream words(entry.value);
   std::vector<double> numbers;
   std::string word;
-  for (words >> word; words >> word;) numbers.push_back(csv_number(word));
-  bool six = numbers.size() == 6;
+  words >> word;
+  bool six = csv_number(word) == 6;
+  while (words >> word) numbers.push_back(csv_number(word));
+  six = six && numbers.size() == 6;
   for (const double number : numbers) six = six && std::isfinite(number);
   if (!six)
     throw InputError(
-        fmt::format("{}:{}: Position Offset (m,rad) = {}, expected a count and six "
+        fmt::format("{}:{}: Position Offset (m,rad) = {}, expected 6, their count, and six "
                     "numbers",
                     file.string(), entry.line, entry.value));
   return numbers;
@@ -100,6 +102,7 @@ std::array<double, 6> offsets_of_table(const std::filesystem::path& file) {
     throw InputError(
         fmt::format("{}: {} rows, expected one of offsets", file.string(), csv.rows.size()));
   std::array<double, 6> offsets{};
+  std::array<bool, 6> told{};
   for (std::size_t i = 0; i < csv.header.fields.size(); ++i) {
     const std::string& heading = csv.header.fields[i];
     if (heading.empty() && i == 0) continue;  // numbers of rows
@@ -109,6 +112,10 @@ std::array<double, 6> offsets_of_table(const std::filesystem::path& file) {
           fmt::format("{}:{}: unknown column \"{}\", expected \"Knee JCS Medial [mm]\" "
                       "or another motion",
                       file.string(), csv.header.line, heading));
+    if (told[motion->coordinate])
+      throw InputError(fmt::format("{}:{}: two columns of the motion of \"{}\", expected one",
+                                   file.string(), csv.header.line, heading));
+    told[motion->coordinate] = true;
     const double number = csv_number(csv.rows[0].fields[i]);
     if (std::isnan(number))
       throw InputError(fmt::format("{}:{}: {} = {}, expected a finite number", file.string(),

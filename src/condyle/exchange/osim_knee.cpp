@@ -189,13 +189,16 @@ class KneeFinder {
   }
 
   void find_anatomy() {
-    const std::optional<Side> named = side_of(joint_->name);
+    std::optional<Side> named = side_of(joint_->name);
+    if (!named) named = side_of(knee_.femur.name);
+    if (options_.side && named && *named != *options_.side)
+      knee_.notes.push_back(
+          fmt::format("warning: by the names of its joint and bones a {} knee, by --side the other",
+                      *named == Side::kRight ? "right" : "left"));
     if (options_.side)
       knee_.side = *options_.side;
     else if (named)
       knee_.side = *named;
-    else if (const auto body = side_of(knee_.femur.name))
-      knee_.side = *body;
     else
       fail(
           fmt::format("joint {}: its name does not end in _r or _l, expected --side", knee_.joint));

@@ -112,9 +112,10 @@ CleanMesh clean_mesh(TriangleMesh mesh, const CleaningOptions& options) {
   CleanMesh result;
   CleaningReport& report = result.report;
   Eigen::AlignedBox3d box;
-  for (const Vector3d& p : mesh.vertices) box.extend(p);
+  for (const auto& triangle : mesh.triangles)
+    for (const int v : triangle) box.extend(mesh.vertices[v]);
   const double tolerance =
-      mesh.vertices.empty() ? 0 : options.merge_tolerance * box.diagonal().norm();
+      mesh.triangles.empty() ? 0 : options.merge_tolerance * box.diagonal().norm();
 
   report.merged_vertices = merge_vertices(mesh, tolerance);
   report.degenerate_triangles = drop_degenerate(mesh, tolerance);

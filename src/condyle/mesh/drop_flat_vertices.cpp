@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <tuple>
 #include <utility>
 
 namespace condyle {
@@ -41,12 +44,12 @@ class Collapsible {
       for (const int v : mesh_.triangles[t]) around_[v].push_back(static_cast<int>(t));
   }
 
-  /// Until none is left that can go.
+  /// Until none is left that can go, those first that are pulled least far: which these are does not
+  /// depend on how a file numbers vertices and triangles.
   void run() {
     for (bool any = true; any;) {
       any = false;
-      for (std::size_t v = 0; v < around_.size(); ++v)
-        if (!around_[v].empty() && drop(static_cast<int>(v))) any = true;
+      for (const auto& [ignored, neither, v] : candidates()) any = drop(v) || any;
     }
   }
 
@@ -79,19 +82,49 @@ class Collapsible {
       }
   }
 
-  bool drop(int v) {
+  /// Distances in steps of a nanometre: of equal ones rounding shall not decide.
+  [[nodiscard]] std::int64_t distance(int v, int onto) const {
+    return std::llround((mesh_.vertices[v] - mesh_.vertices[onto]).norm() * 1e6);
+  }
+
+  /// The nearest neighbour onto which v can be pulled; kGone where there is none.
+  [[nodiscard]] int target_of(int v) {
     find_neighbours(v, neighbours_);
     const auto edges = std::count_if(neighbours_.begin(), neighbours_.end(),
                                      [](const auto& one) { return one.second != 2; });
     // A closed fan, or one with two ends on the boundary of the mesh.
-    if (edges != 0 && edges != 2) return false;
+    if (edges != 0 && edges != 2) return kGone;
+    std::pair<std::int64_t, int> nearest{std::numeric_limits<std::int64_t>::max(), kGone};
     for (const auto& [onto, shared] : neighbours_) {
+      const std::pair<std::int64_t, int> here{distance(v, onto), onto};
+      if (!(here < nearest)) continue;
       if (edges == 2 && (shared != 1 || !on_straight_boundary(v))) continue;
-      if (!keeps_shape(v, onto) || !keeps_links(onto, shared)) continue;
-      pull(v, onto);
-      return true;
+      if (keeps_shape(v, onto) && keeps_links(onto, shared)) nearest = here;
     }
-    return false;
+    return nearest.second;
+  }
+
+  /// Vertices that can go, by how far they would be pulled, and of two that would be pulled onto each other first the
+  /// one whose neighbours are nearer.
+  [[nodiscard]] std::vector<std::tuple<std::int64_t, std::int64_t, int>> candidates() {
+    std::vector<std::tuple<std::int64_t, std::int64_t, int>> found;
+    for (int v = 0; v < static_cast<int>(around_.size()); ++v) {
+      if (around_[v].empty()) continue;
+      const int onto = target_of(v);
+      if (onto == kGone) continue;
+      std::int64_t about = 0;
+      for (const auto& [neighbour, ignored] : neighbours_) about += distance(v, neighbour);
+      found.emplace_back(distance(v, onto), about, v);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+  bool drop(int v) {
+    const int onto = around_[v].empty() ? kGone : target_of(v);
+    if (onto == kGone) return false;
+    pull(v, onto);
+    return true;
   }
 
   [[nodiscard]] bool on_straight_boundary(int v) const {

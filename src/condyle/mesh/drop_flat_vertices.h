@@ -14,7 +14,7 @@ struct FlatVertexOptions {
   double longest_edge = 3;  ///< that may come about [mm]
 };
 
-/// Pulls such vertices, one by one, onto a neighbour; the rest keep their places and order.
+/// Pulls such vertices, one by one, onto the nearest neighbour that will do; the rest keep their places and order.
 [[nodiscard]] TriangleMesh drop_flat_vertices(TriangleMesh mesh,
                                               const FlatVertexOptions& options = {});
 

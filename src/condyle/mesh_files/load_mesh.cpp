@@ -64,7 +64,8 @@ void check_numbers(const std::filesystem::path& file, const TriangleMesh& mesh) 
 
 void check_size(const std::filesystem::path& file, const TriangleMesh& mesh, double to_mm) {
   Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& vertex : mesh.vertices) box.extend(vertex);
+  for (const auto& triangle : mesh.triangles)  // a vertex of none is no part of the bone
+    for (const int v : triangle) box.extend(mesh.vertices[v]);
   const double extent = box.sizes().maxCoeff();
   if (extent <= kLargest && extent >= kSmallest) return;
   throw InputError(fmt::format("{}: a knee of {}? expected a mesh of {} to {} mm{}", file.string(),

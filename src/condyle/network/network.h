@@ -49,7 +49,7 @@ struct LineComponent {
   std::shared_ptr<const LinePath> path = nullptr;
 };
 
-/// Through driver: a load on a body, times a function of time (absent: 1).
+/// Through driver: a load on a body; `scale`, where there is one, is its scale over time in place of load.scale.
 struct ForceDriver {
   std::string name;
   int body = 0;

@@ -108,9 +108,9 @@ bool NetworkEquations::add_lines(double t) {
 void NetworkEquations::add_forces(const NetworkState& state) {
   for (std::size_t i = 0; i < network_.forces.size(); ++i) {
     const ForceDriver& driver = network_.forces[i];
-    const double scale = driver.scale ? driver.scale(state.t) : 1;
+    const double scale = driver.scale ? driver.scale(state.t) : driver.load.scale;
     Wrench wrench;
-    add_load(driver.load, scale * driver.load.scale, state.bodies[driver.body].X, wrench);
+    add_load(driver.load, scale, state.bodies[driver.body].X, wrench);
     through_.col(graph_.force_edge[i]) << -wrench.f, -wrench.m;
   }
 }

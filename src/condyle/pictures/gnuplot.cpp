@@ -149,9 +149,19 @@ std::string run_legend(const Chart& chart, const Panel& panel, bool with_runs) {
   return commands;
 }
 
+/// Whether anything of the panel lies there: an axis without points is none.
+bool reaches_above(const Panel& panel, double floor) {
+  const auto above = [floor](double y) { return y > floor; };
+  return std::any_of(panel.curves.begin(), panel.curves.end(), [&](const Curve& curve) {
+    return std::any_of(curve.y.begin(), curve.y.end(), above) ||
+           std::any_of(curve.hollow_y.begin(), curve.hollow_y.end(), above);
+  });
+}
+
 std::string y_range(const Panel& panel) {
   if (panel.from_zero) return "[0:*]";
-  return panel.floor ? fmt::format("[{:g}<*:*]", *panel.floor) : "[*:*]";
+  const bool bounded = panel.floor && reaches_above(panel, *panel.floor);
+  return bounded ? fmt::format("[{:g}<*:*]", *panel.floor) : "[*:*]";
 }
 
 std::string panel_script(const Chart& chart, std::size_t index, int height) {

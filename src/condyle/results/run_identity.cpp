@@ -51,6 +51,7 @@ bool close(const std::vector<double>& a, const std::vector<double>& b) {
 
 bool close(const PatchData& a, const PatchData& b) {
   return a.degree == b.degree && a.nu == b.nu && a.nv == b.nv && a.orientation == b.orientation &&
+         a.mask_nu == b.mask_nu && a.mask_nv == b.mask_nv && close(a.mask, b.mask) &&
          close(a.knots_u, b.knots_u) && close(a.knots_v, b.knots_v) &&
          std::equal(a.control_points.begin(), a.control_points.end(), b.control_points.begin(),
                     b.control_points.end(), [](const auto& p, const auto& q) {

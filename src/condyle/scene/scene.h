@@ -24,6 +24,7 @@
 #include "condyle/scene/bone_fit.h"
 #include "condyle/scene/calibration_description.h"
 #include "condyle/scene/parameter_kind.h"
+#include "condyle/scene/sweep_range.h"
 #include "condyle/surface/exact_surfaces.h"
 #include "condyle/wrapping/wrap_shape.h"
 
@@ -188,8 +189,9 @@ struct SweepDescription {
       false;         ///< `vary = "NAME.scale"`: the factor on a load; else a condition's value
   int index = -1;    ///< of the condition or the load
   std::string vary;  ///< as written
-  std::vector<double> values;  ///< [rad], [mm] or [-], in the order to be visited
-  bool arc_length = false;     ///< follow the path of equilibria through its limit points
+  std::vector<double> values;              ///< [rad], [mm] or [-], in the order to be visited
+  std::optional<WrittenRange> range = {};  ///< that they come from; none where the scene lists them
+  bool arc_length = false;  ///< follow the path of equilibria through its limit points
   std::vector<SceneNumber> sensitivities =
       {};  ///< by which the results hold derivatives of each pose
 };

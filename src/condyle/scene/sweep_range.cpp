@@ -20,7 +20,8 @@ double in_unit(double inside, const Unit& unit) {
   return std::abs(shorter - exact) <= kTwoConversions * std::abs(exact) ? shorter : exact;
 }
 
-std::vector<double> range_values(double from, double to, double step) {
+std::vector<double> range_values(const WrittenRange& range) {
+  const auto [from, to, step] = range;
   constexpr double kMost = 1e6, kRounding = 1e-9, kApart = 1e-10;
   if (!is_usable(from) || !is_usable(to) || !is_usable(step)) {
     throw InputError(fmt::format("from = {}, to = {}, step = {}, expected numbers below {:g}", from,

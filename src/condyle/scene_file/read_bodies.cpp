@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <Eigen/LU>
 
 #include "condyle/math/decompositions.h"
 #include "condyle/math/rotation.h"
+#include "condyle/scene/usable_number.h"
 #include "condyle/scene_file/read_sections.h"
 
 namespace condyle {
@@ -19,10 +21,11 @@ Eigen::Matrix3d read_inertia(const Section& section, const Scene& scene) {
   Eigen::Matrix3d inertia;
   for (int i = 0; i < 3; ++i) inertia.row(i) = rows[static_cast<std::size_t>(i)].transpose();
   const double size = inertia.cwiseAbs().maxCoeff();
-  if (!inertia.isApprox(inertia.transpose(), 1e-9) ||
-      symmetric_eigenvalues(inertia).values[0] <= 1e-12 * size) {
+  const Eigen::Vector3d principal = symmetric_eigenvalues(inertia).values;
+  if (!inertia.isApprox(inertia.transpose(), 1e-9) || principal[0] <= 1e-12 * size)
     section.fail("inertia", "a symmetric positive definite matrix");
-  }
+  if (principal[2] > (1 + 1e-6) * (principal[0] + principal[1]))
+    section.fail("inertia", "no principal moment above the sum of the two others: no body has one");
   return kKilogram * scene.length_to_mm * scene.length_to_mm * inertia;
 }
 
@@ -49,10 +52,13 @@ void read_start(const Section& start, const Scene& scene, BodyDescription& body)
     body.start_rotation = scene.angle_to_rad * start.vector("rotation", "a rotation vector");
   }
   if (angles) {
-    body.start_joint_angles = {
-        scene.angle_to_rad * start.number_or("flexion", 0, "an angle"),
-        scene.angle_to_rad * start.number_or("adduction", 0, "an angle"),
-        scene.angle_to_rad * start.number_or("internal_rotation", 0, "an angle")};
+    const auto angle = [&](const char* key) {
+      const double value = scene.angle_to_rad * start.number_or(key, 0, "an angle");
+      if (!is_usable_angle(value))
+        start.fail(key, "an angle of at most one turn (suspect [units] angle)");
+      return value;
+    };
+    body.start_joint_angles = {angle("flexion"), angle("adduction"), angle("internal_rotation")};
   }
   start.finish();
 }

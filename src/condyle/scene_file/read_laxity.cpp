@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "condyle/scene/usable_number.h"
 #include "condyle/scene_file/read_sections.h"
 
 namespace condyle {
@@ -19,6 +20,8 @@ void read_laxity(const Section& root, Scene& scene) {
   LaxityDescription laxity;
   laxity.flexions = section.numbers("flexion", "angles [f1, f2, ...]");
   for (double& flexion : laxity.flexions) flexion *= scene.angle_to_rad;
+  if (!std::all_of(laxity.flexions.begin(), laxity.flexions.end(), is_usable_angle))
+    section.fail("flexion", "angles of at most one turn (suspect [units] angle)");
   laxity.condition = flexion_condition(scene);
   if (laxity.condition < 0)
     section.fail("flexion", "a [[condition]] of kind \"flexion\" that holds it");

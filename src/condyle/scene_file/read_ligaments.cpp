@@ -121,6 +121,13 @@ void check_sizes(const Section& section,
     section.fail_with(fmt::format("the ends lie {:.6g} mm apart at the start pose{}", start_length,
                                   suspicion(scene, start_length)));
   }
+  if (const auto* table = std::get_if<TableLaw>(&ligament.law)) {
+    const double shortest = table->lengths.front(), longest = table->lengths.back();
+    if (start_length > kMostStretch * longest || shortest > kMostStretch * start_length)
+      section.fail("lengths",
+                   fmt::format("lengths like that at the start pose, {:.6g} (suspect the units)",
+                               start_length / scene.length_to_mm));
+  }
   const double slack = slack_length(ligament.law);
   const std::string key = section.has("slack_length") ? "slack_length" : "reference_length";
   const bool given = section.has("slack_length") || section.has("reference_length");

@@ -6,6 +6,7 @@
 #include "condyle/input_error.h"
 #include "condyle/scene/start_pose.h"
 #include "condyle/scene/swept_quantity.h"
+#include "condyle/scene/usable_number.h"
 #include "condyle/scene_file/read_scene_numbers.h"
 #include "condyle/scene_file/read_sections.h"
 
@@ -44,6 +45,8 @@ ConditionDescription read_condition(const Section& section, const Scene& scene) 
   condition.value =
       unit * section.number("value", is_angle(condition.kind) ? "an angle" : "a length",
                             distance ? Range::kPositive : Range::kAny);
+  if (is_angle(condition.kind) && !is_usable_angle(condition.value))
+    section.fail("value", "an angle of at most one turn (suspect [units] angle)");
   if (condition.kind == ConditionKind::kTranslation) {
     condition.axis = read_translation_axis(section);
   } else if (condition.kind == ConditionKind::kRotation) {
@@ -86,22 +89,28 @@ void read_varied(const Section& section, const Scene& scene, SweepDescription& s
   const int index =
       section.reference("vary", "the name of a condition, or NAME.scale of a load", names);
   sweep.vary = names[static_cast<std::size_t>(index)];
+  if (std::count(names.begin(), names.end(), sweep.vary) > 1)
+    section.fail("vary", "another name: a condition and the scale of a load are both called that");
   sweep.varies_load = index >= conditions;
   sweep.index = sweep.varies_load ? index - conditions : index;
 }
 
-std::vector<double> read_values(const Section& section) {
+void read_values(const Section& section, SweepDescription& sweep) {
   if (section.has("values")) {
     for (const char* key : {"from", "to", "step"}) {
       if (section.has(key)) section.fail(key, "either values or from, to and step, not both");
     }
-    return section.numbers("values", "values [v1, v2, ...]");
+    sweep.values = section.numbers("values", "values [v1, v2, ...]");
+    return;
   }
-  const double from = section.number("from", "a number (or values in place of from, to and step)");
-  const double to = section.number("to", "a number");
-  const double step = from == to && !section.has("step") ? 1 : section.number("step", "a number");
+  WrittenRange range;
+  range.from = section.number("from", "a number (or values in place of from, to and step)");
+  range.to = section.number("to", "a number");
+  if (range.from != range.to || section.has("step"))
+    range.step = section.number("step", "a number");
+  sweep.range = range;
   try {
-    return range_values(from, to, step);
+    sweep.values = range_values(range);
   } catch (const InputError& error) {
     section.fail_with(error.what());
   }
@@ -127,7 +136,7 @@ void read_sweep(const Section& root, Scene& scene) {
   static const Choices<bool> paths = {{"steps", false}, {"arc length", true}};
   read_varied(section, scene, sweep);
   if (section.has("path")) sweep.arc_length = section.choice("path", paths);
-  sweep.values = read_values(section);
+  read_values(section, sweep);
   if (sweep.arc_length && sweep.values.size() < 2)
     section.fail("path",
                  "\"steps\": a path that is followed by its arc length needs two values or more");
@@ -137,6 +146,12 @@ void read_sweep(const Section& root, Scene& scene) {
   scene.sweep = sweep;
   const double factor = quantity_of_sweep(scene).declared.factor;
   for (double& value : scene.sweep->values) value *= factor;
+  const bool turns =
+      !sweep.varies_load && is_angle(scene.conditions[static_cast<std::size_t>(sweep.index)].kind);
+  if (turns &&
+      !std::all_of(scene.sweep->values.begin(), scene.sweep->values.end(), is_usable_angle))
+    section.fail(sweep.range ? "to" : "values",
+                 "angles of at most one turn (suspect [units] angle)");
   const bool length_needed =
       !sweep.varies_load &&
       scene.conditions[static_cast<std::size_t>(sweep.index)].kind == ConditionKind::kDistance;

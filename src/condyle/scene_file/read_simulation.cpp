@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "condyle/scene/usable_number.h"
 #include "condyle/scene_file/read_sections.h"
 
 namespace condyle {
@@ -64,6 +65,8 @@ void read_start(const Section& section, const Scene& scene, SimulationDescriptio
   if (section.has("flexion")) {
     if (!scene.joint) section.fail("flexion", "a table [joint] that says what flexion is");
     simulation.flexion = scene.angle_to_rad * section.number("flexion", "an angle");
+    if (!is_usable_angle(*simulation.flexion))
+      section.fail("flexion", "an angle of at most one turn (suspect [units] angle)");
   }
   if (section.has("flexion_velocity")) {
     if (!simulation.flexion) section.fail("flexion_velocity", "flexion beside it");
@@ -89,10 +92,18 @@ void read_simulation(const Section& root, Scene& scene) {
   simulation.restitution = section.number_or("restitution", 0, "a number from 0 to 1");
   if (simulation.restitution < 0 || simulation.restitution > 1)
     section.fail("restitution", "a number from 0 to 1");
+  constexpr double kCoarsest = 1e-3;
   simulation.tolerance = section.number_or("tolerance", 1e-9, "a tolerance", Range::kPositive);
+  if (simulation.tolerance > kCoarsest) section.fail("tolerance", "a tolerance of at most 1e-3");
   simulation.viscous_time =
       section.number_or("viscous_time", 0, "a time in s", Range::kNotNegative);
   if (section.has("hold")) read_held(section, scene, simulation);
+  const auto is_flexion = [&](int i) {
+    return scene.conditions[static_cast<std::size_t>(i)].kind == ConditionKind::kFlexion;
+  };
+  if (simulation.flexion_velocity != 0 &&
+      std::any_of(simulation.hold.begin(), simulation.hold.end(), is_flexion))
+    section.fail("flexion_velocity", "none, or a flexion that hold does not keep");
   if (section.has("drive"))
     for (const Section& drive : section.tables("drive", "drives [{ load = \"...\", shape = ... }]"))
       simulation.drives.push_back(read_drive(drive, scene));

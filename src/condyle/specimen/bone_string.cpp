@@ -65,10 +65,12 @@ void solve_with_planes(const Points& x, Planes& planes, Points& dx) {
 
 /// The planes leave out that the surface bends: λ κ, with λ the pressure on a plane, of the stiffness
 /// of a node. Where the surface is hollow across the string, steps would be too long and never end;
-/// with a bound of κ they shrink.
+/// with a bound of κ they shrink. The bound grows until it is one on the roughest bone.
 void hold_nodes(int iteration, const Points& dx, Planes& planes) {
-  constexpr int kFree = 12, kLong = 120;                                      // iterations
-  const double bend = iteration < kFree ? 0 : iteration < kLong ? 0.3 : 1.0;  // [1/mm]
+  constexpr int kFree = 12, kUsual = 100;  // iterations
+  constexpr double kUsualBend = 0.3;       // [1/mm]
+  const double grown = std::pow(std::max(1.0, iteration / double{kUsual}), 1.5);
+  const double bend = iteration < kFree ? 0 : kUsualBend * grown;
   for (std::size_t k = 0; k < dx.size(); ++k) {
     const double over = planes.at[k].height + planes.at[k].normal.dot(dx[k]);
     planes.hold[k] = planes.active[k] ? bend * kStiff * std::max(0.0, -over) : 0;
@@ -83,8 +85,8 @@ double length_of(const Points& x) {
 
 /// Whether the last lengths differ by less.
 bool settled(const std::vector<double>& lengths, double tolerance) {
-  constexpr std::size_t kLast = 10, kLeast = 40;
-  if (lengths.size() < kLeast) return false;
+  constexpr std::size_t kLast = 10;
+  if (lengths.size() < kLast) return false;
   const auto [low, high] = std::minmax_element(lengths.end() - kLast, lengths.end());
   return *high - *low < tolerance;
 }
@@ -165,8 +167,9 @@ BonePath relaxed_string(const HeightOver& solid, Points nodes, const StringOptio
     const double part = std::min(1.0, options.longest_step / std::max(longest, 1e-300));
     for (std::size_t k = 0; k < inner; ++k) nodes[k + 1] += part * dx[k];
     lengths.push_back(length_of(nodes));
-    path.found = longest < options.tolerance || settled(lengths, options.settled);
+    path.found = longest < options.tolerance;
   }
+  path.found = path.found || settled(lengths, options.settled);
   for (std::size_t k = 0; k < inner; ++k)
     if (planes.active[k]) path.touches.push_back({nodes[k + 1], planes.at[k].normal});
   path.length = lengths.empty() ? path.straight : lengths.back();

@@ -16,9 +16,9 @@ using HeightOver = std::function<SurfaceHeight(const Eigen::Vector3d&)>;
 
 struct StringOptions {
   int pieces = 80;
-  int iterations = 300;     ///< at most
-  double tolerance = 1e-4;  ///< of a step of any node [mm]
-  double settled = 5e-3;    ///< or of the length over the last 10 iterations [mm]: rough surfaces
+  int iterations = 3000;    ///< at most
+  double tolerance = 1e-9;  ///< of a step of any node [mm]
+  double settled = 5e-3;    ///< else of the length over the last 10 iterations [mm]
   double longest_step = 1;  ///< of a node [mm]
 };
 

@@ -78,11 +78,13 @@ EllipsoidFit fit_ellipsoid(const std::vector<Vector3d>& points,
                            double radius) {
   // Levenberg-Marquardt, scaled by the diagonal.
   constexpr int kIterations = 500;
-  constexpr double kSmallest = 1e-8, kStiffest = 1e12, kLongest = 0.5;
+  constexpr double kSmallest = 1e-9, kStiffest = 1e12, kLongest = 0.5, kRounding = 1e-12,
+                   kSettled = 1e-8;
   EllipsoidFit fit;
   Ellipsoid e{start, Vector3d::Constant(radius)};
   Distances now = measured(points, e);
   double damping = 1e-2;
+  bool settled = false;
   for (int i = 0; i < kIterations && !fit.found; ++i) {
     Matrix9d A = now.JJ;
     A.diagonal() += damping * (now.JJ.diagonal().array() + 1e-9).matrix();
@@ -90,8 +92,9 @@ EllipsoidFit fit_ellipsoid(const std::vector<Vector3d>& points,
     const bool small = step.tail<6>().cwiseAbs().maxCoeff() < kLongest;
     const Ellipsoid next = small ? changed(e, step) : e;
     const Distances there = small ? measured(points, next) : now;
-    if (small && there.cost <= now.cost) {
-      fit.found = now.cost - there.cost <= kSmallest * now.cost;
+    if (small && there.cost <= now.cost * (1 + kRounding)) {
+      settled = now.cost - there.cost <= kSettled * now.cost;
+      fit.found = step.cwiseAbs().maxCoeff() < kSmallest;  // [mm], [rad], of the axes' logarithms
       e = next, now = there;
       damping = std::max(damping / 5, 1e-12);
     } else {
@@ -99,6 +102,7 @@ EllipsoidFit fit_ellipsoid(const std::vector<Vector3d>& points,
       fit.found = damping > kStiffest;  // nothing lower near by
     }
   }
+  fit.found = fit.found || settled;
   fit.placement = e.placement;
   fit.semi_axes = e.semi_axes;
   fit.rms = std::sqrt(now.squares / static_cast<double>(points.size()));

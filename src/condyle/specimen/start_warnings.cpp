@@ -19,7 +19,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSpacing = 2;  // of the points where gaps are looked for [mm]
+constexpr double kSpacing = 2;              // of the points where gaps are looked for [mm]
+constexpr double kLargestTransition = 0.3;  // of a toe region [-]
 
 bool is_bounded(const Surface& surface) { return std::isfinite(surface.extent().radius); }
 
@@ -86,18 +87,39 @@ void warn_of_insertions(const Scene& scene,
   }
 }
 
-void warn_of_strains(const Scene& scene, double limit, std::vector<std::string>& lines) {
+/// What is odd about the law of a ligament of that length; nothing where all is as usual. A reference strain is
+/// what somebody wrote: a slack one may be as slack as it likes.
+std::string odd_law(const LigamentDescription& ligament, double length, double limit) {
+  if (const auto* table = std::get_if<TableLaw>(&ligament.law)) {
+    const double first = table->lengths.front(), last = table->lengths.back();
+    return length >= first && length <= last
+               ? ""
+               : fmt::format(
+                     "its {:.2f} mm at the start pose lie outside its table of {:.2f} to {:.2f} mm",
+                     length, first, last);
+  }
+  const double slack = slack_length(ligament.law);
+  if (!(slack > 0)) return "";
+  const double strain = length / slack - 1;
+  if (ligament.reference_strain && strain > limit)
+    return fmt::format("its reference strain is {:+.0f} %", 100 * strain);
+  if (!ligament.reference_strain && std::abs(strain) > limit)
+    return fmt::format(
+        "its slack length of {:.2f} mm means a strain of {:+.0f} % at the start pose", slack,
+        100 * strain);
+  const auto* toe = std::get_if<ToeLinearLaw>(&ligament.law);
+  return toe != nullptr && toe->transition_strain > kLargestTransition
+             ? fmt::format("its transition strain is {:.0f} %", 100 * toe->transition_strain)
+             : "";
+}
+
+void warn_of_laws(const Scene& scene, double limit, std::vector<std::string>& lines) {
   if (scene.moving_body() < 0) return;
   const RigidTransform X_BA = start_pose(scene);
   for (const LigamentDescription& ligament : scene.ligaments) {
-    const double slack = slack_length(ligament.law);
-    if (!(slack > 0) || ligament.reference_strain) continue;
-    const double strain = ligament_length(scene, ligament, X_BA) / slack - 1;
-    if (std::abs(strain) > limit)
-      lines.push_back(
-          fmt::format("warning: ligament \"{}\": its slack length of {:.2f} mm means a strain of "
-                      "{:+.0f} % at the start pose",
-                      ligament.name, slack, 100 * strain));
+    const std::string odd = odd_law(ligament, ligament_length(scene, ligament, X_BA), limit);
+    if (!odd.empty())
+      lines.push_back(fmt::format("warning: ligament \"{}\": {}", ligament.name, odd));
   }
 }
 
@@ -127,14 +149,14 @@ double size_of(const SurfaceDescription& surface) {
 }  // namespace
 
 std::vector<std::string> size_warnings(const Scene& scene) {
-  constexpr double kLargest = 2000;  // as of ligaments [mm]
+  constexpr double kLargest = 2000, kSmallest = 0.5;  // as of ligaments [mm]
   std::vector<std::string> lines;
   for (const SurfaceDescription& surface : scene.surfaces)
-    if (const double size = size_of(surface); size > kLargest)
+    if (const double size = size_of(surface); size > kLargest || (size > 0 && size < kSmallest))
       lines.push_back(
-          fmt::format("warning: surface \"{}\": {:.6g} mm across, expected at most {:g} mm "
+          fmt::format("warning: surface \"{}\": {:.6g} mm across, expected {:g} to {:g} mm "
                       "(suspect the units)",
-                      surface.name, size, kLargest));
+                      surface.name, size, kSmallest, kLargest));
   return lines;
 }
 
@@ -169,7 +191,7 @@ std::vector<std::string> start_warnings(const Scene& scene,
   std::vector<std::string> lines = size_warnings(scene);
   warn_of_gaps(scene, surfaces, limits.gap, lines);
   warn_of_insertions(scene, bones, limits.insertion, lines);
-  warn_of_strains(scene, limits.strain, lines);
+  warn_of_laws(scene, limits.strain, lines);
   for (std::string& line : wrap_warnings(scene, bones, limits.inside))
     lines.push_back(std::move(line));
   return lines;

@@ -111,7 +111,8 @@ void set_points(const StudyDescription& study, StudyPlan& plan) {
                       study.file.string(), study.table.string()));
     std::vector<std::string> names;
     for (const StudyParameter& parameter : plan.parameters) names.push_back(parameter.name);
-    plan.table = read_study_table(study, names, plan.knees.front().parameters);
+    const StudyKnee& first = plan.knees.front();
+    plan.table = read_study_table(study, names, first.parameters, first.scene.length_to_mm);
     plan.points = plan.table.size();
     return;
   }

@@ -24,20 +24,32 @@ std::size_t column_of(const std::string& name, const CsvFile& csv) {
   return static_cast<std::size_t>(found - names.begin());
 }
 
-/// θ of a number that a table holds itself; NaN where there is none.
-double theta_of(double number, const FreeParameter& parameter) {
-  if (!parameter.logarithmic) return number - parameter.start;
-  const double nominal = parameter.start > 0 ? parameter.start : 1;  // 0: a factor on several
-  return number > 0 ? std::log(number / nominal) : std::nan("");
+/// θ of a number that a table holds itself, in the scene's units; NaN where there is none.
+double theta_of(double number, const FreeParameter& parameter, double length_to_mm) {
+  const double inside = parameter.units == "mm" ? length_to_mm * number : number;
+  if (!parameter.logarithmic) return inside - parameter.start;
+  return inside > 0 ? std::log(inside / parameter.start) : std::nan("");
+}
+
+/// What several numbers have in common is a change and no value, but for loads, whose factors are 1 in the scene.
+void expect_own_values(const CsvFile& csv, const std::vector<FreeParameter>& numbers) {
+  for (const FreeParameter& number : numbers)
+    if (number.together && number.moves.front().first.kind != ParameterKind::kLoadScale)
+      throw InputError(fmt::format(
+          "{}:{}: {}, a change that several numbers have in common, expected a table of "
+          "\"changes\", or together = false",
+          csv.file.string(), csv.header.line, number.name));
 }
 
 }  // namespace
 
 std::vector<std::vector<double>> read_study_table(const StudyDescription& study,
                                                   const std::vector<std::string>& names,
-                                                  const std::vector<FreeParameter>& numbers) {
+                                                  const std::vector<FreeParameter>& numbers,
+                                                  double length_to_mm) {
   const CsvFile csv = read_csv(study.table, "a table of points (CSV)");
   const std::string file = study.table.string();
+  if (study.table_holds_values) expect_own_values(csv, numbers);
   std::vector<std::size_t> columns;
   for (const std::string& name : names) columns.push_back(column_of(name, csv));
   std::vector<std::vector<double>> points;
@@ -48,7 +60,7 @@ std::vector<std::vector<double>> read_study_table(const StudyDescription& study,
       const std::string& field = row.fields[columns[j]];
       double value = csv_number(field);
       const bool itself = study.table_holds_values && j < numbers.size();
-      if (itself && std::isfinite(value)) value = theta_of(value, numbers[j]);
+      if (itself && std::isfinite(value)) value = theta_of(value, numbers[j], length_to_mm);
       if (!std::isfinite(value))
         throw InputError(
             fmt::format("{}:{}: {} = {}, expected {}", file, row.line, names[j], field,

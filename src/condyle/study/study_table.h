@@ -12,11 +12,13 @@
 namespace condyle {
 
 /// θ of each row, as many as `study` asks for (0: all), in the order of `names`: those of `numbers`, and
-/// what else varies. With table_holds_values the numbers themselves, of insertions and of numbers that
-/// move together their change or factor. Throws InputError: file, line, column and what was expected.
+/// what else varies. Changes are θ itself (mm, rad or 1); with table_holds_values the numbers themselves in the units of
+/// the scene, of insertions how far they lie off, and none of several that have one change in common. Throws
+/// InputError: file, line, column and what was expected.
 [[nodiscard]] std::vector<std::vector<double>> read_study_table(
     const StudyDescription& study,
     const std::vector<std::string>& names,
-    const std::vector<FreeParameter>& numbers);
+    const std::vector<FreeParameter>& numbers,
+    double length_to_mm);
 
 }  // namespace condyle

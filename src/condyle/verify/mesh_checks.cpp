@@ -55,6 +55,9 @@ MeshCheck::MeshCheck(const Run& run, std::vector<std::string>& not_checked) {
   for (const RunPatch& patch : run.patches)
     if (std::isfinite(patch.report.max)) explained_ = std::max(explained_, 2 * patch.report.max);
   if (parts_.empty()) not_checked.emplace_back("meshes: the run holds none");
+  const auto closed = [](const Part& part) { return part.winding->closed(); };
+  if (!parts_.empty() && std::none_of(parts_.begin(), parts_.end(), closed))
+    not_checked.emplace_back("meshes: none of them encloses a volume");
 }
 
 void MeshCheck::add(std::string name, bool moving, TriangleMesh mesh) {

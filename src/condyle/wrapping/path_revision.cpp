@@ -258,6 +258,8 @@ bool settle(const PathPose& pose, PathChain& chain, PathState& state, bool first
     changed = true;
     if (state.finding().outcome == Outcome::kNotFound) break;
   }
+  for (int i = 0; i < chain.n; ++i)
+    if (chain.links[i].arc < -kTouch) state.set(Outcome::kNotFound, chain.links[i].wrap, 0);
   const int through = runs_through(chain);
   if (through >= 0) state.set(Outcome::kNotFound, through, 0);
   return changed;

@@ -311,7 +311,10 @@ std::string SurfacesPath::objection(const LineEnds& ends,
                                     const double* kept) const {
   Numbers copy;
   const PathNumbers state = known(ends, X_BA, kept, copy);
-  const Finding found = state.finding();
+  Finding found = state.finding();
+  for (int i = 0; i < static_cast<int>(wraps_.size()); ++i)  // a string does not run back on itself
+    if (found.outcome == Outcome::kFound && state.touches(i) && state.place(i).arc < -kTouch)
+      found = {Outcome::kNotFound, i, found.conjugate};
   if (found.outcome == Outcome::kFound) return run_through(ends, X_BA, state);
   const std::string name = found.wrap < 0
                                ? "its wraps"
