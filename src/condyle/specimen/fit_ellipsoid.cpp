@@ -76,33 +76,28 @@ Distances measured(const std::vector<Vector3d>& points, const Ellipsoid& e) {
 EllipsoidFit fit_ellipsoid(const std::vector<Vector3d>& points,
                            const RigidTransform& start,
                            double radius) {
-  // Levenberg-Marquardt, scaled by the diagonal.
+  // Levenberg-Marquardt, scaled by the diagonal: until no step promises more than rounding of the cost, which leaves
+  // 1e-5 mm where semi-axes are hardly determined. There Gauss-Newton alone would overshoot for ever.
   constexpr int kIterations = 500;
-  constexpr double kSmallest = 1e-9, kStiffest = 1e12, kLongest = 0.5, kRounding = 1e-12,
-                   kSettled = 1e-8;
+  constexpr double kLeast = 1e-15, kStiffest = 1e12, kLongest = 0.5, kPoor = 0.25, kGood = 0.75;
   EllipsoidFit fit;
   Ellipsoid e{start, Vector3d::Constant(radius)};
   Distances now = measured(points, e);
   double damping = 1e-2;
-  bool settled = false;
   for (int i = 0; i < kIterations && !fit.found; ++i) {
     Matrix9d A = now.JJ;
     A.diagonal() += damping * (now.JJ.diagonal().array() + 1e-9).matrix();
-    Vector9d step = -symmetric_solution(A, now.Jd);
+    const Vector9d step = -symmetric_solution(A, now.Jd);
+    const double promised = -step.dot(now.Jd);
     const bool small = step.tail<6>().cwiseAbs().maxCoeff() < kLongest;
     const Ellipsoid next = small ? changed(e, step) : e;
     const Distances there = small ? measured(points, next) : now;
-    if (small && there.cost <= now.cost * (1 + kRounding)) {
-      settled = now.cost - there.cost <= kSettled * now.cost;
-      fit.found = step.cwiseAbs().maxCoeff() < kSmallest;  // [mm], [rad], of the axes' logarithms
-      e = next, now = there;
-      damping = std::max(damping / 5, 1e-12);
-    } else {
-      damping *= 4;
-      fit.found = damping > kStiffest;  // nothing lower near by
-    }
+    const double gain = small ? (now.cost - there.cost) / promised : -1;
+    if (gain >= 0) e = next, now = there;
+    if (gain < kPoor) damping *= 4;
+    if (gain > kGood) damping = std::max(damping / 5, 1e-12);
+    fit.found = (small && promised <= kLeast * now.cost) || damping > kStiffest;
   }
-  fit.found = fit.found || settled;
   fit.placement = e.placement;
   fit.semi_axes = e.semi_axes;
   fit.rms = std::sqrt(now.squares / static_cast<double>(points.size()));
