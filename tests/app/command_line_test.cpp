@@ -159,9 +159,9 @@ TEST_F(CommandLine, RangesStandInForWhatTheSceneSays) {
       run("sweep knee.toml -o run.h5 --to 10"),
       "knee.toml: [sweep] lists values, expected --from, --to and --step to stand in for "
       "them");
-  expect_bad_input(
-      run("sweep knee.toml -o run.h5 --from 10 --to 1000 --step 90"),
-      "--from, --to, --step: from = 10, to = 1000, expected angles of at most one turn");
+  expect_bad_input(run("sweep knee.toml -o run.h5 --from 10 --to 1000 --step 90"),
+                   "--from, --to, --step: values beyond one turn, expected angles of at most that "
+                   "(suspect [units] angle)");
 }
 
 // What fish completes names every option; those with -r take a value.

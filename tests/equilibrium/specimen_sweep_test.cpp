@@ -210,5 +210,36 @@ TEST(SpecimenSweeps, OfTheMediumMeshFollowThoseOfTheFullOne) {
   EXPECT_LT(mm, 0.03);
 }
 
+// Pushed forwards and sideways, the knee has a second equilibrium at 50 degrees, stable too, on another branch: a
+// long step of Newton's leads there, and is found out.
+TEST(SpecimenSweeps, ALongStepStaysOnItsBranch) {
+  if (!fs::exists(kSpecimens)) GTEST_SKIP() << "no specimens";
+  Scene scene = read_scene(kSpecimens / "clouthier2019_ssm/knee.toml");
+  LoadDescription push = scene.loads.at(0), twist = push;
+  push.vector = {-65.09983700858496, 400, -99.06772625990654};
+  push.at = {0, -30, 0};
+  twist.name = "twist";
+  twist.moment = true;
+  twist.vector = {3867.5162743606643, 264.32265367525423, 0};
+  twist.at.setZero();
+  push.follows_body = twist.follows_body = false;
+  scene.loads = {push, twist};
+  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
+  const auto at_50 = [&](double step) {
+    scene.sweep->values.clear();
+    for (double value = 60; value >= 50; value -= step)
+      scene.sweep->values.push_back(value * kDegree);
+    const SweepResult result = sweep(scene, surfaces);
+    EXPECT_EQ(result.count_converged(), static_cast<int>(result.poses.size()));
+    EXPECT_TRUE(std::none_of(result.events.begin(), result.events.end(), [](const Event& event) {
+      return event.kind == EventKind::kLimitPoint || event.kind == EventKind::kJump;
+    }));
+    return result.poses.back().joint.internal_rotation;
+  };
+  const double expected = at_50(1);
+  EXPECT_NEAR(at_50(2), expected, 1e-9);
+  EXPECT_NEAR(at_50(10), expected, 1e-9);
+}
+
 }  // namespace
 }  // namespace condyle

@@ -86,8 +86,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "43: [[ligament]] \"aACL\": lengths = [0.026, 0.03], expected lengths like that at "
                 "the start pose, 30 (suspect the units)"},
         Mistake{"to = 120", "to = 380",
-                "60: [sweep]: to = 380, expected angles of at most one turn (suspect [units] "
-                "angle)"},
+                "57: [sweep]: values beyond one turn, expected angles of at most that (suspect "
+                "[units] angle)"},
         Mistake{"value = 0", "value = 3600",
                 "49: [[condition]] \"bend\": value = 3600, expected an angle of at most one turn "
                 "(suspect [units] angle)"}));

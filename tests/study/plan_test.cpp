@@ -203,6 +203,15 @@ TEST_F(StudyTable, ItsNumbersAreInTheUnitsOfTheScene) {
   study_plan(study).theta(0, theta);
   EXPECT_NEAR(theta[0], 0, 1e-12 * slack);
 
+  study.varied[0][0].number.what = ParameterKind::kStiffness;
+  study.scenes[0].force_to_n = 2;
+  const double stiffness = 5;  // a force per area
+  study.scenes[0].ligaments[0].law = QuadraticLaw{.stiffness = stiffness, .slack_length = slack};
+  std::ofstream(file) << fmt::format("{}.stiffness\n{:.17g}\n", ligament.name, stiffness * 100 / 2);
+  study_plan(study).theta(0, theta);
+  EXPECT_NEAR(theta[0], 0, 1e-12);
+
+  study.varied[0][0].number.what = ParameterKind::kSlackLength;
   study.varied[0][0].number.of = {0, 1};
   study.varied[0][0].number.together = true;
   const std::string both = ligament.name + "+" + study.scenes[0].ligaments[1].name;

@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 
 #include "condyle/input_error.h"
 #include "condyle/scene/swept_quantity.h"
-#include "condyle/scene/usable_number.h"
 
 namespace condyle {
 namespace {
@@ -49,11 +47,8 @@ void override_range(const std::string& file, const RangeOptions& options, Scene&
   }
   scene.sweep->range = range;
   for (double& value : values) value *= unit;
-  const SweptQuantity swept = quantity_of_sweep(scene);
-  if (swept.unit.name == "deg" && !std::all_of(values.begin(), values.end(), is_usable_angle))
-    throw InputError(
-        fmt::format("--from, --to, --step: from = {}, to = {}, expected angles of at most one turn",
-                    range.from, range.to));
+  if (const std::string fault = fault_of_values(scene); !fault.empty())
+    throw InputError("--from, --to, --step: " + fault);
 }
 
 }  // namespace condyle

@@ -110,8 +110,11 @@ int run_study(const StudyCommand& command, const StudyTeam& team) {
   work.plan = ready_study(command);
   team.expect_same(study_identity(work.plan));
   for (const std::string& line : plan_lines(work.plan)) say(command.talk, "{}\n", line);
-  if (command.resume && team.any(team.first() && is_complete(work)))
-    return team.first() ? complete_already(work) : 0;
+  if (command.resume && team.any(team.first() && is_complete(work))) {
+    if (!team.first()) return 0;
+    work.models = study_models(work.plan);  // whose own sweeps fail is told again
+    return complete_already(work);
+  }
   auto journals = std::make_unique<StudyJournals>(open_journals(work));
   const LastWords words(fmt::format("{} holds the chunks that are done, --resume goes on with them",
                                     work.folder().string()));

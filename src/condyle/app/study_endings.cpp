@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -21,24 +19,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Poses of a knee's own sweep of which nothing is known.
-std::size_t failed_poses(const StudySummary& knee, std::size_t poses) {
-  std::size_t failed = 0;
-  for (std::size_t p = 0; p < poses; ++p)
-    failed += std::all_of(knee.bands.begin(), knee.bands.end(),
-                          [p](const StudyBand& band) { return std::isnan(band.nominal[p]); });
-  return failed;
-}
-
 /// A line for each knee whose own sweep fails somewhere, and one where no sample has a pose.
 std::vector<std::string> failures_of(const StudyWork& work, const StudyView& view) {
   std::vector<std::string> lines;
-  const std::size_t poses = view.values.size();
   for (std::size_t k = 0; k < work.plan.knees.size(); ++k) {
-    const StudySummary& knee = view.by_knee.empty() ? view.all : view.by_knee.at(k);
-    if (const std::size_t failed = failed_poses(knee, poses); failed > 0)
+    const SweepResult& sweep = nominal_sweep(*work.models, k);
+    const auto poses = static_cast<int>(sweep.poses.size());
+    if (sweep.count_converged() < poses)
       lines.push_back(fmt::format("{}: {} of {} poses of the knee's own sweep did not converge",
-                                  work.plan.knees[k].scene.file.string(), failed, poses));
+                                  work.plan.knees[k].scene.file.string(),
+                                  poses - sweep.count_converged(), poses));
   }
   if (view.all.failures.poses > 0 && view.all.failures.failed == view.all.failures.poses)
     lines.emplace_back("no pose of any sample converged");

@@ -135,8 +135,7 @@ class Maker {
       narrow(asked, number(asked, each), made);
     }
     made.together = of.size() > 1;
-    made.start =
-        of.size() > 1 && asked.what != ParameterKind::kLoadScale ? 0 : number(asked, of.front());
+    made.start = made.together ? 0 : number(asked, of.front());
   }
 
   /// To where this number is within bounds; a transition strain stays above a tenth of itself.

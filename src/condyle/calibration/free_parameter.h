@@ -37,7 +37,7 @@ struct FreeParameter {
   double prior_sd = 1;
   std::array<double, 2> bounds = {-1e300, 1e300};  ///< of θ
   double start =
-      0;  ///< the number itself in the scene; 0 for insertions, frames, offsets and `together`
+      0;  ///< the number itself in the scene; 0 for insertions, frames, offsets and where `together`
 
   [[nodiscard]] bool nuisance() const { return kind != Kind::kNumber; }
 };

@@ -241,19 +241,20 @@ class EventSearch {
         .value_or(middle);
   }
 
-  /// Where the way from `before`, within the tolerance of the value of `right`, arrives there; nothing where that is
-  /// in `right` itself, or where the way ends between.
+  /// Where the way from `before` arrives at the value of `right`, if it goes on past `after`, which lies within the
+  /// tolerance of it; nothing where the way ends between, or arrives in `right` itself.
   std::optional<SolvedPose> arrival(const SolvedPose& before,
                                     const SolvedPose& after,
                                     const SolvedPose& right) {
-    if (after.value != right.value) return std::nullopt;
-    const double far = options_.jump * walker_.model().length;
-    std::optional<SolvedPose> there = pose_at(right.value, before);
-    if (!there || body_motion(before, *there, walker_.model().length) >= far ||
-        body_motion(*there, right, walker_.model().length) < far)
+    if (!options_.arrival) return std::nullopt;
+    const double L = walker_.model().length, far = options_.jump * L;
+    std::optional<SolvedPose> there = pose_at(after.value, before);
+    if (!there || body_motion(before, *there, L) >= far) return std::nullopt;
+    if (after.value != right.value) there = pose_at(right.value, *there);
+    if (!there || !there->result.converged() || body_motion(*there, right, L) < far)
       return std::nullopt;
     const bool falls = there->result.stability == 0 && right.result.stability == 1;
-    return falls || !there->result.converged() ? std::nullopt : there;
+    return falls ? std::nullopt : there;
   }
 
  private:
@@ -284,13 +285,18 @@ std::optional<SolvedPose> locate_events(Walker& walker,
                                         std::vector<Event>& events,
                                         const EventOptions& options) {
   EventSearch search(walker, options);
+  const std::size_t told = events.size();
+  const auto instead = [&](std::optional<SolvedPose> there) {
+    if (there) events.resize(told);
+    return there;
+  };
   const double L = walker.model().length, straight = kStraight * std::abs(right.value - left.value);
   SolvedPose from = left;
   for (int k = 0; k < options.most_events && !same_contacts(from.result, right.result); ++k) {
     SolvedPose before = from, after = right;
     if (!search.bisect_change(before, after)) return std::nullopt;
     if (body_motion(before, after, L) >= options.jump * L) {
-      if (auto there = search.arrival(before, after, right)) return there;
+      if (auto there = instead(search.arrival(before, after, right))) return there;
       append_limit(before, after, events);
     }
     append_changes(before, after, search.exact_value(before, after, straight), events);
@@ -300,7 +306,7 @@ std::optional<SolvedPose> locate_events(Walker& walker,
     SolvedPose before = left, after = right;
     // Contacts that jump with the body are not told of again.
     if (search.bisect_snap(before, after)) {
-      if (auto there = search.arrival(before, after, right)) return there;
+      if (auto there = instead(search.arrival(before, after, right))) return there;
       append_limit(before, after, events);
       return std::nullopt;
     }
@@ -311,7 +317,7 @@ std::optional<SolvedPose> locate_events(Walker& walker,
       continue;
     SolvedPose before = left, after = right;
     if (!search.bisect_jump(before, after, c, options.jump * L)) continue;
-    if (auto there = search.arrival(before, after, right)) return there;
+    if (auto there = instead(search.arrival(before, after, right))) return there;
     events.push_back(
         {search.exact_value(before, after, straight), EventKind::kJump, static_cast<int>(c)});
   }

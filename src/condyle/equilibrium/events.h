@@ -27,6 +27,7 @@ struct EventOptions {
   double snap = 0.05;    ///< a body that moved farther than this, in units of L, may have snapped
                          ///< through
   int most_events = 16;  ///< between two poses
+  bool arrival = true;   ///< where the way from the left one goes on, say where it arrives
   /// On trials without equilibrium, and on all of them: after either no event more is looked for between the two
   /// poses. Each is counted for itself: to close in on a limit point takes thousands of iterations and hardly a point.
   Work most_wasted{6000, 200000}, most{20000, 500000};

@@ -13,8 +13,8 @@
 namespace condyle {
 
 struct SweepOptions {
-  bool stability = true;       ///< reduced stiffness of each pose
-  bool events = true;          ///< locate what happens to contacts between poses
+  bool stability = true;  ///< reduced stiffness of each pose
+  bool events = true;  ///< locate what happens between poses, and find anew those on another branch
   std::optional<Drive> drive;  ///< of all that is not swept; absent: the model's nominal one
   /// Taken over where their values are met, failures too: a solved one is polished and described
   /// anew, not searched for. The first value that is not known starts from the pose before it in

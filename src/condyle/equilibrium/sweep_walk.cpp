@@ -159,11 +159,12 @@ void SweepWalk::find_events(Stop& stop) {
     return;
   }
   const auto begin = std::chrono::steady_clock::now();
-  std::optional<SolvedPose> there = locate_events(walker_, last.at, stop.at, stop.events);
-  if (there && last.converged() && stop.taken == nullptr) {
+  EventOptions options;
+  options.arrival = last.converged() && stop.converged() && stop.taken == nullptr;
+  if (auto there = locate_events(walker_, last.at, stop.at, stop.events, options)) {
     put_in_place(std::move(*there), stop);
-    stop.events.clear();
-    (void)locate_events(walker_, last.at, stop.at, stop.events);
+    options.arrival = false;
+    (void)locate_events(walker_, last.at, stop.at, stop.events, options);
   }
   stand_at_last_converged();
   stop.at.result.event_seconds =

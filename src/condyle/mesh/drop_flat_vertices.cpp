@@ -44,8 +44,8 @@ class Collapsible {
       for (const int v : mesh_.triangles[t]) around_[v].push_back(static_cast<int>(t));
   }
 
-  /// Until none is left that can go, those first that are pulled least far: which these are does not
-  /// depend on how a file numbers vertices and triangles.
+  /// Until none is left that can go, those first that are pulled least far: how a file numbers vertices and triangles
+  /// decides only where these distances are equal.
   void run() {
     for (bool any = true; any;) {
       any = false;

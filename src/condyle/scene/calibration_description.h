@@ -51,7 +51,7 @@ struct CalibrationDescription {
   std::optional<std::array<double, 2>> femur_frame_sd;  ///< the frames of the measurement against
   std::optional<std::array<double, 2>> tibia_frame_sd;  ///< the scene's: three shifts, three turns
   double flexion_sd = 0;  ///< of the flexion of a test [rad]: more variance, (dy/dflexion sd)²
-  double level_sd = 0;    ///< of the level of force-controlled tests, of it [-]
+  double level_sd = 0;    ///< of the level of a test, of it [-]
   int starts = 8;         ///< of the search for the least, the scene's own the first
   unsigned seed = 1;      ///< of all random numbers
   int samples = 200;      ///< of the posterior

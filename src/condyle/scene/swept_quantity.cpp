@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "condyle/scene/usable_number.h"
 
 namespace condyle {
 namespace {
@@ -94,6 +97,18 @@ SweptQuantity quantity_of_motion() {
           .unit = seconds,
           .declared = seconds,
           .axis = "Time [s]"};
+}
+
+std::string fault_of_values(const Scene& scene) {
+  const SweepDescription& sweep = *scene.sweep;
+  if (sweep.varies_load) return {};
+  const ConditionKind kind = scene.conditions[static_cast<std::size_t>(sweep.index)].kind;
+  const auto [least, most] = std::minmax_element(sweep.values.begin(), sweep.values.end());
+  if (kind == ConditionKind::kDistance && *least <= 0)
+    return "values down to 0 and below, expected distances > 0";
+  const bool turns = is_angle(kind) && !(is_usable_angle(*least) && is_usable_angle(*most));
+  return turns ? "values beyond one turn, expected angles of at most that (suspect [units] angle)"
+               : "";
 }
 
 std::string with_unit(const SweptQuantity& quantity, double value) {

@@ -34,6 +34,9 @@ struct SweptQuantity {
 /// What goes from frame to frame of a motion.
 [[nodiscard]] SweptQuantity quantity_of_motion();
 
+/// What is wrong with the values of a scene's sweep: angles beyond one turn, distances that are none. Empty: nothing.
+[[nodiscard]] std::string fault_of_values(const Scene& scene);
+
 /// "60°", "2.5 mm", "1.5×".
 [[nodiscard]] std::string with_unit(const SweptQuantity& quantity, double value);
 

@@ -146,18 +146,7 @@ void read_sweep(const Section& root, Scene& scene) {
   scene.sweep = sweep;
   const double factor = quantity_of_sweep(scene).declared.factor;
   for (double& value : scene.sweep->values) value *= factor;
-  const bool turns =
-      !sweep.varies_load && is_angle(scene.conditions[static_cast<std::size_t>(sweep.index)].kind);
-  if (turns &&
-      !std::all_of(scene.sweep->values.begin(), scene.sweep->values.end(), is_usable_angle))
-    section.fail(sweep.range ? "to" : "values",
-                 "angles of at most one turn (suspect [units] angle)");
-  const bool length_needed =
-      !sweep.varies_load &&
-      scene.conditions[static_cast<std::size_t>(sweep.index)].kind == ConditionKind::kDistance;
-  if (length_needed && *std::min_element(sweep.values.begin(), sweep.values.end()) <= 0) {
-    section.fail_with("values down to 0 and below, expected distances > 0");
-  }
+  if (const std::string fault = fault_of_values(scene); !fault.empty()) section.fail_with(fault);
 }
 
 }  // namespace condyle

@@ -112,7 +112,7 @@ void set_points(const StudyDescription& study, StudyPlan& plan) {
     std::vector<std::string> names;
     for (const StudyParameter& parameter : plan.parameters) names.push_back(parameter.name);
     const StudyKnee& first = plan.knees.front();
-    plan.table = read_study_table(study, names, first.parameters, first.scene.length_to_mm);
+    plan.table = read_study_table(study, names, first.parameters, first.scene);
     plan.points = plan.table.size();
     return;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "condyle/calibration/csv_file.h"
+#include "condyle/elements/force_law.h"
 #include "condyle/input_error.h"
 
 namespace condyle {
@@ -24,17 +25,36 @@ std::size_t column_of(const std::string& name, const CsvFile& csv) {
   return static_cast<std::size_t>(found - names.begin());
 }
 
-/// θ of a number that a table holds itself, in the scene's units; NaN where there is none.
-double theta_of(double number, const FreeParameter& parameter, double length_to_mm) {
-  const double inside = parameter.units == "mm" ? length_to_mm * number : number;
-  if (!parameter.logarithmic) return inside - parameter.start;
-  return inside > 0 ? std::log(inside / parameter.start) : std::nan("");
+/// What the number of a scene is multiplied by to be the one inside.
+double unit_of(const Scene& scene, const ModelParameter& number) {
+  switch (number.kind) {
+    case ParameterKind::kSlackLength:
+    case ParameterKind::kInsertion:
+      return scene.length_to_mm;
+    case ParameterKind::kStiffness: {
+      const bool quadratic =
+          std::holds_alternative<QuadraticLaw>(scene.ligaments[number.index].law);
+      return scene.force_to_n / (quadratic ? scene.length_to_mm * scene.length_to_mm : 1);
+    }
+    default:
+      return 1;
+  }
 }
 
-/// What several numbers have in common is a change and no value, but for loads, whose factors are 1 in the scene.
+/// θ of a number that a table holds itself, in the scene's units; NaN where there is none.
+double theta_of(double number, const FreeParameter& parameter, const Scene& scene) {
+  const ModelParameter& moved = parameter.moves.front().first;
+  const double inside = unit_of(scene, moved) * number;
+  if (!parameter.logarithmic) return inside - parameter.start;
+  const bool load = moved.kind == ParameterKind::kLoadScale;
+  const double nominal = load ? scene.loads[moved.index].scale : parameter.start;
+  return inside / nominal > 0 ? std::log(inside / nominal) : std::nan("");
+}
+
+/// What several numbers have in common is a change and no value.
 void expect_own_values(const CsvFile& csv, const std::vector<FreeParameter>& numbers) {
   for (const FreeParameter& number : numbers)
-    if (number.together && number.moves.front().first.kind != ParameterKind::kLoadScale)
+    if (number.together)
       throw InputError(fmt::format(
           "{}:{}: {}, a change that several numbers have in common, expected a table of "
           "\"changes\", or together = false",
@@ -46,7 +66,7 @@ void expect_own_values(const CsvFile& csv, const std::vector<FreeParameter>& num
 std::vector<std::vector<double>> read_study_table(const StudyDescription& study,
                                                   const std::vector<std::string>& names,
                                                   const std::vector<FreeParameter>& numbers,
-                                                  double length_to_mm) {
+                                                  const Scene& scene) {
   const CsvFile csv = read_csv(study.table, "a table of points (CSV)");
   const std::string file = study.table.string();
   if (study.table_holds_values) expect_own_values(csv, numbers);
@@ -60,7 +80,7 @@ std::vector<std::vector<double>> read_study_table(const StudyDescription& study,
       const std::string& field = row.fields[columns[j]];
       double value = csv_number(field);
       const bool itself = study.table_holds_values && j < numbers.size();
-      if (itself && std::isfinite(value)) value = theta_of(value, numbers[j], length_to_mm);
+      if (itself && std::isfinite(value)) value = theta_of(value, numbers[j], scene);
       if (!std::isfinite(value))
         throw InputError(
             fmt::format("{}:{}: {} = {}, expected {}", file, row.line, names[j], field,
