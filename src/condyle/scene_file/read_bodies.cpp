@@ -4,7 +4,6 @@
 
 #include "condyle/math/decompositions.h"
 #include "condyle/math/rotation.h"
-#include "condyle/scene/usable_number.h"
 #include "condyle/scene_file/read_sections.h"
 
 namespace condyle {
@@ -52,10 +51,7 @@ void read_start(const Section& start, const Scene& scene, BodyDescription& body)
   }
   if (angles) {
     const auto angle = [&](const char* key) {
-      const double value = scene.angle_to_rad * start.number_or(key, 0, "an angle");
-      if (!is_usable_angle(value))
-        start.fail(key, "an angle of at most one turn (suspect [units] angle)");
-      return value;
+      return start.has(key) ? read_angle(start, key, scene) : 0;
     };
     body.start_joint_angles = {angle("flexion"), angle("adduction"), angle("internal_rotation")};
   }

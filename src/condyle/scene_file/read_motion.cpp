@@ -40,13 +40,12 @@ ConditionDescription read_condition(const Section& section, const Scene& scene) 
   ConditionDescription condition;
   condition.name = read_name(section, names_of(scene.conditions));
   condition.kind = section.choice("kind", kinds);
-  const double unit = is_angle(condition.kind) ? scene.angle_to_rad : scene.length_to_mm;
   const bool distance = condition.kind == ConditionKind::kDistance;
   condition.value =
-      unit * section.number("value", is_angle(condition.kind) ? "an angle" : "a length",
-                            distance ? Range::kPositive : Range::kAny);
-  if (is_angle(condition.kind) && !is_usable_angle(condition.value))
-    section.fail("value", "an angle of at most one turn (suspect [units] angle)");
+      is_angle(condition.kind)
+          ? read_angle(section, "value", scene)
+          : scene.length_to_mm *
+                section.number("value", "a length", distance ? Range::kPositive : Range::kAny);
   if (condition.kind == ConditionKind::kTranslation) {
     condition.axis = read_translation_axis(section);
   } else if (condition.kind == ConditionKind::kRotation) {
@@ -117,6 +116,13 @@ void read_values(const Section& section, SweepDescription& sweep) {
 }
 
 }  // namespace
+
+double read_angle(const Section& section, const std::string& key, const Scene& scene) {
+  const double angle = scene.angle_to_rad * section.number(key, "an angle");
+  if (!is_usable_angle(angle))
+    section.fail(key, "an angle of at most one turn (suspect [units] angle)");
+  return angle;
+}
 
 void read_conditions(const Section& root, Scene& scene) {
   for (const Section& section : root.sections("condition"))

@@ -32,6 +32,9 @@ void read_calibration(const Section& root, Scene& scene);
 /// The whole of a file. Throws InputError for what is none: `expected` "a scene (TOML)".
 [[nodiscard]] std::string text_of(const std::filesystem::path& file, const std::string& expected);
 
+/// An angle [rad]. Throws for one beyond a turn, whose unit is mistaken.
+[[nodiscard]] double read_angle(const Section& section, const std::string& key, const Scene& scene);
+
 /// The keys `law` and what belongs to it, of a contact whose surfaces and state are known; `root`
 /// for messages about its surfaces.
 void read_layers(const Section& root,

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "condyle/scene/usable_number.h"
 #include "condyle/scene_file/read_sections.h"
 
 namespace condyle {
@@ -64,9 +63,7 @@ void read_held(const Section& section, const Scene& scene, SimulationDescription
 void read_start(const Section& section, const Scene& scene, SimulationDescription& simulation) {
   if (section.has("flexion")) {
     if (!scene.joint) section.fail("flexion", "a table [joint] that says what flexion is");
-    simulation.flexion = scene.angle_to_rad * section.number("flexion", "an angle");
-    if (!is_usable_angle(*simulation.flexion))
-      section.fail("flexion", "an angle of at most one turn (suspect [units] angle)");
+    simulation.flexion = read_angle(section, "flexion", scene);
   }
   if (section.has("flexion_velocity")) {
     if (!simulation.flexion) section.fail("flexion_velocity", "flexion beside it");
