@@ -3,8 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
+#include "condyle/specimen/fit_wraps.h"
 #include "support/quadric_knee.h"
 #include "support/report_problems.h"
 #include "support/truss.h"
@@ -114,6 +120,133 @@ TEST(ArcLength, SaysWhyItStopped) {
   const SweepResult path = follow_path(solver, kPress, 0, 3, 0.1, {.most_poses = 200});
   EXPECT_FALSE(path.poses.back().converged());
   EXPECT_FALSE(path.poses.back().reason.empty());
+}
+
+/// The truss of data/hard that snaps through, pulled by a string over a post as well.
+Scene truss_with_string(double from, double to, bool arc_length) {
+  const std::filesystem::path file =
+      std::filesystem::path(CONDYLE_SOURCE_DIR) / "data/hard/snap-through.toml";
+  Scene scene = parse_scene(read_scene(file).text + R"(
+[[wrap]]
+name = "post"
+body = "ground"
+kind = "cylinder"
+point = [10, 0, 0]
+axis = [0, 1, 0]
+radius = 3
+
+[[ligament]]
+name = "string"
+ends = [{ body = "ground", at = [20, 0, 5] }, { body = "apex", at = [0, 0, 0] }]
+wraps = ["post"]
+law = "toe-linear"
+stiffness = 1500
+transition_strain = 0.02
+slack_length = 20.3
+)",
+                            file);
+  scene.sweep->arc_length = arc_length;
+  scene.sweep->values.clear();
+  for (int k = 0; k <= 120; ++k) scene.sweep->values.push_back(from + k * (to - from) / 120);
+  return scene;
+}
+
+// Where the string comes to lie on the post the stiffness jumps, and the path has a corner.
+TEST(ArcLength, FollowsAStringOntoWhatItWrapsOn) {
+  const SweepResult path = sweep(truss_with_string(0, 60, true), {});
+  for (const PoseResult& pose : path.poses) ASSERT_TRUE(pose.converged()) << pose.reason;
+  EXPECT_EQ(path.poses.back().value, 60);
+  std::vector<double> limits;
+  for (const Event& event : path.events)
+    if (event.kind == EventKind::kLimitPoint) limits.push_back(event.value);
+  ASSERT_EQ(limits.size(), 2U);
+  // A sweep in steps snaps at each of them, on its way up and down.
+  for (const bool up : {true, false}) {
+    const SweepResult steps = sweep(truss_with_string(up ? 0 : 60, up ? 60 : 0, false), {});
+    const auto snap =
+        std::find_if(steps.events.begin(), steps.events.end(),
+                     [](const Event& event) { return event.kind == EventKind::kLimitPoint; });
+    ASSERT_NE(snap, steps.events.end());
+    EXPECT_NEAR(snap->value, limits[up ? 0 : 1], 1e-7);
+  }
+}
+
+// A string that pulls hard over a thin post turns the path by more than a right angle, whatever the step.
+TEST(ArcLength, TurnsACornerByAnyAngle) {
+  std::vector<std::vector<double>> limits;
+  for (const int steps : {30, 120, 1000}) {
+    Scene scene = truss_with_string(0, 60, true);
+    scene.wraps[0].shape = WrapCylinder{0.2};
+    scene.wraps[0].placement.p = {1, 0, 1};
+    scene.ligaments[2].law = PolynomialLaw{{10, 0.001}, false};  // pulls the same at any length
+    scene.sweep->values.clear();
+    for (int k = 0; k <= steps; ++k) scene.sweep->values.push_back(60.0 * k / steps);
+    const SweepResult path = sweep(scene, {});
+    for (std::size_t k = 0; k < path.poses.size(); ++k) {
+      ASSERT_TRUE(path.poses[k].converged()) << steps << ": " << path.poses[k].reason;
+      if (k > 0)
+        EXPECT_LE(std::abs(path.poses[k].value - path.poses[k - 1].value), 1.5 * 60 / steps + 1e-9);
+    }
+    EXPECT_EQ(path.poses.back().value, 60) << steps;
+    limits.emplace_back();
+    for (const Event& event : path.events)
+      if (event.kind == EventKind::kLimitPoint) limits.back().push_back(event.value);
+  }
+  ASSERT_EQ(limits[0].size(), limits[2].size());
+  ASSERT_EQ(limits[1].size(), limits[2].size());
+  for (std::size_t i = 0; i < limits[2].size(); ++i) {
+    EXPECT_NEAR(limits[0][i], limits[2][i], 1e-3) << i;
+    EXPECT_NEAR(limits[1][i], limits[2][i], 1e-3) << i;
+  }
+}
+
+// Ligaments on surfaces and contacts beyond an edge are events of a path as of a sweep in steps.
+TEST(ArcLength, TellsTheEventsOfASweepInSteps) {
+  for (const char* file : {"data/hard/leaving-patch.toml", "data/phantom/wrapped.toml"}) {
+    SCOPED_TRACE(file);
+    Scene scene = read_scene(std::filesystem::path(CONDYLE_SOURCE_DIR) / file);
+    const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
+    fit_wraps(scene, surfaces);
+    const SweepResult steps = sweep(scene, surfaces);
+    scene.sweep->arc_length = true;
+    const SweepResult path = sweep(scene, surfaces);
+    ASSERT_FALSE(steps.events.empty());
+    ASSERT_EQ(path.events.size(), steps.events.size());
+    for (std::size_t i = 0; i < path.events.size(); ++i) {
+      EXPECT_EQ(path.events[i].kind, steps.events[i].kind);
+      EXPECT_EQ(path.events[i].ligament, steps.events[i].ligament);
+      EXPECT_NEAR(path.events[i].value, steps.events[i].value, 1e-6);
+    }
+  }
+}
+
+TEST(ArcLength, TakesAsManyPosesAsItsStepAsksFor) {
+  Scene scene = truss_with_string(0, 5, true);
+  scene.ligaments.pop_back();
+  scene.wraps.clear();
+  scene.sweep->values.clear();
+  for (int k = 0; k <= 2500; ++k) scene.sweep->values.push_back(0.002 * k);
+  const SweepResult path = sweep(scene, {});
+  EXPECT_GT(path.poses.size(), 2500U);
+  EXPECT_EQ(path.poses.back().value, 5);
+  EXPECT_TRUE(path.poses.back().converged()) << path.poses.back().reason;
+}
+
+// A load that is huge with factors that are tiny, or the other way round, is the same one.
+TEST(Events, AreLocatedWhateverTheSizeOfAVector) {
+  for (const double size : {1e7, 1e-7}) {
+    SCOPED_TRACE(size);
+    Scene scene = truss_with_string(0, 60, false);
+    const SweepResult expected = sweep(scene, {});
+    scene.loads[0].vector *= size;
+    for (double& value : scene.sweep->values) value /= size;
+    const SweepResult found = sweep(scene, {});
+    ASSERT_EQ(found.events.size(), expected.events.size());
+    for (std::size_t i = 0; i < found.events.size(); ++i) {
+      EXPECT_EQ(found.events[i].kind, expected.events[i].kind);
+      EXPECT_NEAR(found.events[i].value * size, expected.events[i].value, 1e-6);
+    }
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "condyle/equilibrium/arc_length.h"
@@ -62,7 +63,10 @@ TEST(ArcLengthOnLayers, SnapsOntoALayerAndComesBack) {
   for (const PoseResult& pose : down.poses) {
     ASSERT_TRUE(pose.converged()) << pose.value << ": " << pose.reason;
     const double z = pose.X_BA.p.z();
-    EXPECT_NEAR(pose.value, Truss::load(z) + floor_force(z), 1e-9 + 2e-3 * floor_force(z)) << z;
+    // A light touch of few points is told with its error.
+    const double error =
+        pose.contacts[0].layer ? std::max(2e-3, 2 * pose.contacts[0].layer->error) : 0;
+    EXPECT_NEAR(pose.value, Truss::load(z) + floor_force(z), 1e-9 + error * floor_force(z)) << z;
   }
   EXPECT_EQ(down.poses.back().value, 40);
   EXPECT_GT(floor_force(down.poses.back().X_BA.p.z()), 1);

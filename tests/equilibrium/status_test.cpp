@@ -6,6 +6,9 @@
 #include <limits>
 
 #include "condyle/equilibrium/equilibrium_solver.h"
+#include "condyle/equilibrium/sweep.h"
+#include "condyle/scene_file/read_scene.h"
+#include "condyle/specimen/fit_surfaces.h"
 #include "support/ball_on_floor.h"
 #include "support/hold.h"
 #include "support/known_part.h"
@@ -146,6 +149,38 @@ TEST(Status, AContactBeyondTheKnownSurfaceIsNamed) {
   EXPECT_TRUE(inside.converged()) << inside.reason;
   expect_reason(solver.solve(condition_value(0).with(drive_of(solver.model()), 0.5)),
                 PoseStatus::kLeftPatch, "\"floor\"");
+}
+
+// A ball in a socket that is too small for it, another beyond the edge of a floor: whichever contact comes first, it is no
+// equilibrium.
+TEST(Status, DoesNotHangOnTheOrderOfContacts) {
+  const std::string
+      head = R"(
+units = { length = "mm", angle = "deg", force = "N" }
+body = [{ name = "g", fixed = true }, { name = "m", start = { translation = [0, 0, 0] } }]
+surface = [
+  { name = "socket", body = "g", kind = "sphere", center = [0, 0, 8], radius = 8, solid = "outside" },
+  { name = "ball", body = "m", kind = "sphere", center = [0, 0, 10], radius = 10 },
+  { name = "floor", body = "g", kind = "plane", point = [85, 0, 0], normal = [0, 0, 1], radius = 5 },
+  { name = "other ball", body = "m", kind = "sphere", center = [100, 0, 10], radius = 10 } ]
+condition = [
+  { name = "tx", kind = "translation", axis = "x", value = 0 },
+  { name = "ty", kind = "translation", axis = "y", value = 0 },
+  { name = "rx", kind = "rotation", axis = "x", value = 0 },
+  { name = "rz", kind = "rotation", axis = "z", value = 0 } ]
+load = [{ name = "push", body = "m", kind = "force", vector = [0, 0, -10], at = [50, 0, 0] }]
+sweep = { vary = "push.scale", values = [1] }
+)",
+      tight =
+          R"({ name = "tight", surfaces = ["socket", "ball"], state = "closed", start = [[0, 0, 0]] })",
+      off =
+          R"({ name = "off", surfaces = ["floor", "other ball"], state = "closed", start = [[100, 0, 0]] })";
+  for (const bool turned : {false, true}) {
+    const std::string contacts = turned ? off + ", " + tight : tight + ", " + off;
+    const Scene scene = parse_scene(head + "contact = [" + contacts + "]", "knee.toml");
+    const SweepResult found = sweep(scene, fit_surfaces(scene));
+    expect_reason(found.poses[0], PoseStatus::kOverlap, "interpenetrate");
+  }
 }
 
 // Conditions hold the ball 3 mm deep in the floor, from which it cannot come.

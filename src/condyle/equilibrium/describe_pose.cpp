@@ -34,7 +34,15 @@ std::optional<HertzEstimate> estimate_pressure(const ContactPair& pair,
                        elastic->approach};
 }
 
+/// Whichever contact comes first, the same objection stays: an equilibrium beyond an edge is the least, of others that
+/// whose status has the lowest value.
 void set_status(PoseResult& result, const Objection& objection) {
+  const auto rank = [](PoseStatus status) {
+    return status == PoseStatus::kConverged ? 0 : status == PoseStatus::kLeftPatch ? 1 : 2;
+  };
+  if (rank(objection.status) < rank(result.status) ||
+      (rank(objection.status) == rank(result.status) && objection.status >= result.status))
+    return;
   result.status = objection.status;
   result.reason = objection.reason;
 }
@@ -182,7 +190,7 @@ void describe_law(const Linearization& at,
                   PoseResult& result) {
   ContactPotential& potential = *at.system.potentials().of(p);
   std::optional<Objection> reason = potential.describe(at.state.X, result.contacts[p]);
-  if (!reason && !result.converged()) return;
+  if (!reason && !result.solved()) return;
   if (!reason)
     reason = deeper_than_borne(at.model.pairs[p], potential, search, at.state.X, at.model.length,
                                minima);

@@ -2,41 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
 #include "condyle/equilibrium/closing_event.h"
 #include "condyle/equilibrium/path_system.h"
+#include "condyle/equilibrium/pose_changes.h"
 #include "condyle/math/rotation.h"
 
 namespace condyle {
 namespace {
 
 constexpr double kStraight = 1e-4;  // part of a step over which gaps change in proportion
-
-int points_of(const PoseResult& pose, std::size_t contact) {
-  const ContactResult& c = pose.contacts[contact];
-  return c.closed ? static_cast<int>(c.points.size()) : 0;
-}
-
-bool beyond_edge(const PoseResult& pose, std::size_t contact) {
-  const ContactResult& c = pose.contacts[contact];
-  return c.closed &&
-         std::any_of(c.points.begin(), c.points.end(),
-                     [](const ContactPointResult& point) { return point.edge_distance < 0; });
-}
-
-bool touches(const PoseResult& pose, std::size_t ligament, std::size_t wrap) {
-  return pose.paths[ligament].touches[wrap].touching;
-}
-
-/// Do the ligaments lie on the same surfaces?
-bool same_touches(const PoseResult& a, const PoseResult& b) {
-  for (std::size_t i = 0; i < a.paths.size(); ++i)
-    for (std::size_t w = 0; w < a.paths[i].touches.size(); ++w)
-      if (touches(a, i, w) != touches(b, i, w)) return false;
-  return true;
-}
 
 /// Foretells where an arc on a surface vanishes, from the poses that lie on it as they close in.
 class VanishingArc {
@@ -79,13 +57,6 @@ class VanishingArc {
   std::optional<double> guess_;
 };
 
-/// Do the same points carry, and ligaments lie on the same surfaces?
-bool same_contacts(const PoseResult& a, const PoseResult& b) {
-  for (std::size_t c = 0; c < a.contacts.size(); ++c)
-    if (points_of(a, c) != points_of(b, c) || beyond_edge(a, c) != beyond_edge(b, c)) return false;
-  return same_touches(a, b);
-}
-
 /// How far the points of a contact moved on either body, where their number is the same [mm]; of a
 /// layer its centre of pressure, since where it is pressed most may change over at once.
 double motion(const PoseResult& a, const PoseResult& b, std::size_t contact) {
@@ -112,27 +83,6 @@ double motion(const PoseResult& a, const PoseResult& b, std::size_t contact) {
 double body_motion(const SolvedPose& from, const SolvedPose& to, double L) {
   const RigidTransform &a = from.state.X, &b = to.state.X;
   return std::hypot((b.p - a.p).norm(), L * log_rotation(b.R * a.R.transpose()).norm());
-}
-
-void append_changes(const SolvedPose& before,
-                    const SolvedPose& after,
-                    double value,
-                    std::vector<Event>& events) {
-  for (std::size_t c = 0; c < before.result.contacts.size(); ++c) {
-    const int was = points_of(before.result, c), is = points_of(after.result, c);
-    const auto add = [&](EventKind kind) { events.push_back({value, kind, static_cast<int>(c)}); };
-    for (int k = was; k < is; ++k) add(EventKind::kClosing);
-    for (int k = is; k < was; ++k) add(EventKind::kOpening);
-    const bool was_out = beyond_edge(before.result, c), is_out = beyond_edge(after.result, c);
-    if (was_out != is_out) add(is_out ? EventKind::kLeavingPatch : EventKind::kReturningToPatch);
-  }
-  for (std::size_t i = 0; i < after.result.paths.size(); ++i)
-    for (std::size_t w = 0; w < after.result.paths[i].touches.size(); ++w) {
-      const bool is = touches(after.result, i, w);
-      if (is == touches(before.result, i, w)) continue;
-      events.push_back({value, is ? EventKind::kTouching : EventKind::kLifting, -1,
-                        static_cast<int>(i), static_cast<int>(w)});
-    }
 }
 
 void append_limit(const SolvedPose& before, const SolvedPose& after, std::vector<Event>& events) {
@@ -279,6 +229,15 @@ class EventSearch {
 
 }  // namespace
 
+double tolerance_of_events(const Swept& swept, const std::vector<double>& values) {
+  constexpr double kTolerance = EventOptions().tolerance;
+  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  const double least = swept.is_load() && largest > 0 ? std::min(1.0, largest) : 1;
+  return std::max(kTolerance * least, kRounding * largest);
+}
+
 std::optional<SolvedPose> locate_events(Walker& walker,
                                         const SolvedPose& left,
                                         const SolvedPose& right,
@@ -299,7 +258,8 @@ std::optional<SolvedPose> locate_events(Walker& walker,
       if (auto there = instead(search.arrival(before, after, right))) return there;
       append_limit(before, after, events);
     }
-    append_changes(before, after, search.exact_value(before, after, straight), events);
+    append_changes(before.result, after.result, search.exact_value(before, after, straight),
+                   events);
     from = after;
   }
   if (same_contacts(left.result, right.result) && search.moved_unexpectedly(left, right)) {

@@ -33,6 +33,9 @@ struct EventOptions {
   Work most_wasted{6000, 200000}, most{20000, 500000};
 };
 
+/// That of a sweep: factors of a load are as large or small as its vector asks for.
+[[nodiscard]] double tolerance_of_events(const Swept& swept, const std::vector<double>& values);
+
 /// Appends the events between two poses of one sweep. The walker does not stay where it stood.
 ///
 /// Where the way from `left` goes on to the very value of `right` and does not end there, `right` is on another

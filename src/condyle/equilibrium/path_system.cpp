@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "condyle/math/rotation.h"
+
 namespace condyle {
 namespace {
 
@@ -44,6 +46,12 @@ double PathSystem::product(const Direction& a, const Direction& b) const {
   double sum = weight_ * weight_ * a.value() * b.value();
   for (std::size_t i = 0; i < 6; ++i) sum += a.d[i] * b.d[i];
   return sum;
+}
+
+double PathSystem::distance(const PathPoint& a, const PathPoint& b) const {
+  const RigidTransform &X = a.state.X, &Y = b.state.X;
+  return std::hypot((Y.p - X.p).norm(), model_.length * log_rotation(Y.R * X.R.transpose()).norm(),
+                    weight_ * (b.value - a.value));
 }
 
 double PathSystem::gap_rate(const ContactLinearization& contact, const Direction& direction) const {
@@ -93,8 +101,12 @@ bool PathSystem::correct(PathPoint& point, const Direction& tangent, bool hold_v
     if (!std::isfinite(residual) || !std::isfinite(distance)) return false;
     const double slack = last_step < kTolerance * L ? 1e3 : 1;
     if (residual <= slack * kTolerance * system_.force_scale() &&
-        distance <= slack * kTolerance * L)
-      return true;
+        distance <= slack * kTolerance * L) {
+      if (!system_.revise(point.state)) return true;
+      last_step = INFINITY;
+      if (iteration == kMostIterations) return false;
+      continue;
+    }
     if (iteration == kMostIterations) return false;
     const int size = fill(point, step.data()), last = size - 1;
     step[static_cast<std::size_t>(last)] = 0;

@@ -40,7 +40,7 @@ class PathSystem {
   bool tangent(const PathPoint& at, Direction& tangent);
 
   /// Newton back to the path, at right angles to `tangent`; with the swept value held where
-  /// `hold_value`.
+  /// `hold_value`. Ligaments lie on what they wrap on there (LinePath::revise).
   bool correct(PathPoint& point, const Direction& tangent, bool hold_value = false);
 
   /// The point that lies `length` along a direction [mm].
@@ -52,6 +52,12 @@ class PathSystem {
 
   /// Of two directions, in the measure of the path's length; their constraints may differ.
   [[nodiscard]] double product(const Direction& a, const Direction& b) const;
+
+  /// How far one point lies from another, straight, in the same measure [mm].
+  [[nodiscard]] double distance(const PathPoint& a, const PathPoint& b) const;
+
+  /// Lets ligaments lie as they would at a point, on the path or off it; false where none lies otherwise.
+  bool revise(PathPoint& point) { return assemble(point) && system_.revise(point.state); }
 
   /// False where an element has no length.
   bool assemble(const PathPoint& point);

@@ -37,6 +37,7 @@ SweepResult sweep(EquilibriumSolver& solver,
   if (!description.arc_length || values.size() < 2) return sweep(solver, swept, values, options);
   PathOptions path;
   path.on_pose = options.on_pose;
+  path.most_poses = std::max(path.most_poses, 4 * static_cast<int>(values.size()));
   return follow_path(solver, swept, values.front(), values.back(), largest_step(values), path);
 }
 

@@ -17,6 +17,7 @@ SweepWalk::SweepWalk(EquilibriumSolver& solver, const Swept& swept, const SweepO
 
 SweepResult SweepWalk::along(const std::vector<double>& values) {
   stops_.reserve(values.size());
+  event_tolerance_ = tolerance_of_events(walker_.swept(), values);
   for (const double value : values) step(value);
   tell();
   note_second_equilibria();
@@ -160,6 +161,7 @@ void SweepWalk::find_events(Stop& stop) {
   }
   const auto begin = std::chrono::steady_clock::now();
   EventOptions options;
+  options.tolerance = event_tolerance_;
   options.arrival = last.converged() && stop.converged() && stop.taken == nullptr;
   if (auto there = locate_events(walker_, last.at, stop.at, stop.events, options)) {
     put_in_place(std::move(*there), stop);

@@ -54,6 +54,7 @@ class SweepWalk {
   const SweepOptions& options_;
   KnownPoseIndex known_;
   EquilibriumSolver::Standing start_;
+  double event_tolerance_ = 0;  ///< of the swept value
   std::unordered_map<double, int> visits_;
   std::vector<Stop> stops_;
   std::size_t told_ = 0;  ///< stops that are final

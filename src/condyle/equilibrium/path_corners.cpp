@@ -1,0 +1,121 @@
+/// Where contacts open and close and ligaments come to lie on surfaces or leave them: the path turns there.
+
+#include <fmt/format.h>
+
+#include "condyle/equilibrium/path_follower.h"
+
+namespace condyle {
+
+ContactChanges PathFollower::changes_at(const PathPoint& point) {
+  if (!system_.assemble(point)) return {};
+  return rules_.changes(system_.linearization(point));
+}
+
+bool PathFollower::leaps_no_corner(const PathPoint& next, double length) {
+  const auto before = static_cast<std::ptrdiff_t>(located_.size());
+  SolvedPose there;
+  const bool none = !look_at(next, there) || locate_changes(there.result, length);
+  located_.erase(located_.begin() + before, located_.end());
+  return none;
+}
+
+bool PathFollower::turn_corner() {
+  PathPoint beyond = system_.ahead(point_, tangent_, kCorner * model_.length);
+  Direction way;
+  if (!told_ || !system_.revise(beyond) || !system_.tangent(beyond, way)) return false;
+  if (system_.product(way, tangent_) < 0) reverse(way);
+  for (int sense = 0; sense < 2; ++sense, reverse(way)) {
+    PathPoint next = system_.ahead(beyond, way, kCorner * model_.length);
+    SolvedPose there;
+    if (!system_.correct(next, way) || changes_at(next).any() || !look_at(next, there)) continue;
+    const std::vector<Event> found = changes(*told_, there.result, beyond.value);
+    if (found.empty()) continue;
+    for (const Event& event : found) located_.push_back({0, event});
+    if (way.value() * tangent_.value() < 0)
+      located_.push_back({0, {beyond.value, EventKind::kLimitPoint, -1}});
+    point_ = next;
+    tangent_ = way;
+    told_ = std::move(there.result);
+    return true;
+  }
+  return false;
+}
+
+double PathFollower::last_without_change(double length) {
+  double good = 0, bad = length;
+  while (bad - good > 1e-12 * model_.length + 1e-14 * length) {
+    const double middle = 0.5 * (good + bad);
+    const std::optional<PathPoint> point = at(middle);
+    (point && !changes_at(*point).any() ? good : bad) = middle;
+  }
+  return bad;
+}
+
+bool PathFollower::change_contacts(double length) {
+  const std::optional<PathPoint> there = at(length);
+  const ContactChanges changes = there ? changes_at(*there) : ContactChanges();
+  if (!changes.any()) {
+    stop("contacts could not be followed farther along the path");
+    return false;
+  }
+  Direction before;
+  system_.tangent(*there, before);
+  if (system_.product(before, tangent_) < 0) reverse(before);
+  PathPoint changed = *there;
+  const bool closes = changes.opens < 0;
+  const EventKind kind = closes ? EventKind::kClosing : EventKind::kOpening;
+  const ClosedContact& contact =
+      closes ? changes.closes[changes.deepest]
+             : there->state.contacts[static_cast<std::size_t>(changes.opens)];
+  const int pair = contact.pair;
+  Direction after;
+  if (!(closes ? close(contact, changed, after) : release(changes.opens, changed, after))) {
+    stop(fmt::format("no way on was found where contact \"{}\" is {}",
+                     model_.pairs[static_cast<std::size_t>(pair)].name, name(kind)));
+    return false;
+  }
+  locate_limit(length, before);
+  SolvedPose as_before;
+  if (look_at(*there, as_before)) (void)locate_changes(as_before.result, length);
+  located_.push_back({length, {changed.value, kind, pair}});
+  if (after.value() * before.value() < 0)
+    located_.push_back({length, {changed.value, EventKind::kLimitPoint, -1}});
+  point_ = changed;
+  tangent_ = after;
+  SolvedPose there_now;
+  if (look_at(point_, there_now))
+    told_ = std::move(there_now.result);
+  else
+    told_.reset();
+  return true;
+}
+
+bool PathFollower::release(int contact, PathPoint& point, Direction& tangent) {
+  system_.assemble(point);
+  const ContactLinearization open =
+      system_.linearization(point).contacts()[static_cast<std::size_t>(contact)];
+  point.state.contacts.erase(point.state.contacts.begin() + contact);
+  if (!settle(point, tangent)) return false;
+  if (system_.gap_rate(open, tangent) < 0) reverse(tangent);
+  return true;
+}
+
+bool PathFollower::close(const ClosedContact& contact, PathPoint& point, Direction& tangent) {
+  if (point.state.contacts.size() + point.state.sigma.size() >= kMaxConstraints) return false;
+  point.state.contacts.push_back(contact);
+  if (!settle(point, tangent)) return false;
+  // Back to where the contact touches without force: the search told of it a little later.
+  const std::size_t last = point.state.contacts.size() - 1;
+  const double rate = tangent.force(last), force = point.state.contacts[last].p;
+  if (rate == 0) return false;
+  point = system_.ahead(point, tangent, -force / rate);
+  if (rate < 0) reverse(tangent);
+  return system_.correct(point, tangent);
+}
+
+bool PathFollower::settle(PathPoint& point, Direction& tangent) {
+  return system_.tangent(point, tangent) && system_.correct(point, tangent) &&
+         system_.tangent(point, tangent);
+}
+
+}  // namespace condyle

@@ -1,0 +1,100 @@
+#pragma once
+
+/// One walk along a path of equilibria (arc_length.h): steps, corners of the path, and what happens on the way.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/equilibrium/contact_rules.h"
+#include "condyle/equilibrium/path_options.h"
+#include "condyle/equilibrium/path_system.h"
+#include "condyle/equilibrium/walker.h"
+
+namespace condyle {
+
+class PathFollower {
+ public:
+  PathFollower(EquilibriumSolver& solver,
+               const Swept& swept,
+               const Drive& drive,
+               double from,
+               double to,
+               double largest_step,
+               const PathOptions& options);
+
+  SweepResult follow();
+
+ private:
+  using Direction = PathSystem::Direction;
+  static constexpr double kCorner =
+      1e-5;  ///< a step [L] below which a path that turns has a corner
+
+  // Steps (path_follower.cpp)
+
+  static void reverse(Direction& direction);
+  void append(PoseResult pose);
+  void stop(const std::string& why);
+  bool look_at(const PathPoint& point, SolvedPose& pose);
+  /// The pose at a point `length` ahead of the present one, with all that is told about it and about the way there.
+  bool describe(const PathPoint& point, double length);
+  [[nodiscard]] double wanted_length() const;
+  /// The point of the path some length ahead of the present one.
+  std::optional<PathPoint> at(double length);
+  /// One pose further; false at the end of the path.
+  bool step();
+  bool try_step();
+  /// The length at which the swept value passes `to`, where it does within `length`.
+  std::optional<double> length_to_end(double length);
+  /// The last pose, with the swept value at `to` itself.
+  bool finish(double length, double whole);
+
+  // Where contacts and ligaments change (path_corners.cpp)
+
+  ContactChanges changes_at(const PathPoint& point);
+  /// Can all that changes on the way be located?
+  bool leaps_no_corner(const PathPoint& next, double length);
+  /// Where a ligament comes to lie on a surface or leaves it stiffness jumps, and the path may turn by any angle: on
+  /// along the tangent that it has with the ligament as it lies just ahead, in the sense in which it stays so.
+  bool turn_corner();
+  /// Bisection for the length up to which contacts push and nothing overlaps.
+  double last_without_change(double length);
+  /// Releases the contact that pulls at `length`, or closes the one that overlaps there, and turns
+  /// into the branch that agrees with it.
+  bool change_contacts(double length);
+  bool release(int contact, PathPoint& point, Direction& tangent);
+  bool close(const ClosedContact& contact, PathPoint& point, Direction& tangent);
+  /// Back to equilibrium with changed contacts, along the new path's own normal.
+  bool settle(PathPoint& point, Direction& tangent);
+
+  // Events (path_events.cpp)
+
+  /// Where the swept value stops growing between here and `length`, or begins to.
+  void locate_limit(double length, const Direction& end);
+  /// What differs but for contacts that forces and gaps close and open (change_contacts).
+  [[nodiscard]] std::vector<Event> changes(const PoseResult& before,
+                                           const PoseResult& after,
+                                           double value) const;
+  /// Where what the last pose tells changes on the way to another one that lies `length` ahead; false where the way
+  /// cannot be followed, and what was found is the least that holds it.
+  bool locate_changes(const PoseResult& last, double length);
+
+  Walker walker_;
+  const Model& model_;
+  double from_, to_, largest_step_;
+  const PathOptions& options_;
+  PathSystem system_;
+  std::vector<ContactSearch> searches_;
+  ContactRules rules_;
+  PathPoint point_;
+  std::optional<PoseResult> told_;  ///< at that point, where that is known
+  Direction tangent_;
+  struct Located {
+    double length;  ///< from the present point
+    Event event;
+  };
+  std::vector<Located> located_;  ///< in this step
+  SweepResult result_;
+};
+
+}  // namespace condyle
