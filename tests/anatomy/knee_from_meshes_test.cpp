@@ -141,7 +141,25 @@ TEST_F(NewKneeOfThePhantom, IsASceneThatCanBeRead) {
   EXPECT_LT((start_pose(scene).p - knee.start.X_FT.p).norm(), 1e-9);
   for (std::size_t l = 0; l < scene.ligaments.size(); ++l)
     EXPECT_NEAR(*scene.ligaments[l].reference_strain,
-                *knee.model.scene.ligaments[l].reference_strain, 1e-4);
+                *knee.model.scene.ligaments[l].reference_strain, 1e-8);
+}
+
+// A wrap that the template fits to some of its ligaments is fitted to those here as well.
+TEST_F(NewKneeOfThePhantom, KeepsWhichLigamentsLeadAWrap) {
+  const std::string wrapped = read_scene(kPhantom.parent_path() / "wrapped.toml").text;
+  std::string text = wrapped;
+  for (std::size_t at = 0; (at = text.find("../../meshes", at)) != std::string::npos;)
+    text.replace(at, 12, kMeshes.string());
+  const std::size_t fit = text.find("fit = \"bone\"");
+  ASSERT_NE(fit, std::string::npos);
+  text.insert(fit, "ligaments = [\"iMCL\"]\n");
+  write_output_file(folder_ / "template.toml", text);
+  NewKneeFiles asked = files({});
+  asked.template_scene = folder_ / "template.toml";
+  const fs::path file = folder_ / "knee.toml";
+  const std::string made = new_scene_text(knee_from_meshes(asked, {}), file);
+  EXPECT_NE(made.find("fit = \"bone\"\nligaments = [\"iMCL\"]"), std::string::npos) << made;
+  EXPECT_NO_THROW((void)parse_scene(made, file));
 }
 
 // Bones that were scanned 3 mm apart, as their cartilage keeps them.

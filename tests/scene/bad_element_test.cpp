@@ -134,6 +134,14 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"step = 5", "step = 5\npath = \"arc lenght\"",
                 "62: [sweep]: path = \"arc lenght\", expected \"steps\" or \"arc length\"; did you "
                 "mean \"arc length\"?"},
+        Mistake{"from = 0\nto = 120\nstep = 5", "values = [0, 5, 0]\npath = \"arc length\"",
+                "57: [sweep]: values that turn back, expected such as go one way with path = \"arc "
+                "length\": it goes "
+                "from the first to the last"},
+        Mistake{"step = 5", "step = 5\n[simulate]\ntime = 1\nhold = [\"bend\", \"bend\"]",
+                "64: [simulate]: hold = \"bend\", expected each condition once"},
+        Mistake{"step = 5", "step = 5\n[simulate]\ntime = 1\ntolerance = 1e-30",
+                "64: [simulate]: tolerance = 1e-30, expected a tolerance from 1e-13 to 1e-3"},
         Mistake{"step = 5", "setp = 5",
                 "61: [sweep]: unknown key setp = 5, did you mean \"step\"?"}));
 

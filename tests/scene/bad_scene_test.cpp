@@ -64,6 +64,10 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"start.rotation = [0, 0, 0]", "start.rotation = [0, nan, 0]",
                 "14: [[body]] \"tibia\": start.rotation = [0, nan, 0], "
                 "expected a rotation vector [x, y, z], three finite numbers"},
+        Mistake{
+            "start.rotation = [0, 0, 0]", "start.rotation = [0, 0, 360.1]",
+            "14: [[body]] \"tibia\": start.rotation = [0, 0, 360.1], expected a rotation vector of "
+            "at most one turn (suspect [units] angle)"},
         Mistake{"start.rotation = [0, 0, 0]", "start.rotaton = [0, 0, 0]",
                 "14: [[body]] \"tibia\": unknown key start.rotaton = [0, 0, 0], did you mean "
                 "\"rotation\"?"},
@@ -223,6 +227,24 @@ TEST(BadSceneFile, NamingAMeshThatDoesNotExistSaysWhereItLooked) {
                 "(there is no file " +
                 mesh + "; paths start at the scene's folder)");
   std::filesystem::remove(file);
+}
+
+// Dots of numbers in words are none of a key.
+TEST(KeyDepth, IsThatOfKeysAndNotOfComments) {
+  std::string words, parts = "a";
+  for (int i = 0; i < 300; ++i) words += "1.5 mm ", parts += ".a";
+  for (const std::string& line :
+       {"# " + words, "title = \"" + words + "\"", "title = '''\n" + words + "'''",
+        "title = \"\"\"\n\\\"" + words + "\"\"\""})
+    EXPECT_NO_THROW(
+        (void)parse_scene(small_scene_with("title = \"ball and socket\"", line), "knee.toml"))
+        << line.substr(0, 20);
+  for (const std::string& line :
+       {parts + " = 1", "\"a\" . " + parts + " = 1 # it's", "x = { " + parts + " = 1 }",
+        "x = [ '''b'''', { " + parts + " = 1 } ]"})
+    EXPECT_NE(test::message_of(small_scene_with("title = \"ball and socket\"", line))
+                  .find("1: not valid TOML: a key of more than 256 parts"),
+              std::string::npos);
 }
 
 }  // namespace

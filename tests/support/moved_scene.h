@@ -100,7 +100,7 @@ class MovedScene {
       for (const Eigen::Vector3d& p : mesh.vertices)
         out.print("v {:.17g} {:.17g} {:.17g}\n", p.x(), p.y(), p.z());
       for (const auto& [a, b, c] : mesh.triangles) out.print("f {} {} {}\n", a + 1, b + 1, c + 1);
-      return MeshFile{path, 1};
+      return MeshFile{path, 1, {}};
     };
     Scene named = moved_;
     for (std::size_t i = 0; i < named.surfaces.size(); ++i)

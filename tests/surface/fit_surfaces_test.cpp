@@ -17,6 +17,7 @@
 #include "condyle/surface/patch.h"
 #include "phantom/phantom_shape.h"
 #include "phantom/split_triangles.h"
+#include "scene/small_scene.h"
 #include "surface/fitted_knee.h"
 
 namespace condyle {
@@ -256,6 +257,19 @@ TEST(FitSurfaces, NamesTheSurfaceThatCannotBeFitted) {
   scene = knee(phantom_files());
   scene.bodies[0].mesh->to_mm = 1000;
   EXPECT_NE(complaint(scene).find("look like mm"), std::string::npos) << complaint(scene);
+}
+
+TEST(FitSurfaces, ErrorsOfAMeshBeginWithWhereTheSceneNamesIt) {
+  const fs::path file = fs::path(CONDYLE_SOURCE_DIR) / "data/phantom/knee.toml";
+  const std::string text = read_scene(file).text;
+  const std::string place = file.string() + ":13: [[body]] \"femur\": mesh: ";
+  for (const char* mesh : {"../../meshes/tibia.stl", "../../README.md"}) {
+    const Scene scene = parse_scene(with(text, "../../meshes/femur.stl", mesh), file);
+    const std::string told = complaint(scene);
+    EXPECT_EQ(told.find(place), 0) << told;
+    EXPECT_NE(told.find(fs::path(mesh).filename().string() + ": ", place.size()), std::string::npos)
+        << told;
+  }
 }
 
 // Which corner a triangle begins with says nothing of its surface, and a tool that turns faces over begins with another one.

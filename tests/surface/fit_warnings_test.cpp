@@ -48,7 +48,7 @@ struct FitWarnings : ::testing::Test {
     out.close();
     scene.bodies.resize(2);
     scene.bodies[0].name = "femur";
-    scene.bodies[0].mesh = MeshFile{file, 1};
+    scene.bodies[0].mesh = MeshFile{file, 1, {}};
     const auto frame = [](int body) {
       return AnatomicalFrame{.body = body,
                              .origin = Vector3d::Zero(),

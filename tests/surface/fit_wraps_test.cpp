@@ -128,7 +128,8 @@ TEST(FitWraps, RefusesWhatIsNoEllipsoid) {
   RigidTransform X;
   X.p = {5, 5, 0};
   const std::string message = message_of_fit(placed(bar, X));
-  EXPECT_NE(message.find("knee.toml: wrap \"rim\": fit = \"bone\": no ellipsoid is near \"tibia\""),
+  EXPECT_NE(message.find(
+                "knee.toml:40: [[wrap]] \"rim\": fit = \"bone\": no ellipsoid is near \"tibia\""),
             std::string::npos)
       << message;
   EXPECT_NE(message.find("expected at most 0.6 mm rms and semi-axes of at most 150 mm: fewer "
@@ -138,13 +139,15 @@ TEST(FitWraps, RefusesWhatIsNoEllipsoid) {
 }
 
 TEST(FitWraps, NamesMeshesThatCannotBeUsed) {
-  EXPECT_EQ(message_of_fit(test::height_sheet(30, 20, [](double, double) { return 0.0; })),
-            "knee.toml: wrap \"rim\": fit = \"bone\": the mesh of \"tibia\" does not enclose a "
-            "volume, expected a closed one");
+  EXPECT_EQ(
+      message_of_fit(test::height_sheet(30, 20, [](double, double) { return 0.0; })),
+      "knee.toml:40: [[wrap]] \"rim\": fit = \"bone\": the mesh of \"tibia\" does not enclose a "
+      "volume, expected a closed one");
   RigidTransform far;
   far.p = {200, 0, 0};
   EXPECT_EQ(message_of_fit(placed(ellipsoid_solid({9, 7, 6}, 1), far)),
-            "knee.toml: wrap \"rim\": fit = \"bone\": no string of its ligaments touches \"tibia\" "
+            "knee.toml:40: [[wrap]] \"rim\": fit = \"bone\": no string of its ligaments touches "
+            "\"tibia\" "
             "at the start pose or flexed from there, expected a body that is in their way");
 }
 

@@ -22,9 +22,9 @@ inline Scene knee(const KneeFiles& files) {
   scene.bodies.resize(2);
   scene.bodies[0].name = "femur";
   scene.bodies[0].fixed = true;
-  scene.bodies[0].mesh = MeshFile{files.femur, files.to_mm};
+  scene.bodies[0].mesh = MeshFile{files.femur, files.to_mm, {}};
   scene.bodies[1].name = "tibia";
-  scene.bodies[1].mesh = MeshFile{files.tibia, files.to_mm};
+  scene.bodies[1].mesh = MeshFile{files.tibia, files.to_mm, {}};
   const auto frame = [&](int body) {
     return AnatomicalFrame{.body = body,
                            .origin = Eigen::Vector3d::Zero(),

@@ -76,7 +76,7 @@ TEST(SlackBound, OfAStraightPathIsItsLength) {
       make_wrapped_path({{"surface", WrapSphere{5}, {}, false, {}}}, {-24, 20, 3}, {22, -6, 15});
   const LineElement line{{-24, 20, 3}, {22, -6, 15}, ToeLinearLaw{1000, 0.06, 60}, path};
   auto kept = unknown_path();
-  path->length(ends_of(line, {}), {}, kept.data());
+  (void)path->length(ends_of(line, {}), {}, kept.data());
   const RigidTransform X{Eigen::Matrix3d::Identity(), {4, 3, -2}};
   EXPECT_NEAR(path->at_most(ends_of(line, X), X, kept.data()), (X * line.s_D - line.x_C).norm(),
               1e-12);
@@ -91,7 +91,7 @@ TEST(SlackBound, LengthsAreThoseOfAFreshPath) {
     auto kept = unknown_path(), fresh = kept;
     const RigidTransform X{exp_rotation({0.01, -0.02, 0.01}), {0.4, -0.3, 0.2}};
     Wrench unit;
-    path->length(ends_of(line, {}), {}, kept.data());
+    (void)path->length(ends_of(line, {}), {}, kept.data());
     const double pulled = path->pull(ends_of(line, X), X, kept.data(), unit);
     EXPECT_EQ(path->length(ends_of(line, X), X, kept.data()), pulled);
     EXPECT_NEAR(path->length(ends_of(line, X), X, fresh.data()), pulled, 1e-9);

@@ -115,7 +115,7 @@ void MeshFiles::write(const Texture& texture, Scene& scene) {
     std::ofstream out(file, std::ios::binary);
     if (!out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush())
       throw std::runtime_error("cannot write " + file.string());
-    body.mesh = MeshFile{file, 1};
+    body.mesh = MeshFile{file, 1, {}};
   }
 }
 

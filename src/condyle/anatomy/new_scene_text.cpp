@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <set>
@@ -29,6 +30,8 @@ std::string number(double value) {
   if (text.back() == '.') text.pop_back();
   return text == "-0" ? "0" : text;
 }
+/// As the template has it, without unit: to 1e-9 of itself.
+std::string ratio(double value) { return fmt::format("{:.9g}", value); }
 std::string point(const Vector3d& v) {
   return fmt::format("[{}, {}, {}]", number(v.x()), number(v.y()), number(v.z()));
 }
@@ -153,11 +156,12 @@ class SceneText {
 
   void add_law(const LigamentDescription& from, double strain) {
     if (const auto* law = std::get_if<ToeLinearLaw>(&from.law))
-      line("law = \"toe-linear\"\nstiffness = {}\ntransition_strain = {}", number(law->stiffness),
-           number(law->transition_strain));
+      line("law = \"toe-linear\"\nstiffness = {}\ntransition_strain = {}", ratio(law->stiffness),
+           ratio(law->transition_strain));
     else
-      line("law = \"quadratic\"\nstiffness = {:.6g}", std::get<QuadraticLaw>(from.law).stiffness);
-    line("reference_strain = {}", number(strain));
+      line("law = \"quadratic\"\nstiffness = {}",
+           ratio(std::get<QuadraticLaw>(from.law).stiffness));
+    line("reference_strain = {}", ratio(strain));
   }
 
   /// Of the template, on the new bones.
@@ -176,7 +180,27 @@ class SceneText {
       const WrapDescription& from = scene.wraps[static_cast<std::size_t>(wrap)];
       line("\n[[wrap]]\nname = {}\nbody = \"{}\"\nkind = \"ellipsoid\"\nfit = \"bone\"",
            scene_string(from.name), from.body == scene.joint->femur.body ? "femur" : "tibia");
+      add_leading(wrap, *from.fit);
     }
+  }
+
+  /// Of a wrap that the template fits to some of its ligaments only: those of them that there are.
+  void add_leading(int wrap, const BoneFit& fit) {
+    std::string names;
+    bool all = true;
+    for (const NewLigament& ligament : knee_.ligaments) {
+      const std::vector<int> wraps = wraps_of(ligament);
+      if (std::find(wraps.begin(), wraps.end(), wrap) == wraps.end()) continue;
+      const bool leads = std::find(fit.ligaments.begin(), fit.ligaments.end(),
+                                   ligament.of_template) != fit.ligaments.end();
+      all = all && leads;
+      if (leads) names += (names.empty() ? "" : ", ") + scene_string(name_of(ligament));
+    }
+    if (!all && !names.empty()) line("ligaments = [{}]", names);
+  }
+
+  [[nodiscard]] const std::string& name_of(const NewLigament& ligament) const {
+    return knee_.model.scene.ligaments[static_cast<std::size_t>(ligament.of_template)].name;
   }
 
   void add_ligaments() {

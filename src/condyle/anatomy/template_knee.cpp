@@ -6,12 +6,12 @@
 
 #include "condyle/input_error.h"
 #include "condyle/mesh/clean_mesh.h"
-#include "condyle/mesh_files/load_mesh.h"
 #include "condyle/scene/ligament_path.h"
 #include "condyle/scene/start_pose.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/specimen/fit_wraps.h"
+#include "condyle/specimen/mesh_reader.h"
 
 namespace condyle {
 namespace {
@@ -71,7 +71,7 @@ TriangleMesh cartilage_of(const Scene& scene, int body) {
   for (const SurfaceDescription& surface : scene.surfaces) {
     const std::optional<MeshFile>& file = surface.patch.mesh;
     if (surface.body != body || !file || !seen.insert(file->path).second) continue;
-    append(all, load_mesh(file->path, file->to_mm));
+    append(all, load_mesh(*file));
   }
   return all;
 }

@@ -7,6 +7,7 @@
 #include "condyle/elements/law_rates.h"
 #include "condyle/elements/line_element.h"
 #include "condyle/input_error.h"
+#include "condyle/scene/scene_place.h"
 #include "condyle/scene/start_pose.h"
 
 namespace condyle {
@@ -148,8 +149,8 @@ void settle_fitted_paths(Scene& scene) {
     if (!fitted) continue;
     const StartPath start = start_path(scene, ligament);
     if (!start.key.empty())
-      throw InputError(fmt::format("{}: ligament \"{}\": {}: expected {}", scene.file.string(),
-                                   ligament.name, start.key, start.expected));
+      throw InputError(
+          fmt::format("{}: {}: expected {}", place_of(scene, ligament), start.key, start.expected));
     if (ligament.reference_strain)
       set_slack_length(ligament.law, start.length / (1 + *ligament.reference_strain));
   }

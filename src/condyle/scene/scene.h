@@ -33,6 +33,12 @@ namespace condyle {
 struct MeshFile {
   std::filesystem::path path;  ///< as it can be opened: already joined with the folder of the scene
   double to_mm = 1;            ///< factor from the file's unit to mm
+  std::string named_at;        ///< file, line, table and key of the scene, for messages
+
+  /// Whether both stand for one mesh, wherever they are named.
+  [[nodiscard]] bool is(const MeshFile& other) const {
+    return path == other.path && to_mm == other.to_mm;
+  }
 };
 
 struct BodyDescription {
@@ -133,6 +139,7 @@ struct Attachment {
 /// A smooth surface that ligaments wrap on.
 struct WrapDescription {
   std::string name;
+  int line = 0;  ///< where its table stands in the file, for messages
   int body = -1;
   WrapShape shape;
   RigidTransform placement;  ///< from the surface's frame to that of the body [mm]
@@ -155,6 +162,7 @@ struct LigamentWraps {
 
 struct LigamentDescription {
   std::string name;
+  int line = 0;  ///< where its table stands in the file, for messages
   std::array<Attachment, 2> ends;
   ForceLaw law;
   LigamentWraps path;  ///< no wraps: straight
@@ -258,6 +266,12 @@ struct Scene {
     for (std::size_t i = 0; i < bodies.size(); ++i)
       if (bodies[i].fixed) return static_cast<int>(i);
     return -1;
+  }
+  /// The mesh that a patch is cut from, its own or that of its body; null where neither names one.
+  [[nodiscard]] const MeshFile* mesh_of(const SurfaceDescription& surface) const {
+    if (surface.patch.mesh) return &*surface.patch.mesh;
+    const BodyDescription& body = bodies[static_cast<std::size_t>(surface.body)];
+    return body.mesh ? &*body.mesh : nullptr;
   }
   /// The moving body (one today).
   [[nodiscard]] int moving_body() const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "condyle/scene/usable_number.h"
 
@@ -99,8 +100,21 @@ SweptQuantity quantity_of_motion() {
           .axis = "Time [s]"};
 }
 
+namespace {
+
+bool go_one_way(const std::vector<double>& values) {
+  return std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end() ||
+         std::adjacent_find(values.begin(), values.end(), std::less_equal<>()) == values.end();
+}
+
+}  // namespace
+
 std::string fault_of_values(const Scene& scene) {
   const SweepDescription& sweep = *scene.sweep;
+  if (sweep.arc_length && !go_one_way(sweep.values))
+    return "values that turn back, expected such as go one way with path = \"arc length\": it goes "
+           "from the first to "
+           "the last";
   if (sweep.varies_load) return {};
   const ConditionKind kind = scene.conditions[static_cast<std::size_t>(sweep.index)].kind;
   const auto [least, most] = std::minmax_element(sweep.values.begin(), sweep.values.end());

@@ -86,11 +86,10 @@ const std::string& body_name(const Scene& scene, int body) {
 std::string source_of(const Scene& scene, const SurfaceDescription& surface) {
   if (surface.kind != SurfaceKind::kPatch) return surface.solid_inside ? "" : ", solid outside";
   const PatchDescription& patch = surface.patch;
-  const BodyDescription& body = scene.bodies[static_cast<std::size_t>(surface.body)];
   const std::string part = !patch.compartment                           ? "region"
                            : *patch.compartment == Compartment::kMedial ? "medial compartment"
                                                                         : "lateral compartment";
-  const MeshFile& mesh = patch.mesh ? *patch.mesh : *body.mesh;
+  const MeshFile& mesh = *scene.mesh_of(surface);
   return fmt::format(", {} of {}{}", part, mesh.path.filename().string(),
                      patch.offset > 0 ? fmt::format(", moved {:g} mm out", patch.offset) : "");
 }

@@ -103,12 +103,35 @@ std::string shortened(std::string text) {
   return text.substr(0, end) + "...";
 }
 
+/// Where a comment or a quoted text that begins at `i` ends: at its last character; `i` where none begins.
+std::size_t end_of_words(const std::string& text, std::size_t i) {
+  const auto last = [&](std::size_t found, std::size_t size) {
+    return found == std::string::npos ? text.size() - 1 : found + size - 1;
+  };
+  const char c = text[i];
+  if (c == '#') return last(text.find('\n', i), 0);
+  if (c != '"' && c != '\'') return i;
+  const std::string three(3, c);
+  const bool long_text = text.compare(i, 3, three) == 0;
+  for (std::size_t k = i + (long_text ? 3 : 1); k < text.size(); ++k) {
+    if (c == '"' && text[k] == '\\')
+      ++k;
+    else if (long_text ? text.compare(k, 3, three) == 0 : text[k] == c || text[k] == '\n')
+      return std::min(text.find_first_not_of(c, k + (long_text ? 3 : 1)), k + (long_text ? 5 : 1)) -
+             1;
+  }
+  return text.size() - 1;
+}
+
 /// toml++ bounds the depth of values but not that of keys, and whatever visits a tree as deep as a.a.a... runs
 /// out of stack.
 void check_key_depth(const std::string& text, const std::string& file) {
   constexpr int kMostParts = 256;
   int line = 1, dots = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::size_t end = end_of_words(text, i);
+    line += static_cast<int>(std::count(text.begin() + i, text.begin() + end, '\n'));
+    i = end;
     if (text[i] == '\n') ++line;
     if (std::string_view("\n,=[]{}").find(text[i]) != std::string_view::npos) dots = 0;
     if (text[i] == '.' && i + 1 < text.size() && text[i + 1] != '.') ++dots;

@@ -47,7 +47,7 @@ void read_start(const Section& start, const Scene& scene, BodyDescription& body)
       start.has("flexion") || start.has("adduction") || start.has("internal_rotation");
   if (start.has("rotation")) {
     if (angles) start.fail("rotation", "either a rotation vector or joint angles, not both");
-    body.start_rotation = scene.angle_to_rad * start.vector("rotation", "a rotation vector");
+    body.start_rotation = read_rotation(start, "rotation", scene);
   }
   if (angles) {
     const auto angle = [&](const char* key) {

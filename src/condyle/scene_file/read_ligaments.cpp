@@ -144,6 +144,7 @@ LigamentDescription read_ligament(const Section& section,
                                   double& start_length) {
   LigamentDescription ligament;
   ligament.name = read_name(section, names_of(scene.ligaments));
+  ligament.line = section.line();
   ligament.ends = read_ends(section, scene);
   constexpr double kLeast = 1e-9;  // [mm]
   if (!(distance_between(scene, ligament.ends, start_pose(scene)) > kLeast))

@@ -125,7 +125,7 @@ std::optional<MeshFile> read_mesh_file(const Section& section, const Scene& scen
                                                                           : "there is no file",
                                      path.lexically_normal().string()));
   }
-  return MeshFile{path, to_mm};
+  return MeshFile{path, to_mm, section.place("mesh")};
 }
 
 std::array<Attachment, 2> read_ends(const Section& section, const Scene& scene) {
@@ -147,7 +147,7 @@ Eigen::Matrix3d read_axes(const Section& section, const std::string& key, const 
       "a rotation vector [x, y, z] or three directions [[x, y, z], [..], [..]]";
   const Value& value = section.value(key, expected);
   if (value.type == Value::Type::kArray && !value.items.empty() && value.items[0].is_number()) {
-    return exp_rotation(scene.angle_to_rad * section.vector(key, "a rotation vector"));
+    return exp_rotation(read_rotation(section, key, scene));
   }
   const std::vector<Eigen::Vector3d> directions = section.vectors(key, expected);
   if (directions.size() != 3) section.fail(key, expected);

@@ -35,6 +35,11 @@ void read_calibration(const Section& root, Scene& scene);
 /// An angle [rad]. Throws for one beyond a turn, whose unit is mistaken.
 [[nodiscard]] double read_angle(const Section& section, const std::string& key, const Scene& scene);
 
+/// A rotation vector [rad], likewise.
+[[nodiscard]] Eigen::Vector3d read_rotation(const Section& section,
+                                            const std::string& key,
+                                            const Scene& scene);
+
 /// The keys `law` and what belongs to it, of a contact whose surfaces and state are known; `root`
 /// for messages about its surfaces.
 void read_layers(const Section& root,

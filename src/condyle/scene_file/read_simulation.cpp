@@ -56,6 +56,8 @@ void read_held(const Section& section, const Scene& scene, SimulationDescription
   for (const Value& name : held.items) {
     const int index =
         section.reference("hold", name, "the name of a condition", names_of(scene.conditions));
+    if (std::find(simulation.hold.begin(), simulation.hold.end(), index) != simulation.hold.end())
+      section.fail("hold", name, "each condition once");
     simulation.hold.push_back(index);
   }
 }
@@ -89,9 +91,10 @@ void read_simulation(const Section& root, Scene& scene) {
   simulation.restitution = section.number_or("restitution", 0, "a number from 0 to 1");
   if (simulation.restitution < 0 || simulation.restitution > 1)
     section.fail("restitution", "a number from 0 to 1");
-  constexpr double kCoarsest = 1e-3;
+  constexpr double kCoarsest = 1e-3, kFinest = 1e-13;  // rounding leaves the integrator no less
   simulation.tolerance = section.number_or("tolerance", 1e-9, "a tolerance", Range::kPositive);
-  if (simulation.tolerance > kCoarsest) section.fail("tolerance", "a tolerance of at most 1e-3");
+  if (simulation.tolerance > kCoarsest || simulation.tolerance < kFinest)
+    section.fail("tolerance", "a tolerance from 1e-13 to 1e-3");
   simulation.viscous_time =
       section.number_or("viscous_time", 0, "a time in s", Range::kNotNegative);
   if (section.has("hold")) read_held(section, scene, simulation);

@@ -25,7 +25,7 @@ Eigen::Matrix3d about(const Eigen::Vector3d& axis) {
 }
 
 WrapDescription wrap_of(const SurfaceDescription& surface) {
-  WrapDescription wrap{surface.name, surface.body, WrapSphere{surface.radius}, {}};
+  WrapDescription wrap{surface.name, surface.line, surface.body, WrapSphere{surface.radius}, {}};
   wrap.placement.p = surface.point;
   if (surface.kind == SurfaceKind::kEllipsoid) {
     wrap.shape = WrapEllipsoid{surface.semi_axes};
@@ -62,6 +62,7 @@ WrapDescription read_wrap(const Section& section, const Scene& scene) {
                                              {"torus", SurfaceKind::kTorus}};
   SurfaceDescription surface;
   surface.name = read_name(section, names_of(scene.wraps));
+  surface.line = section.line();
   surface.body = section.reference("body", "the name of a body", names_of(scene.bodies));
   surface.kind = section.choice("kind", kinds);
   std::optional<BoneFit> fit;

@@ -212,9 +212,16 @@ int Section::reference(const std::string& key,
   fail(key, name, expected);
 }
 
+std::string Section::place_at(int line) const {
+  return fmt::format("{}:{}: {}", source_->file, line, label_.empty() ? "" : label_ + ": ");
+}
+
+std::string Section::place(const std::string& key) const {
+  return fmt::format("{}{}{}", place_at(table_->find(key)->line), prefix_, key);
+}
+
 void Section::fail_at(int line, const std::string& message) const {
-  const std::string place = label_.empty() ? "" : label_ + ": ";
-  throw InputError(fmt::format("{}:{}: {}{}", source_->file, line, place, message));
+  throw InputError(place_at(line) + message);
 }
 
 void Section::fail(const std::string& key, const Value& value, const std::string& expected) const {

@@ -74,6 +74,8 @@ class Section {
                               const std::string& what,
                               const std::vector<std::string>& names) const;
 
+  /// What an error about a key that is there begins with: file, line, table and key.
+  [[nodiscard]] std::string place(const std::string& key) const;
   /// "key = value, expected ..."
   [[noreturn]] void fail(const std::string& key, const std::string& expected) const;
   [[noreturn]] void fail(const std::string& key,
@@ -94,6 +96,7 @@ class Section {
   [[nodiscard]] Eigen::Vector3d vector_of(const std::string& key,
                                           const Value& value,
                                           const std::string& expected) const;
+  [[nodiscard]] std::string place_at(int line) const;
   [[noreturn]] void fail_at(int line, const std::string& message) const;
   [[noreturn]] void fail_missing(const std::string& key, const std::string& expected) const;
   [[noreturn]] void fail_unknown(const std::string& key, const Value& value) const;

@@ -13,7 +13,7 @@
 
 #include "condyle/input_error.h"
 #include "condyle/mesh/clean_mesh.h"
-#include "condyle/mesh_files/load_mesh.h"
+#include "condyle/scene/scene_place.h"
 #include "condyle/specimen/check_layers.h"
 #include "condyle/specimen/fit_keys.h"
 #include "condyle/specimen/patch_sources.h"
@@ -234,9 +234,7 @@ std::vector<FittedSurface> fit_surfaces(const Scene& scene,
                                         int threads) {
   std::vector<PatchSource> sources = collect_sources(scene);
   std::vector<FittedSurface> surfaces(scene.surfaces.size());
-  const MeshReader from_file = [](const MeshFile& file) {
-    return load_mesh(file.path, file.to_mm);
-  };
+  const MeshReader from_file = [](const MeshFile& file) { return load_mesh(file); };
   fit_sources(scene, read ? read : from_file, sources, surfaces, on_patch, threads);
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     if (scene.surfaces[i].kind != SurfaceKind::kPatch)
@@ -247,7 +245,7 @@ std::vector<FittedSurface> fit_surfaces(const Scene& scene,
 
 TriangleMesh load_body_mesh(const BodyDescription& body) {
   if (!body.mesh) return {};
-  return clean_mesh(load_mesh(body.mesh->path, body.mesh->to_mm)).mesh;
+  return clean_mesh(load_mesh(*body.mesh)).mesh;
 }
 
 TriangleMesh body_mesh(const Scene& scene, int body, const std::vector<FittedSurface>& surfaces) {

@@ -12,6 +12,7 @@
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/mesh/orient_mesh.h"
 #include "condyle/scene/ligament_path.h"
+#include "condyle/scene/scene_place.h"
 #include "condyle/specimen/bone_string.h"
 #include "condyle/specimen/fit_ellipsoid.h"
 #include "condyle/specimen/fit_surfaces.h"
@@ -35,7 +36,7 @@ const std::string& body_of(const Scene& scene, const WrapDescription& wrap) {
 }
 
 [[noreturn]] void refuse(const Scene& scene, const WrapDescription& wrap, const std::string& why) {
-  throw InputError(fmt::format("{}: wrap \"{}\": {}", scene.file.string(), wrap.name, why));
+  throw InputError(fmt::format("{}: {}", place_of(scene, wrap), why));
 }
 
 /// Poses in which the far end would lie in the bone are none.

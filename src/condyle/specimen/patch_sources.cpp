@@ -8,18 +8,17 @@
 #include "condyle/input_error.h"
 #include "condyle/mesh/drop_flat_vertices.h"
 #include "condyle/mesh/mesh_measures.h"
+#include "condyle/scene/scene_place.h"
 #include "condyle/surface/bone_check.h"
 
 namespace condyle {
 namespace {
 
 MeshFile mesh_of(const Scene& scene, const SurfaceDescription& surface) {
-  if (surface.patch.mesh) return *surface.patch.mesh;
-  const BodyDescription& body = scene.bodies[surface.body];
-  if (body.mesh) return *body.mesh;
+  if (const MeshFile* mesh = scene.mesh_of(surface)) return *mesh;
   throw InputError(fmt::format(
       "{}: kind = \"patch\" needs a mesh: neither the surface nor its body \"{}\" names one",
-      place_of(scene, surface), body.name));
+      place_of(scene, surface), scene.bodies[surface.body].name));
 }
 
 void check_patch(const Scene& scene, const SurfaceDescription& surface) {
@@ -74,11 +73,6 @@ Eigen::Vector3d middle_of(const TriangleMesh& mesh) {
 
 }  // namespace
 
-std::string place_of(const Scene& scene, const SurfaceDescription& surface) {
-  const std::string line = surface.line > 0 ? fmt::format(":{}", surface.line) : "";
-  return fmt::format("{}{}: [[surface]] \"{}\"", scene.file.string(), line, surface.name);
-}
-
 std::vector<PatchSource> collect_sources(const Scene& scene) {
   std::vector<PatchSource> sources;
   for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
@@ -87,7 +81,7 @@ std::vector<PatchSource> collect_sources(const Scene& scene) {
     check_patch(scene, surface);
     const MeshFile file = mesh_of(scene, surface);
     auto source = std::find_if(sources.begin(), sources.end(), [&](const PatchSource& s) {
-      return s.body == surface.body && s.file.path == file.path && s.file.to_mm == file.to_mm;
+      return s.body == surface.body && s.file.is(file);
     });
     if (source == sources.end()) {
       sources.push_back({.file = file,
@@ -151,7 +145,8 @@ void load_source(const Scene& scene, const MeshReader& read, PatchSource& source
         fit_condylar_axis(mesh, vertex_normals(mesh), bone_frame(scene.joint->femur, source));
     check_is_femur(*source.axis);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", source.file.path.string(), error.what()));
+    throw error_of_mesh(source.file,
+                        fmt::format("{}: {}", source.file.path.string(), error.what()));
   }
 }
 

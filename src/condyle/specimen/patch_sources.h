@@ -29,9 +29,6 @@ struct PatchSource {
   std::vector<std::string> notes;
 };
 
-/// What an error about a surface begins with.
-[[nodiscard]] std::string place_of(const Scene& scene, const SurfaceDescription& surface);
-
 /// Patches by mesh, so that each file is read once per body. Throws InputError where a patch names no mesh or no part of it.
 [[nodiscard]] std::vector<PatchSource> collect_sources(const Scene& scene);
 

@@ -33,14 +33,11 @@ struct SmoothKnee {
 std::size_t mesh_of(const std::vector<FittedMesh>& meshes,
                     const Scene& scene,
                     const SurfaceDescription& surface) {
-  const MeshFile& file =
-      surface.patch.mesh ? *surface.patch.mesh : *scene.bodies[surface.body].mesh;
-  return static_cast<std::size_t>(std::find_if(meshes.begin(), meshes.end(),
-                                               [&](const FittedMesh& mesh) {
-                                                 return mesh.file.path == file.path &&
-                                                        mesh.file.to_mm == file.to_mm;
-                                               }) -
-                                  meshes.begin());
+  const MeshFile& file = *scene.mesh_of(surface);
+  return static_cast<std::size_t>(
+      std::find_if(meshes.begin(), meshes.end(),
+                   [&](const FittedMesh& mesh) { return mesh.file.is(file); }) -
+      meshes.begin());
 }
 
 /// A vertex over two patches belongs to the first.

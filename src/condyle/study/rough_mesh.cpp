@@ -12,7 +12,6 @@
 #include "condyle/design/normal_draws.h"
 #include "condyle/mesh/clean_mesh.h"
 #include "condyle/mesh/mesh_measures.h"
-#include "condyle/mesh_files/load_mesh.h"
 #include "condyle/specimen/fit_surfaces.h"
 
 namespace condyle {
@@ -92,14 +91,6 @@ std::vector<int> vertices_near(const TriangleMesh& mesh,
   return near;
 }
 
-bool same_file(const MeshFile& a, const MeshFile& b) {
-  return a.path == b.path && a.to_mm == b.to_mm;
-}
-
-const MeshFile& mesh_of_patch(const Scene& scene, const SurfaceDescription& surface) {
-  return surface.patch.mesh ? *surface.patch.mesh : *scene.bodies[surface.body].mesh;
-}
-
 FittedMesh fitted_mesh(const Scene& scene,
                        const std::vector<FittedSurface>& surfaces,
                        const MeshFile& file) {
@@ -108,12 +99,11 @@ FittedMesh fitted_mesh(const Scene& scene,
   std::vector<const TriangleMesh*> regions;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const SurfaceDescription& surface = scene.surfaces[i];
-    if (surface.kind != SurfaceKind::kPatch || !same_file(mesh_of_patch(scene, surface), file))
-      continue;
+    if (surface.kind != SurfaceKind::kPatch || !scene.mesh_of(surface)->is(file)) continue;
     regions.push_back(&surfaces[i].region);
     if (fitted.mesh.vertices.empty() && surfaces[i].bone) fitted.mesh = *surfaces[i].bone;
   }
-  if (fitted.mesh.vertices.empty()) fitted.mesh = clean_mesh(load_mesh(file.path, file.to_mm)).mesh;
+  if (fitted.mesh.vertices.empty()) fitted.mesh = clean_mesh(load_mesh(file)).mesh;
   fitted.middle = mean_of(fitted.mesh.vertices);
   fitted.moved = vertices_near(fitted.mesh, regions);
   const std::vector<Eigen::Vector3d> normals = vertex_normals(fitted.mesh);
@@ -180,9 +170,9 @@ std::vector<FittedMesh> fitted_meshes(const Scene& scene,
   std::vector<FittedMesh> meshes;
   for (const SurfaceDescription& surface : scene.surfaces) {
     if (surface.kind != SurfaceKind::kPatch) continue;
-    const MeshFile& file = mesh_of_patch(scene, surface);
+    const MeshFile& file = *scene.mesh_of(surface);
     if (std::none_of(meshes.begin(), meshes.end(),
-                     [&](const FittedMesh& mesh) { return same_file(mesh.file, file); }))
+                     [&](const FittedMesh& mesh) { return mesh.file.is(file); }))
       meshes.push_back(fitted_mesh(scene, surfaces, file));
   }
   return meshes;
@@ -195,7 +185,7 @@ std::vector<FittedSurface> roughened_surfaces(const Scene& scene,
   if (meshes.empty()) return surfaces;
   const MeshReader read = [&](const MeshFile& file) {
     const auto mesh = std::find_if(meshes.begin(), meshes.end(),
-                                   [&](const FittedMesh& m) { return same_file(m.file, file); });
+                                   [&](const FittedMesh& m) { return m.file.is(file); });
     return roughened(*mesh, roughness, static_cast<std::uint64_t>(mesh - meshes.begin()));
   };
   std::vector<FittedSurface> rough = fit_surfaces(scene, {}, read, 1);
