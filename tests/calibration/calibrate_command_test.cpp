@@ -8,6 +8,8 @@
 #include "app/run_program.h"
 #include "condyle/calibration/calibration.h"
 #include "condyle/calibration/predictions.h"
+#include "condyle/results/calibration_journal.h"
+#include "condyle/results/line_file.h"
 #include "condyle/results/run_file.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
@@ -146,7 +148,7 @@ TEST_F(CalibrateCommand, ResumesWithTheSameSceneAndTableOnly) {
 TEST_F(CalibrateCommand, RefusesBadInputInOneLineAndWritesNothing) {
   const std::vector<std::string> before = results();
   expect_bad_input(run("calibrate knee.toml -o measured.csv"),
-                   "measured.csv: is read by this command, expected another file to write");
+                   "measured.csv: expected a name that ends in .h5");
   expect_bad_input(run("calibrate knee.toml -o fit.h5 --scene knee.toml"),
                    "knee.toml: is read by this command, expected another file to write");
   expect_bad_input(run("calibrate knee.toml -o fit.h5 --table ./fit.h5"),
@@ -179,6 +181,39 @@ TEST_F(CalibrateCommand, OthersSayThatACalibrationHoldsNoPoses) {
   EXPECT_NE(verified.err.find("holds no poses (a calibration stores none)"), std::string::npos);
   expect_bad_input(run("sweep knee.toml -o fit.h5 --resume --quiet"),
                    "fit.h5: is no sweep, expected the result of condyle sweep");
+}
+
+// A ball on a plane, and nothing that holds it there: its rows have no derivatives.
+TEST_F(CalibrateCommand, APoseThatIsNeutralIsNamedBeforeTheWork) {
+  std::string text = with(kSmallScene, "slack_length = 30", "slack_length = 60");
+  text = text.substr(0, text.find("[[load]]"));
+  write("neutral.toml", text +
+                            "[calibrate]\nmeasurements = \"neutral.csv\"\n[[calibrate.parameter]]\n"
+                            "of = \"*\"\nwhat = \"stiffness\"\nprior_sd = 0.3\n");
+  write("neutral.csv",
+        "test,flexion,load,level,coordinate,value,sd,use\na,0,none,0,anterior_drawer,1,0.2,fit\n");
+  const Outcome outcome = run("calibrate neutral.toml -o fit.h5");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("neutral.csv:2"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("no derivatives"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(at("fit.h5")));
+  EXPECT_FALSE(fs::exists(at("fit.h5.journal")));
+}
+
+// One that went on may begin with worse numbers than those that it took over.
+TEST_F(CalibrateCommand, AJournalGivesTheNumbersOfTheLeastCost) {
+  const Scene scene = read_scene(folder_ / "knee.toml");
+  const CalibrationIdentity identity = calibration_identity(scene, fit_surfaces(scene));
+  const fs::path path = folder_ / "some.journal";
+  LineFile file(path);
+  CalibrationJournal journal(file, identity, 0);
+  journal.append(Eigen::Vector2d(1, 2), 3);
+  journal.append(Eigen::Vector2d(0.1, 0.25), 2);
+  journal.append(Eigen::Vector2d(7, 8), 2.5);
+  const CalibrationContents read = read_calibration_journal(path, identity, scene);
+  ASSERT_TRUE(read.best);
+  EXPECT_EQ(*read.best, Eigen::VectorXd(Eigen::Vector2d(0.1, 0.25)));
+  EXPECT_EQ(read.whole_bytes, fs::file_size(path));
 }
 
 }  // namespace

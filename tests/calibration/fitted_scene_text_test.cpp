@@ -219,6 +219,14 @@ TEST(FittedSceneText, PathsAreToldFromItsOwnFolder) {
             fitted_scene_text(scene, {}).size());
 }
 
+TEST(FittedSceneText, AByteOrderMarkStaysNoPartOfIt) {
+  Scene scene = scene_in("mm", "deg");
+  scene.text = "\xEF\xBB\xBF" + scene.text;
+  const std::string text = fitted_scene_text(scene, {});
+  EXPECT_EQ(text.find("\xEF\xBB\xBF"), std::string::npos);
+  EXPECT_NO_THROW((void)parse_scene(text, "fitted.toml"));
+}
+
 TEST(TextEdit, NumbersAreReadBackToTheLastBit) {
   for (const double unit : {1.0, 10.0, 1000.0, M_PI / 180})
     for (int k = 1; k < 2000; ++k) {

@@ -140,6 +140,21 @@ TEST(StudyPlan, EachKneeIsCutAtBoundsOfItsOwn) {
   EXPECT_LE(farthest[1], 0.001);
 }
 
+// Read in the units of each scene it would be another one.
+TEST(StudyPlan, ASpreadIsOneOfAllKnees) {
+  ReadStudy study = small_study("wismans-type/knee.toml", 50);
+  study.scenes.push_back(study.scenes[0]);
+  study.varied.push_back(study.varied[0]);
+  study.varied[1][0].number.prior_sd *= 10;
+  try {
+    (void)study_plan(study);
+    FAIL() << "expected an InputError";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("expected one for all knees"), std::string::npos)
+        << error.what();
+  }
+}
+
 class StudyTable : public testing::Test {
  protected:
   StudyPlan plan_of(const std::string& text, bool values = false) {

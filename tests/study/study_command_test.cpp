@@ -189,7 +189,7 @@ TEST_F(StudyCommandLine, MergesOnlyWhatIsThere) {
 TEST_F(StudyCommandLine, RefusesBadInputInOneLineAndWritesNothing) {
   const std::vector<std::string> before = results();
   const std::string read = "is read by this command, expected another file to write";
-  expect_bad_input(study("-o study.toml"), "study.toml: " + read);
+  expect_bad_input(study("-o study.toml"), "study.toml: expected a name that ends in .h5");
   expect_bad_input(study("-o s.h5 --bands knee.toml"), "knee.toml: " + read);
   expect_bad_input(study("-o s.h5 --bands ./s.h5"),
                    "./s.h5: is to be written twice, expected a file for each");

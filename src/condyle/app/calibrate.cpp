@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "condyle/app/talk.h"
 #include "condyle/app/tell.h"
 #include "condyle/calibration/calibration_words.h"
+#include "condyle/calibration/free_parameter.h"
 #include "condyle/input_error.h"
 #include "condyle/results/calibration_journal.h"
 #include "condyle/results/journal.h"
@@ -61,6 +63,27 @@ void check_files(const CalibrateCommand& command, const Scene& scene) {
   expect_calibration_journal(journal_path(command.output));
 }
 
+/// The text says of such a wrap that it is to be fitted, and reading it fits it to insertions that have moved; the
+/// calibration kept the one of the scene.
+void warn_of_wraps(const CalibrateCommand& command, const Scene& scene, const Scene& changed) {
+  if (command.talk.quiet) return;
+  for (const WrapDescription& wrap : scene.wraps) {
+    const bool moved =
+        wrap.fit &&
+        std::any_of(wrap.fit->ligaments.begin(), wrap.fit->ligaments.end(), [&](int index) {
+          const auto i = static_cast<std::size_t>(index);
+          const auto &was = scene.ligaments[i].ends, &is = changed.ligaments[i].ends;
+          return was[0].at != is[0].at || was[1].at != is[1].at;
+        });
+    if (moved)
+      tell(stderr,
+           "condyle: warning: wrap \"{}\" is fitted anew where {} is read, as insertions of its "
+           "ligaments are free: "
+           "poses there differ a little from those of the calibration\n",
+           wrap.name, command.fitted_scene);
+  }
+}
+
 /// Before the long work: every number that may change has a place in the text.
 void check_text(const CalibrateCommand& command,
                 const Scene& scene,
@@ -74,6 +97,9 @@ void check_text(const CalibrateCommand& command,
   changed.fit.theta =
       Eigen::VectorXd::Constant(static_cast<Eigen::Index>(changed.parameters.size()), kSomeChange);
   (void)fitted_scene_text(scene, changed, command.fitted_scene);
+  const Eigen::VectorXd& theta = changed.fit.theta;
+  warn_of_wraps(command, scene,
+                scene_with(scene, changed.parameters, {theta.begin(), theta.end()}));
 }
 
 /// What a journal holds of an earlier run, and a word about it.

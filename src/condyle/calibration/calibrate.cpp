@@ -55,7 +55,7 @@ VectorXd first_start(const CalibrationOptions& options, KneeFit& knee) {
     start = *options.from;
   }
   start = start.cwiseMax(rows.lower).cwiseMin(rows.upper);
-  return nearest_start(knee.worker(), start);
+  return reach(knee.worker(), start) ? start : nearest_start(knee.worker(), start);
 }
 
 LeastSquaresResult first_fit(const CalibrationOptions& options,
@@ -88,7 +88,9 @@ void search(const CalibrationOptions& options,
   const auto begin = std::chrono::steady_clock::now();
   std::vector<LeastSquaresResult> fits = {first_fit(options, knee, better, progress)};
   result.fit_seconds = seconds_since(begin);
-  if (!progress.stopped()) {
+  // Without a prior there is nothing to draw other starts from.
+  if (!progress.stopped() &&
+      std::any_of(result.prior_sd.begin(), result.prior_sd.end(), has_prior)) {
     std::vector<LeastSquaresResult> others =
         fit_from_prior(knee.problem(), options.starts.value_or(asked.starts), asked.seed,
                        std::ref(better), progress);
@@ -143,10 +145,8 @@ void put_rows(const PredictedRows& before,
 }
 
 void find_fitted_rows(KneeFit& knee, CalibrationResult& result) {
-  PredictedRows before;
-  knee.predictions().reset();
-  knee.predictions().evaluate(0 * result.fit.theta, before.y, &before.J);
-  put_rows(before, {result.fit.y, result.fit.J}, knee.problem().rows.sd, knee.places(), result);
+  put_rows(knee.rows_of_scene(), {result.fit.y, result.fit.J}, knee.problem().rows.sd,
+           knee.places(), result);
 }
 
 /// Variance of the zero of a curve of which no row is fitted, so that its offset is no parameter.

@@ -188,7 +188,9 @@ std::string fitted_scene_text(const Scene& scene,
   }
   set_loads(document, scene, fitted, edits);
   if (!file.empty() && !same_folder(file, scene.file)) move_paths(document, scene, file, edits);
-  return first_line(result) + edited(scene.text, edits);
+  std::string text = edited(scene.text, edits);
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte-order mark may only come first
+  return first_line(result) + text;
 }
 
 }  // namespace condyle

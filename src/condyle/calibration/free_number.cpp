@@ -65,6 +65,10 @@ class Taken {
     return taken_.contains({kind, ligament, -1});
   }
 
+  [[noreturn]] void refuse(const std::string& message) const {
+    throw InputError(fmt::format("{} {}", where_, message));
+  }
+
  private:
   void take_one(const CalibrationParameter& asked, std::size_t index) {
     const std::string name =
@@ -80,10 +84,6 @@ class Taken {
     const int of = static_cast<int>(index);
     if ((length && has(same, of)) || !taken_.insert({asked.what, of, body}).second)
       refuse(name + " is free twice, expected once");
-  }
-
-  [[noreturn]] void refuse(const std::string& message) const {
-    throw InputError(fmt::format("{} {}", where_, message));
   }
 
   const Scene& scene_;
@@ -138,12 +138,17 @@ class Maker {
     made.start = made.together ? 0 : number(asked, of.front());
   }
 
-  /// To where this number is within bounds; a transition strain stays above a tenth of itself.
-  static void narrow(const CalibrationParameter& asked, double number, FreeParameter& made) {
+  /// To where this number is within bounds; a transition strain stays above a tenth of itself. Numbers on wraps that
+  /// are fitted to bone were not known when the scene was read.
+  void narrow(const CalibrationParameter& asked, double number, FreeParameter& made) const {
     auto& [lower, upper] = made.bounds;
     if (asked.what == ParameterKind::kTransitionStrain) lower = std::max(lower, -0.9 * number);
     if (!asked.bounds) return;
     const auto [least, most] = *asked.bounds;
+    if (!made.logarithmic && !(least < number && number < most))
+      taken_.refuse(fmt::format(
+          "{}: bounds = [{:.6g}, {:.6g}], expected bounds about the scene's own value, {:.6g}{}",
+          made.name, least, most, number, made.units == "1" ? "" : " (all in " + made.units + ")"));
     lower = std::max(lower, made.logarithmic ? std::log(least) : least - number);
     upper = std::min(upper, made.logarithmic ? std::log(most) : most - number);
   }

@@ -43,12 +43,9 @@ LeastSquaresProblem rows_of(const MeasurementTable& table,
   return rows;
 }
 
-/// A deviation of the prior that holds nothing: of strains, of logarithms, in mm.
-constexpr double kNoPrior = 1e6;
-
 void check_enough(const MeasurementTable& table, const std::vector<FreeParameter>& parameters) {
   const auto unheld = std::count_if(parameters.begin(), parameters.end(),
-                                    [](const auto& p) { return !(p.prior_sd < kNoPrior); });
+                                    [](const auto& p) { return !has_prior(p.prior_sd); });
   if (static_cast<std::size_t>(unheld) <= table.rows.size()) return;
   throw InputError(
       fmt::format("{}: {} rows to fit, expected as many as the {} parameters that have "
@@ -82,8 +79,19 @@ KneeFit::KneeFit(const Scene& scene,
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
   problem_.rows = rows_of(fitted, parameters, predictions_.input_variance(scene_numbers));
   problem_.rows.huber = scene.calibration->huber;
+  (void)rows_of_scene();
   problem_.threads = threads;
   problem_.make_worker = [this] { return make_worker(); };
+}
+
+PredictedRows KneeFit::rows_of_scene() {
+  PredictedRows rows;
+  const Eigen::VectorXd own =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(predictions_.parameters()));
+  predictions_.reset();
+  if (!predictions_.evaluate(own, rows.y, &rows.J))
+    throw InputError(predictions_.failure() + ", at the scene's numbers");
+  return rows;
 }
 
 FitWorker KneeFit::make_worker() {

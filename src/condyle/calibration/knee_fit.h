@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "condyle/calibration/agreement.h"
 #include "condyle/calibration/calibration.h"
 #include "condyle/calibration/fit_problem.h"
 #include "condyle/calibration/predictions.h"
@@ -14,8 +15,8 @@ namespace condyle {
 
 class KneeFit {
  public:
-  /// Throws InputError as Predictions does, and where the rows that are fitted are fewer than the
-  /// parameters without a prior. The sds hold what flexion and level add at the scene's numbers.
+  /// Throws InputError as Predictions does, where the rows that are fitted are fewer than the parameters without a
+  /// prior, and where the derivatives of one do not exist at the scene's numbers, as of a neutral pose. The sds hold what flexion and level add at the scene's numbers.
   KneeFit(const Scene& scene,
           const std::vector<FittedSurface>& surfaces,
           const MeasurementTable& table,
@@ -25,6 +26,8 @@ class KneeFit {
   KneeFit& operator=(const KneeFit&) = delete;
 
   [[nodiscard]] const FitProblem& problem() const { return problem_; }
+  /// Fitted rows at the scene's numbers.
+  [[nodiscard]] PredictedRows rows_of_scene();
   /// Of this thread, and its predictions.
   [[nodiscard]] const FitWorker& worker() const { return worker_; }
   [[nodiscard]] Predictions& predictions() { return predictions_; }

@@ -15,10 +15,13 @@ namespace condyle {
 using Evaluate =
     std::function<bool(const Eigen::VectorXd& theta, Eigen::VectorXd& y, Eigen::MatrixXd* J)>;
 
+/// Is a deviation of the prior one that holds anything, be it of a strain, of a logarithm or in mm?
+[[nodiscard]] inline bool has_prior(double sd) { return sd < 1e6; }
+
 struct LeastSquaresProblem {
   Evaluate evaluate;
   Eigen::VectorXd d, sd;       ///< of the rows that are fitted; evaluate gives as many
-  Eigen::VectorXd prior_sd;    ///< of each θ; infinite: none
+  Eigen::VectorXd prior_sd;    ///< of each θ (has_prior)
   Eigen::VectorXd prior_mean;  ///< 0 but for draws of the posterior
   Eigen::VectorXd lower, upper;
   std::optional<double> huber;  ///< in standard deviations

@@ -13,7 +13,7 @@ Eigen::VectorXd drawn_start(const LeastSquaresProblem& rows, unsigned seed, int 
   Eigen::VectorXd theta = normal_draws(seed, DrawsFor::kStart, static_cast<std::uint64_t>(number),
                                        rows.prior_sd.size());
   for (Eigen::Index j = 0; j < theta.size(); ++j)
-    theta[j] = std::isfinite(rows.prior_sd[j]) ? theta[j] * rows.prior_sd[j] : 0;
+    theta[j] = has_prior(rows.prior_sd[j]) ? theta[j] * rows.prior_sd[j] : 0;
   return theta.cwiseMax(rows.lower).cwiseMin(rows.upper);
 }
 

@@ -14,7 +14,7 @@ LeastSquaresProblem randomised(LeastSquaresProblem rows, unsigned seed, int k) {
   const Eigen::VectorXd draw =
       normal_draws(seed, DrawsFor::kPriorMean, sample, rows.prior_sd.size());
   for (Eigen::Index j = 0; j < draw.size(); ++j)
-    if (std::isfinite(rows.prior_sd[j])) rows.prior_mean[j] += draw[j] * rows.prior_sd[j];
+    if (has_prior(rows.prior_sd[j])) rows.prior_mean[j] += draw[j] * rows.prior_sd[j];
   return rows;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <limits>
 #include <sstream>
 
 namespace condyle {
@@ -23,20 +24,28 @@ std::string sealed(const std::string& line) {
   return fmt::format("{} {:016x}\n", line, hash_bytes(line));
 }
 
-/// θ of a line without its end; nothing where the line is torn.
-std::optional<Eigen::VectorXd> theta_of(const std::string& line) {
+struct CostedNumbers {
+  double cost = 0;
+  Eigen::VectorXd theta;
+};
+
+/// Of a line without its end; nothing where the line is torn.
+std::optional<CostedNumbers> numbers_of(const std::string& line) {
   const std::size_t at = line.rfind(' ');
   if (at == std::string::npos || sealed(line.substr(0, at)) != line + "\n") return std::nullopt;
   std::istringstream words(line.substr(0, at));
-  std::string word, cost;
-  words >> word >> cost;
-  std::vector<double> theta;
+  std::string word;
+  words >> word;
+  std::vector<double> numbers;
   while (words >> word) {
     const char* end = word.data() + word.size();
-    const std::from_chars_result read = std::from_chars(word.data(), end, theta.emplace_back());
+    const std::from_chars_result read = std::from_chars(word.data(), end, numbers.emplace_back());
     if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
   }
-  return Eigen::Map<const Eigen::VectorXd>(theta.data(), static_cast<Eigen::Index>(theta.size()));
+  if (numbers.empty()) return std::nullopt;
+  return CostedNumbers{
+      numbers[0], Eigen::Map<const Eigen::VectorXd>(numbers.data() + 1,
+                                                    static_cast<Eigen::Index>(numbers.size()) - 1)};
 }
 
 }  // namespace
@@ -56,10 +65,14 @@ CalibrationContents read_calibration_journal(const std::filesystem::path& path,
   CalibrationContents journal;
   if (!head) return journal;
   expect_same_parts(path.string(), *head, parts);
+  // One that went on may have begun with worse ones than it took over.
+  double least = std::numeric_limits<double>::infinity();
   journal.whole_bytes = read_journal_lines(text, head->bytes, [&](std::string_view line) {
-    std::optional<Eigen::VectorXd> theta = theta_of(std::string(line));
-    if (!theta) return false;
-    journal.best = std::move(theta);
+    std::optional<CostedNumbers> numbers = numbers_of(std::string(line));
+    if (!numbers) return false;
+    if (journal.best && !(numbers->cost < least)) return true;
+    least = numbers->cost;
+    journal.best = std::move(numbers->theta);
     return true;
   });
   return journal;

@@ -27,7 +27,7 @@ struct CalibrationIdentity {
                                                        const std::vector<FittedSurface>& surfaces);
 
 struct CalibrationContents {
-  std::optional<Eigen::VectorXd> best;  ///< the last θ
+  std::optional<Eigen::VectorXd> best;  ///< θ of the least cost
   std::size_t whole_bytes = 0;          ///< up to the end of the last whole line
 };
 

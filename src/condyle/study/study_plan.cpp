@@ -68,6 +68,15 @@ void check_alike(const StudyKnee& knee, const StudyPlan& plan, const std::string
         fmt::format("{}: {}: the numbers that vary are not those of {}, expected the "
                     "same of all specimens",
                     study, knee.scene.file.string(), plan.knees.front().scene.file.string()));
+  for (std::size_t j = 0; j < first.size(); ++j)
+    if (const double sd = knee.parameters[j].prior_sd;
+        std::abs(sd - first[j].prior_sd) > 1e-12 * first[j].prior_sd)
+      throw InputError(
+          fmt::format("{}: [[vary]] {}: its sd is {:.6g} {} in {} and {:.6g} in {}, expected one "
+                      "for all knees: scenes with one "
+                      "unit of length",
+                      study, first[j].name, first[j].prior_sd, first[j].units,
+                      plan.knees.front().scene.file.string(), sd, knee.scene.file.string()));
 }
 
 /// Where the words of outputs stand.
