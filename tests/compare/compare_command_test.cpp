@@ -86,8 +86,11 @@ TEST_F(CommandLine, RefusesToCompareWhatWismansCannotHold) {
   expect_bad_input(run("laxity knee.toml -o lax.h5"),
                    "knee.toml: [laxity] is missing, expected the angles of flexion of the test");
   expect_bad_input(run("compare knee.toml -o knee.toml"),
-                   "knee.toml: is read by this command, expected another file to write");
+                   "knee.toml: expected a name that ends in .h5");
   EXPECT_TRUE(results().empty());
+  write("knee", test::contents(folder_ / "knee.toml"));
+  expect_bad_input(run("compare knee -o knee"),
+                   "knee: is read by this command, expected another file to write");
 }
 
 TEST_F(CommandLine, TakesDegreesFromTwoToSix) {

@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/input_error.h"
 #include "condyle/math/degree.h"
+#include "condyle/math/rotation.h"
 #include "condyle/results/run_file.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
@@ -19,6 +21,19 @@ namespace condyle {
 namespace {
 
 constexpr const char* kDrawer = CONDYLE_SOURCE_DIR "/data/wismans-type/drawer.toml";
+
+// A dead load stands in the ground frame, in which the tibia may be turned at the start.
+TEST(Laxity, TheCoordinateOfADeadLoadIsSeenFromTheBone) {
+  Scene scene = read_scene(kDrawer);
+  scene.loads[static_cast<std::size_t>(scene.sweep->index)].follows_body = false;
+  EXPECT_EQ(loaded_coordinate(scene), 4U);
+  const Eigen::Matrix3d turn = exp_rotation({0, 0, std::numbers::pi / 2});
+  AnatomicalFrame& tibia = scene.joint->tibia;
+  for (Eigen::Vector3d* v : {&tibia.origin, &tibia.lateral, &tibia.anterior, &tibia.proximal})
+    *v = turn * *v;
+  scene.bodies[static_cast<std::size_t>(tibia.body)].start_rotation = {0, 0, -std::numbers::pi / 2};
+  EXPECT_EQ(loaded_coordinate(scene), 4U);
+}
 
 TEST(Laxity, GrowsWhenTheCruciateIsCut) {
   const Scene scene = read_scene(kDrawer);

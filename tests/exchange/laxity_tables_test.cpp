@@ -79,7 +79,13 @@ TEST_F(LaxityTables, MotionsAndLoadsAreReadInTheirOwnSenses) {
   }
   ASSERT_EQ(table.notes.size(), 2u);
   EXPECT_EQ(table.notes[0],
-            "EI1: loads beside external: lateral up to 1 N, distraction up to 20 N");
+            "EI1: loads beside external: lateral from 0 to 1 N, distraction from -20 to -20 N");
+}
+
+TEST_F(LaxityTables, ANameOfTwoLinesIsRefused) {
+  options_.specimen = "two\nlines";
+  EXPECT_NE(message().find("expected a name without control characters"), std::string::npos)
+      << message();
 }
 
 TEST_F(LaxityTables, OffsetsAreAddedInTheSensesOfTheirChannels) {

@@ -158,6 +158,13 @@ TEST(OpenSimTables, KeepBlanksOutOfLabels) {
   EXPECT_EQ(text.find("nan"), std::string::npos);
 }
 
+TEST(OpenSimTables, TwoColumnsOfOneLabelAreRefused) {
+  condyle::Run run = phantom_run();
+  run.scene.ligaments[0].name = "a ACL";
+  run.scene.ligaments[1].name = "a_ACL";
+  EXPECT_THROW((void)sto_of_poses(run, shown_poses(run, "run.h5")), InputError);
+}
+
 TEST(OpenSimTables, NeedAJointForMotion) {
   condyle::Run run = made_up_run();
   run.scene.joint.reset();

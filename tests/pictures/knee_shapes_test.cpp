@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "condyle/pictures/ligament_groups.h"
 #include "condyle/pictures/seen_insertions.h"
 #include "condyle/results/run_view.h"
@@ -46,6 +48,19 @@ TEST(KneeShapes, ContactForcePushesTheFemurUp) {
     contact.points[0].normal_ground = {0, 1, 0};
   for (const ContactMark& mark : contact_marks(run.scene, run.sweep.poses[0]))
     EXPECT_GT(mark.toward_femur.y(), 0.99);
+}
+
+// Of a layer the point is where it is pressed most; the resultant acts elsewhere.
+TEST(KneeShapes, ALayerIsMarkedAtItsCentreOfPressure) {
+  auto run = block_run();
+  PoseResult& pose = run.sweep.poses[0];
+  const Vector3d before = contact_marks(run.scene, pose)[0].point;
+  pose.contacts[0].layer.emplace();
+  pose.contacts[0].resultant_ground = pose.contacts[0].points[0].point_ground + Vector3d(1, 0, 2);
+  EXPECT_NEAR((contact_marks(run.scene, pose)[0].point - before).norm(), std::sqrt(5.0), 1e-12);
+  const auto place = acting_place(pose.contacts[0], pose.X_BA, true);
+  ASSERT_TRUE(place);
+  EXPECT_LT((pose.X_BA * *place - pose.contacts[0].resultant_ground).norm(), 1e-12);
 }
 
 TEST(KneeShapes, OpenContactsHaveNoMark) {

@@ -232,6 +232,16 @@ TEST(PlotRun, GnuplotWritesNoFileItself) {
   EXPECT_EQ(script.find("set output '"), std::string::npos) << script;
 }
 
+// A contact that is held closed may pull: then nothing of it is cut off.
+TEST(PlotRun, AnAxisBeginsAtZeroWhereNothingIsNegative) {
+  auto run = block_run();
+  EXPECT_NE(gnuplot_script(contact_force_chart(run), PlotFormat::kPng).find("set yrange [0:*]"),
+            std::string::npos);
+  run.sweep.poses[1].contacts[0].force = -5;
+  EXPECT_EQ(gnuplot_script(contact_force_chart(run), PlotFormat::kPng).find("set yrange [0:*]"),
+            std::string::npos);
+}
+
 TEST(RunProgram, CollectsWhatTheProgramComplainsOf) {
   const ProgramResult result = run_program({"sh"}, "echo one >&2\necho two >&2\nexit 3\n");
   EXPECT_EQ(result.exit_code, 3);

@@ -51,6 +51,22 @@ class Arguments(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "condyle.Solver, expected a condyle.Scene or a condyle.Model"):
             condyle.sweep(condyle.Solver(knees.phantom()), [0])
 
+    def test_surfaces_of_another_fit_are_refused(self):
+        scene = knees.ball_on_ball()
+        surfaces = condyle.fit(scene)
+        self.assertTrue(condyle.Model(scene, surfaces).solve(x=1).converged)
+        scene.surfaces[0].radius = 25
+        with self.assertRaisesRegex(condyle.InputError, "fitted for another scene"):
+            condyle.Model(scene, surfaces)
+
+    def test_values_are_those_that_a_scene_may_have(self):
+        with self.assertRaisesRegex(condyle.InputError, "one turn"):
+            condyle.sweep(knees.phantom(), [0, 720])
+        scene = knees.spring()
+        scene.sweep.path = "arc length"
+        with self.assertRaisesRegex(condyle.InputError, "go one way"):
+            condyle.sweep(scene, [0, 5, 0])
+
     def test_values_of_a_sweep_are_named(self):
         for values, error in (([], condyle.InputError), (3, condyle.InputError), ([[1, 2]], condyle.InputError),
                               ([1, float("nan")], condyle.InputError), (["1"], TypeError), ("123", TypeError), ([None], TypeError),

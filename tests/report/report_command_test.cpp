@@ -43,6 +43,8 @@ TEST_F(CommandLine, WritesNoPageUnderTheNameOfAnotherFormat) {
   expect_bad_input(
       run("report run.h5 -o run.pdf"),
       "run.pdf: the page is HTML, expected a name that ends in .html; browsers print it");
+  expect_bad_input(run("report run.h5 -o other.h5"),
+                   "other.h5: expected a name that ends in .html");
   expect_bad_input(
       run("report knee.toml -o run.html"),
       "knee.toml: is a scene (TOML), expected a run (HDF5), as condyle sweep writes it");
@@ -56,7 +58,7 @@ TEST_F(CommandLine, DoesNotWriteAReportOrAPictureOverWhatItsRunWasComputedFrom) 
   expect_bad_input(run("report run.h5 -o knee"), "knee" + said);
   expect_bad_input(run("report run.h5 run.h5 -o knee"), "knee" + said);
   expect_bad_input(run("report run.h5 -o table.csv"),
-                   "table.csv: the page is HTML, expected a name that ends in .html");
+                   "table.csv: expected a name that ends in .html");
   EXPECT_EQ(contents(folder_ / "knee"), test::kScene);
 #ifdef CONDYLE_PICTURES
   ASSERT_EQ(run("sweep knee.png -o run.h5 --quiet").code, 0);
@@ -66,9 +68,10 @@ TEST_F(CommandLine, DoesNotWriteAReportOrAPictureOverWhatItsRunWasComputedFrom) 
 }
 
 TEST_F(CommandLine, DoesNotWriteAReportOverItsRun) {
-  ASSERT_EQ(run("sweep knee.toml -o run.h5 --quiet").code, 0);
-  expect_bad_input(run("report run.h5 -o run.h5"),
-                   "run.h5: is read by this command, expected another file to write");
+  ASSERT_EQ(run("sweep knee.toml -o run --quiet").code, 0);
+  expect_bad_input(run("report run -o run"),
+                   "run: is read by this command, expected another file to write");
+  expect_bad_input(run("report run -o run.h5"), "run.h5: expected a name that ends in .html");
 }
 
 TEST_F(CommandLine, ComparesRunsInOneReport) {
@@ -96,8 +99,7 @@ TEST_F(CommandLine, RefusesRunsThatCannotBeCompared) {
                    "s.h5: is a study, expected runs; a study is reported by itself");
   expect_bad_input(run("report a.h5 a.h5 a.h5 a.h5 a.h5 a.h5 a.h5 -o ab.html"),
                    "7 runs to compare, expected at most 6");
-  expect_bad_input(run("report a.h5 s.h5 -o s.h5"),
-                   "s.h5: is read by this command, expected another file to write");
+  expect_bad_input(run("report a.h5 s.h5 -o s.h5"), "s.h5: expected a name that ends in .html");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "ab.html"));
 }
 

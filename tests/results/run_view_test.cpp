@@ -31,6 +31,15 @@ TEST(RunView, AnEquilibriumBeyondAnEdgeHasAPlaceAndOtherFailuresHaveNone) {
   EXPECT_FALSE(has_place(pose));
 }
 
+TEST(RunView, WhatIsSweptGoesByItsKindAndNotByItsName) {
+  condyle::Run run = made_up_run();
+  const auto index = static_cast<std::size_t>(run.scene.sweep->index);
+  ASSERT_EQ(run.scene.conditions[index].kind, ConditionKind::kFlexion);
+  run.scene.conditions[index].name = run.scene.sweep->vary = "adduction";
+  EXPECT_TRUE(is_swept(run, 0));
+  EXPECT_FALSE(is_swept(run, 1));
+}
+
 TEST(RunView, TellsHowFarAContactLiesBeyondItsEdge) {
   PoseResult pose = made_up_pose(1);
   EXPECT_EQ(beyond_edge(pose), 0) << "surfaces without an edge";

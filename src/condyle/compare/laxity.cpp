@@ -127,9 +127,13 @@ std::size_t loaded_coordinate(const Scene& scene) {
   const AnatomicalFrame& bone = tibial ? scene.joint->tibia : scene.joint->femur;
   // Along lateral, anterior, proximal; a moment about the anterior axis adducts, about the proximal
   // one rotates.
-  const Eigen::Vector3d parts(std::abs(load.vector.dot(bone.lateral)),
-                              std::abs(load.vector.dot(bone.anterior)),
-                              std::abs(load.vector.dot(bone.proximal)));
+  // A dead load stands in the ground frame.
+  const Eigen::Vector3d vector = load.follows_body || load.body == scene.fixed_body()
+                                     ? load.vector
+                                     : start_pose(scene).R.transpose() * load.vector;
+  const Eigen::Vector3d parts(std::abs(vector.dot(bone.lateral)),
+                              std::abs(vector.dot(bone.anterior)),
+                              std::abs(vector.dot(bone.proximal)));
   Eigen::Index k = 0;
   parts.maxCoeff(&k);
   return static_cast<std::size_t>(k) + (load.moment ? 0 : 3);

@@ -21,18 +21,17 @@ void add_joint(const Scene& scene, std::vector<Quantity>& quantities) {
   }
 }
 
-/// The strongest point of a contact, in the tibia's anatomical frame: lateral, anterior.
+/// Where a contact acts, in the tibia's anatomical frame: lateral, anterior.
 double place_on_tibia(const Scene& scene,
                       const PoseResult& pose,
                       std::size_t index,
                       bool anterior) {
   const ContactResult& contact = pose.contacts.at(index);
-  const ContactPointResult* best = strongest_point(contact);
-  if (!contact.closed || best == nullptr) return kNoNumber;
   const AnatomicalFrame& tibia = scene.joint->tibia;
-  const bool moves = tibia.body == scene.moving_body();
-  const Eigen::Vector3d at = (moves ? best->point_moving : best->point_ground) - tibia.origin;
-  return at.dot(anterior ? tibia.anterior : tibia.lateral);
+  const std::optional<Eigen::Vector3d> place =
+      acting_place(contact, pose.X_BA, tibia.body == scene.moving_body());
+  if (!contact.closed || !place) return kNoNumber;
+  return (*place - tibia.origin).dot(anterior ? tibia.anterior : tibia.lateral);
 }
 
 void add_contacts(const Scene& scene, std::vector<Quantity>& quantities) {

@@ -37,6 +37,16 @@ const ContactPointResult* strongest_point(const ContactResult& contact) {
   return strongest == contact.points.end() ? nullptr : &*strongest;
 }
 
+std::optional<Eigen::Vector3d> acting_place(const ContactResult& contact,
+                                            const RigidTransform& X_BA,
+                                            bool on_moving) {
+  const ContactPointResult* point = strongest_point(contact);
+  if (point == nullptr) return std::nullopt;
+  if (!contact.layer) return on_moving ? point->point_moving : point->point_ground;
+  return on_moving ? Eigen::Vector3d(X_BA.inverse() * contact.resultant_ground)
+                   : contact.resultant_ground;
+}
+
 void clear(ContactResult& contact) {
   contact.points.clear();
   contact.closed = false;

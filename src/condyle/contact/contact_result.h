@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "condyle/math/no_number.h"
+#include "condyle/math/rigid_transform.h"
 
 namespace condyle {
 
@@ -104,6 +105,12 @@ void set_resultant(ContactResult& contact);
 /// The point of a contact that carries most; of an open contact the nearest one. Null where it holds
 /// none.
 [[nodiscard]] const ContactPointResult* strongest_point(const ContactResult& contact);
+
+/// Where a contact acts on the moving body or, in the ground frame, on the fixed one [mm]: of a layer its centre of
+/// pressure, else its strongest point. Nothing where it holds none.
+[[nodiscard]] std::optional<Eigen::Vector3d> acting_place(const ContactResult& contact,
+                                                          const RigidTransform& X_BA,
+                                                          bool on_moving);
 
 /// Empty as a new one, in the memory of before.
 void clear(ContactResult& contact);

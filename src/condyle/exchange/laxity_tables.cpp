@@ -151,6 +151,8 @@ JcsLoad applied_load(const std::string& test,
           "\"JCS Load \" with Lateral Drawer, Anterior Drawer, Distraction [N], Extension, "
           "Varus, External Rotation Torque [Nm] or their opposites");
     double size = 0, difference = 0;
+    const auto [least, most] =
+        std::minmax_element(kinetics.columns[i].begin(), kinetics.columns[i].end());
     for (std::size_t k = 0; k < driven.size(); ++k) {
       size = std::max(size, std::abs(kinetics.columns[i][k]));
       difference = std::max(difference, std::abs(kinetics.columns[i][k] - driven[k]));
@@ -159,8 +161,8 @@ JcsLoad applied_load(const std::string& test,
     if (load->moment == moment && size > 0 && difference <= kRounding * size && !applied)
       applied = load;
     else if (size > 0)
-      others += fmt::format("{} {} up to {:.3g} {}", others.empty() ? "" : ",", load->name, size,
-                            load->moment ? "N m" : "N");
+      others += fmt::format("{} {} from {:.3g} to {:.3g} {}", others.empty() ? "" : ",", load->name,
+                            *least, *most, load->moment ? "N m" : "N");
   }
   if (!applied)
     throw InputError(
@@ -216,11 +218,15 @@ void write_test(const std::string& test,
 }  // namespace
 
 LaxityTable laxity_table(const std::vector<fs::path>& files, const LaxityTableOptions& options) {
+  if (std::any_of(options.specimen.begin(), options.specimen.end(),
+                  [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+    throw InputError("--specimen = \"" + options.specimen +
+                     "\", expected a name without control characters: it stands in each line");
   LaxityTable table;
   const std::array<double, 6> offsets =
       options.offsets ? read_jcs_offsets(*options.offsets) : std::array<double, 6>{};
   table.text = fmt::format(
-      "# mm, deg, N, N m; offsets: {}\n"
+      "# mm, deg, N, N m: a scene that reads this has these units; offsets: {}\n"
       "specimen,test,flexion,load,level,coordinate,value,sd,use\n",
       options.offsets ? options.offsets->filename().string() : "none added");
   for (const auto& [test, pair] : tests_of(files)) write_test(test, pair, offsets, options, table);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <utility>
 
 #include "condyle/input_error.h"
@@ -28,10 +29,22 @@ std::string without_blanks(std::string label) {
   return label;
 }
 
+/// Columns are found by their labels.
+void expect_distinct(const std::vector<StorageColumn>& columns) {
+  std::set<std::string> taken;
+  for (const StorageColumn& column : columns)
+    if (const std::string label = without_blanks(column.label); !taken.insert(label).second)
+      throw InputError(fmt::format(
+          "two columns would have the label \"{}\", expected names that are not the same "
+          "with \"_\" in place of blanks",
+          label));
+}
+
 std::string storage(const std::string& name,
                     bool degrees,
                     const std::vector<ShownPose>& shown,
                     const std::vector<StorageColumn>& columns) {
+  expect_distinct(columns);
   std::string text =
       fmt::format("{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees={}\nendheader\ntime", name,
                   shown.size(), columns.size() + 1, degrees ? "yes" : "no");

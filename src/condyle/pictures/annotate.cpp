@@ -44,7 +44,8 @@ void draw_ligament_labels(const Pen& pen, const PageLayout& page, const Scenery&
     bold.bold = true;
     pen.canvas.text(placed.at + Vector2d(away * 6 * pen.s, 1 * pen.s), label.name, bold);
     pen.canvas.text(placed.at + Vector2d(away * 6 * pen.s, 17 * pen.s),
-                    label.force > 0 ? newtons(label.force) : "slack", pen.style(13, kQuiet, align));
+                    label.force != 0 ? newtons(label.force) : "slack",
+                    pen.style(13, kQuiet, align));
   }
 }
 

@@ -28,10 +28,6 @@ constexpr double kCrossArm = 2.6, kCrossRadius = 0.55;  // [mm]
 
 bool tibia_moves(const Scene& scene) { return tibia_body(scene) == scene.moving_body(); }
 
-Vector3d on_body(const Scene& scene, int body, const ContactPointResult& point) {
-  return body == scene.moving_body() ? point.point_moving : point.point_ground;
-}
-
 /// One piece of a path: what may be joined.
 void add_piece(ShadedMesh& mesh, const std::vector<TubePoint>& piece, const PathSize& size) {
   for (std::size_t i = 1; i < piece.size(); ++i) append(mesh, tube({piece[i - 1], piece[i]}));
@@ -47,7 +43,7 @@ std::vector<ContactMark> contact_marks(const Scene& scene, const PoseResult& pos
     if (!contact.closed) continue;
     for (const ContactPointResult& point : contact.points) {
       const Vector3d out_of_fixed = X_PB.R * point.normal_ground;
-      marks.push_back({X_PB * point.point_ground,
+      marks.push_back({X_PB * (contact.layer ? contact.resultant_ground : point.point_ground),
                        tibia_moves(scene) ? Vector3d(-out_of_fixed) : out_of_fixed, point.force,
                        beyond_edge(point), point.hertz});
       if (contact.layer) marks.back().peak_pressure = contact.layer->peak_pressure;
@@ -72,7 +68,7 @@ ShadedMesh paths_of(const Scene& scene,
       std::vector<TubePoint> piece;
       for (const std::size_t i : poses) {
         const PoseResult& pose = sweep.poses[i];
-        const Vector3d at = on_body(scene, body, *strongest_point(pose.contacts[c]));
+        const Vector3d at = *acting_place(pose.contacts[c], pose.X_BA, body == scene.moving_body());
         if (!piece.empty() && (at - piece.back().center).norm() < kSamePlace) continue;
         piece.push_back({at, size.radius, paint(pose)});
       }

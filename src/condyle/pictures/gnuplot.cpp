@@ -150,17 +150,18 @@ std::string run_legend(const Chart& chart, const Panel& panel, bool with_runs) {
 }
 
 /// Whether anything of the panel lies there: an axis without points is none.
-bool reaches_above(const Panel& panel, double floor) {
-  const auto above = [floor](double y) { return y > floor; };
+template <typename There>
+bool reaches(const Panel& panel, const There& there) {
   return std::any_of(panel.curves.begin(), panel.curves.end(), [&](const Curve& curve) {
-    return std::any_of(curve.y.begin(), curve.y.end(), above) ||
-           std::any_of(curve.hollow_y.begin(), curve.hollow_y.end(), above);
+    return std::any_of(curve.y.begin(), curve.y.end(), there) ||
+           std::any_of(curve.hollow_y.begin(), curve.hollow_y.end(), there) ||
+           std::any_of(curve.low.begin(), curve.low.end(), there);
   });
 }
 
 std::string y_range(const Panel& panel) {
-  if (panel.from_zero) return "[0:*]";
-  const bool bounded = panel.floor && reaches_above(panel, *panel.floor);
+  if (panel.from_zero && !reaches(panel, [](double y) { return y < 0; })) return "[0:*]";
+  const bool bounded = panel.floor && reaches(panel, [&](double y) { return y > *panel.floor; });
   return bounded ? fmt::format("[{:g}<*:*]", *panel.floor) : "[*:*]";
 }
 

@@ -26,7 +26,7 @@ struct Curve {
 struct Panel {
   std::string y_label;
   std::vector<Curve> curves;
-  bool from_zero = false;  ///< the axis begins at 0: for quantities that are never negative
+  bool from_zero = false;            ///< the axis begins at 0 where nothing is negative
   std::optional<double> floor = {};  ///< the axis does not reach below: what is there is cut off
 };
 

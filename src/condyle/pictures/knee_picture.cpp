@@ -147,8 +147,9 @@ void KneePictures::State::add_points_in_view(const PoseResult& pose,
     for (const Vector3d& p : joints[body]) points.push_back(X_P[body] * p);
   }
   if (staging.alone() || staging.apart()) return;
-  for (const ContactMark& mark : contact_marks(run.scene, pose))
-    points.push_back(mark.point + mark.force * scales.arrow_mm_per_n * mark.toward_femur);
+  for (const ContactMark& mark : contact_marks(run.scene, pose))  // what pulls has no arrow
+    points.push_back(mark.point +
+                     std::max(0.0, mark.force) * scales.arrow_mm_per_n * mark.toward_femur);
 }
 
 Camera KneePictures::State::frame_all(View view) {

@@ -99,7 +99,7 @@ PictureScales picture_scales(const Run& run, double size) {
     high = std::max(high, pose.value);
     for (const LigamentResult& ligament : pose.ligaments)
       tension = std::max(tension, ligament.force);
-    for (const ContactResult& c : pose.contacts) contact = std::max(contact, c.force);
+    for (const ContactResult& c : pose.contacts) contact = std::max(contact, std::abs(c.force));
   }
   const StrainScale strain = strain_scale(run);
   scales.ligament_top = scales.strain_known ? strain.top : round_up_nicely(tension);

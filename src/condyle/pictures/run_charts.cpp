@@ -112,9 +112,12 @@ double greatest_turn(const Scene& scene,
 }
 
 /// Mean of the points on the tibia, weighted by force; nothing for an open contact.
-std::optional<Vector3d> place_on_tibia(const Scene& scene, const ContactResult& contact) {
+std::optional<Vector3d> place_on_tibia(const Scene& scene,
+                                       const PoseResult& pose,
+                                       const ContactResult& contact) {
   if (!contact.closed || !(contact.force > 0)) return std::nullopt;
   const bool moves = tibia_body(scene) == scene.moving_body();
+  if (contact.layer) return acting_place(contact, pose.X_BA, moves);
   Vector3d sum = Vector3d::Zero();
   for (const ContactPointResult& point : contact.points)
     sum += point.force * (moves ? point.point_moving : point.point_ground);
@@ -124,7 +127,7 @@ std::optional<Vector3d> place_on_tibia(const Scene& scene, const ContactResult& 
 Curve place_curve(const Run& run, std::size_t contact, const Vector3d& axis) {
   const OfPose along = [&](const PoseResult& pose) {
     if (contact >= pose.contacts.size()) return kNoNumber;
-    const auto place = place_on_tibia(run.scene, pose.contacts[contact]);
+    const auto place = place_on_tibia(run.scene, pose, pose.contacts[contact]);
     return place ? axis.dot(*place - run.scene.joint->tibia.origin) : kNoNumber;
   };
   return broken_at_jumps(curve_of(run, run.scene.contacts[contact].name, along), run.sweep,

@@ -27,13 +27,9 @@ Scene scene_to_sweep(const Scene& scene, const py::object& text, const py::objec
   if (values.is_none()) return described;
   SweepDescription& sweep = *described.sweep;
   sweep.values = numbers(values, "values");
-  const bool distance =
-      !sweep.varies_load &&
-      described.conditions[static_cast<std::size_t>(sweep.index)].kind == ConditionKind::kDistance;
-  if (distance && *std::min_element(sweep.values.begin(), sweep.values.end()) <= 0)
-    throw InputError("values: a number of 0 or less, expected distances > 0");
   const double unit = quantity_of_sweep(described).declared.factor;
   for (double& value : sweep.values) value *= unit;
+  if (const std::string fault = fault_of_values(described); !fault.empty()) throw InputError(fault);
   return described;
 }
 

@@ -1,6 +1,7 @@
 #include "condyle/python/knee.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "condyle/equilibrium/build_model.h"
@@ -59,14 +60,57 @@ std::shared_ptr<const FittedKnee> fit_knee(const KneeScene& scene, const OnProgr
   return fitted;
 }
 
+namespace {
+
+auto numbers_of(const PatchDescription& p) {
+  return std::tie(p.compartment, p.region_box, p.region_angles, p.region_least_cosine, p.offset,
+                  p.control_points, p.smoothing, p.smooth_for_position, p.degree);
+}
+
+auto numbers_of(const SurfaceDescription& s) {
+  return std::tie(s.name, s.body, s.kind, s.solid_inside, s.point, s.direction, s.radius,
+                  s.minor_radius, s.length, s.known_radius, s.semi_axes, s.axes);
+}
+
+auto numbers_of(const AnatomicalFrame& f) {
+  return std::tie(f.body, f.origin, f.lateral, f.anterior, f.proximal);
+}
+
+/// All that a surface is made from but its mesh.
+bool same_shape(const SurfaceDescription& a, const SurfaceDescription& b) {
+  const auto same_term = [](const PolynomialTerm& t, const PolynomialTerm& u) {
+    return t.i == u.i && t.j == u.j && t.a == u.a;
+  };
+  return numbers_of(a) == numbers_of(b) && numbers_of(a.patch) == numbers_of(b.patch) &&
+         std::equal(a.terms.begin(), a.terms.end(), b.terms.begin(), b.terms.end(), same_term);
+}
+
+bool same_mesh(const MeshFile* a, const MeshFile* b) {
+  return a == nullptr || b == nullptr ? a == b : a->is(*b);
+}
+
+/// Compartments are found by its frames.
+bool same_joint(const std::optional<JointDescription>& a,
+                const std::optional<JointDescription>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->side == b->side && numbers_of(a->femur) == numbers_of(b->femur) &&
+         numbers_of(a->tibia) == numbers_of(b->tibia);
+}
+
+}  // namespace
+
 std::shared_ptr<const FittedKnee> with_surfaces_of(const FittedKnee& fitted,
                                                    const KneeScene& scene) {
   const std::vector<SurfaceDescription>& known = fitted.knee.scene.surfaces;
   const std::vector<SurfaceDescription>& asked = scene.scene.surfaces;
-  const auto same = [](const SurfaceDescription& a, const SurfaceDescription& b) {
-    return a.name == b.name && a.body == b.body && a.kind == b.kind;
+  const auto same = [&](const SurfaceDescription& a, const SurfaceDescription& b) {
+    return same_shape(a, b) && same_mesh(fitted.knee.scene.mesh_of(a), scene.scene.mesh_of(b));
   };
-  if (!std::equal(known.begin(), known.end(), asked.begin(), asked.end(), same))
+  const bool by_joint = std::any_of(asked.begin(), asked.end(), [](const auto& surface) {
+    return surface.patch.compartment.has_value();
+  });
+  if (!std::equal(known.begin(), known.end(), asked.begin(), asked.end(), same) ||
+      (by_joint && !same_joint(fitted.knee.scene.joint, scene.scene.joint)))
     throw InputError("surfaces: fitted for another scene, expected those of condyle.fit(scene)");
   auto knee = std::make_shared<FittedKnee>(FittedKnee{scene, fitted.surfaces, fitted.meshes});
   fit_wraps(knee->knee.scene, knee->surfaces);

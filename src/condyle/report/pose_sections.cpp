@@ -101,8 +101,9 @@ std::string pose_section(const Run& run) {
   table.columns = {swept.heading()};
   const bool joint = run.scene.joint.has_value();
   if (joint) {
-    for (const auto& column : kJointColumns) {
-      if (swept.name == column.name) continue;  // the first column says it
+    for (std::size_t k = 0; k < kJointColumns.size(); ++k) {
+      const auto& column = kJointColumns[k];
+      if (is_swept(run, k)) continue;  // the first column says it
       std::string name = column.name;
       std::replace(name.begin(), name.end(), '_', ' ');
       table.columns.push_back(fmt::format("{} [{}]", name, column.units));
@@ -117,7 +118,7 @@ std::string pose_section(const Run& run) {
   for (const PoseResult& pose : poses) {
     std::vector<std::string> row = {at_value(swept, pose.value)};
     for (std::size_t k = 0; k < (joint ? kJointColumns.size() : 3); ++k) {
-      if (joint && swept.name == kJointColumns[k].name) continue;
+      if (joint && is_swept(run, k)) continue;
       const double value = joint ? pose.joint.*kJointColumns[k].member / kJointColumns[k].unit
                                  : pose.X_BA.p[static_cast<Eigen::Index>(k)];
       row.push_back(number(has_place(pose) ? value : kNoNumber, 2));

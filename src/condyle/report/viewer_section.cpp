@@ -69,7 +69,7 @@ class ViewerData {
                                 : swept.unit.name == "1" ? 2
                                                          : 1},
                      {"values", series([&](const PoseResult& p) { return swept.shown(p.value); })}};
-    json["coordinates"] = coordinates(swept);
+    json["coordinates"] = coordinates();
     json["alarms"] = alarms();
     json["missing"] = missing();
     add_scene(json);
@@ -89,11 +89,12 @@ class ViewerData {
     return values;
   }
 
-  [[nodiscard]] Json coordinates(const SweptQuantity& swept) const {
+  [[nodiscard]] Json coordinates() const {
     Json rows = Json::array();
     if (!scene_.joint) return rows;
-    for (const auto& column : kJointColumns) {
-      if (swept.name == column.name) continue;
+    for (std::size_t k = 0; k < kJointColumns.size(); ++k) {
+      const auto& column = kJointColumns[k];
+      if (is_swept(run_, k)) continue;
       std::string name = column.name;
       std::replace(name.begin(), name.end(), '_', ' ');
       rows.push_back(

@@ -28,8 +28,10 @@ struct Resultant {
   Eigen::Vector3d point_ground = Eigen::Vector3d::Zero(), point_moving = Eigen::Vector3d::Zero();
 };
 
-Resultant resultant_of(const ContactResult& contact) {
+Resultant resultant_of(const PoseResult& pose, std::size_t index) {
+  const ContactResult& contact = pose.contacts[index];
   Resultant mean;
+  if (contact.layer) return {contact.resultant_ground, *acting_place(contact, pose.X_BA, true)};
   if (!(contact.force > 0))
     return {contact.points.front().point_ground, contact.points.front().point_moving};
   for (const ContactPointResult& point : contact.points) {
@@ -147,7 +149,7 @@ std::vector<Piece> resultant_path(const SweepResult& sweep, std::size_t contact)
   std::vector<Piece> path;
   for (const Piece& whole : unbroken(sweep, contact)) {
     const auto resultant = [&](std::size_t pose) {
-      return resultant_of(sweep.poses[pose].contacts[contact]);
+      return resultant_of(sweep.poses[pose], contact);
     };
     const Steps steps = steps_of(sweep, whole, resultant);
     path.push_back({whole.front()});

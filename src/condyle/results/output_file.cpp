@@ -7,6 +7,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <set>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -79,6 +81,16 @@ void check_output_file(const fs::path& path) {
     throw InputError(fmt::format("{}: cannot write into folder {}: {}", path.string(),
                                  folder.string(), reason(errno)));
   }
+}
+
+void check_output_file(const fs::path& path, const std::string& ending) {
+  static const std::set<std::string> known = {
+      ".csv", ".glb", ".h5",  ".html", ".json", ".mot", ".mp4",  ".obj", ".off", ".osim",
+      ".pdf", ".ply", ".png", ".sto",  ".stl",  ".svg", ".toml", ".vtp", ".webp"};
+  const std::string own = path.extension().string();
+  if (own != ending && known.contains(own))
+    throw InputError(fmt::format("{}: expected a name that ends in {}", path.string(), ending));
+  check_output_file(path);
 }
 
 void write_output_file(const fs::path& path, const std::string& bytes) {

@@ -13,6 +13,8 @@ namespace condyle {
 /// Throws InputError where `path` cannot become a file: its folder does not exist or cannot be
 /// written, or something that is no file stands there. To be asked before a long computation.
 void check_output_file(const std::filesystem::path& path);
+/// And where its name ends as files of another kind do, whose place it would take; `ending` is its own, ".h5".
+void check_output_file(const std::filesystem::path& path, const std::string& ending);
 
 /// Writes a file beside `path` and renames it when all of it is on the disk. Throws InputError (no
 /// such folder, disk full, ...) and then leaves nothing behind. What a kill left behind is removed by the

@@ -68,6 +68,12 @@ SweptQuantity swept_quantity(const Run& run) {
   return none ? SweptQuantity{} : quantity_of_sweep(run.scene);
 }
 
+bool is_swept(const Run& run, std::size_t coordinate) {
+  const int condition = swept_quantity(run).condition;
+  return condition >= 0 && run.scene.conditions.at(static_cast<std::size_t>(condition)).kind ==
+                               static_cast<ConditionKind>(coordinate);
+}
+
 const SweepResult* reference_poses(const Run& run) {
   const Comparison* comparison = run.comparison();
   return comparison == nullptr ? nullptr : &comparison->reference;

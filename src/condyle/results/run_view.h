@@ -25,6 +25,9 @@ namespace condyle {
 /// What goes from pose to pose of the run, whatever else its scene could vary.
 [[nodiscard]] SweptQuantity swept_quantity(const Run& run);
 
+/// Whether that is the joint coordinate of this index (elements/joint_table.h), whatever its condition is called.
+[[nodiscard]] bool is_swept(const Run& run, std::size_t coordinate);
+
 /// Of a comparison the poses of the reference model; null for other runs.
 [[nodiscard]] const SweepResult* reference_poses(const Run& run);
 
