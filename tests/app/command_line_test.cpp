@@ -290,6 +290,12 @@ TEST_F(CommandLine, WritesNoPngUnderTheNameOfAnotherFormat) {
 }
 #endif
 
+TEST_F(CommandLine, WritesNoResultUnderTheNameOfAnotherFormat) {
+  for (const char* file : {"other.toml", "femur.stl", "page.html"})
+    expect_bad_input(run(std::string("sweep knee.toml -o ") + file),
+                     std::string(file) + ": expected a name that ends in .h5");
+}
+
 TEST_F(CommandLine, NeedsASweep) {
   write("knee.toml", kScene.substr(0, kScene.find("[sweep]")));
   expect_bad_input(run("sweep knee.toml -o run.h5"),

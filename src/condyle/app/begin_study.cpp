@@ -14,7 +14,7 @@ Study begin_study(const Talk& talk,
                   const std::string& scene,
                   const std::string& output,
                   const std::function<void(const Scene&)>& check) {
-  check_output_file(output);
+  check_output_file(output, ".h5");
   Study study{read_scene(scene), {}, {}};
   refuse_to_overwrite_inputs(output, study.scene);
   check(study.scene);

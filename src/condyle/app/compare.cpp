@@ -41,7 +41,7 @@ bool has_layers(const Scene& scene) {
 int run_compare(const CompareCommand& command) {
   const Talk& talk = command.talk;
   CommandClock clock;
-  check_output_file(command.output);
+  check_output_file(command.output, ".h5");
   Scene scene = read_scene(command.scene);
   refuse_to_overwrite_inputs(command.output, scene);
   check_journal_file(command.output, scene, kCompareJournal);

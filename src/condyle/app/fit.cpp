@@ -49,7 +49,7 @@ std::vector<std::filesystem::path> write_pictures(const Talk& talk,
 int run_fit(const FitOptions& options) {
   const Talk& talk = options.talk;
   CommandClock clock;
-  check_output_file(options.output);
+  check_output_file(options.output, ".h5");
   Scene scene = read_scene(options.scene);
   refuse_to_overwrite_inputs(options.output, scene);
   const bool has_patches = std::any_of(

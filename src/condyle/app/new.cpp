@@ -56,7 +56,7 @@ void check_outputs(const NewCommand& command, const NewKneeFiles& files) {
                     [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
       throw InputError(quotable(name) +
                        ": a name with control characters, which a scene cannot hold");
-  check_output_file(command.output);
+  check_output_file(command.output, ".toml");
 #ifdef CONDYLE_PICTURES
   if (!command.report.empty()) check_scene_page(command.report);
 #endif

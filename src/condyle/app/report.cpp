@@ -32,13 +32,10 @@ struct ReportCommand {
 };
 
 void check_output(const ReportCommand& command) {
-  const std::filesystem::path ending = std::filesystem::path(command.output).extension();
-  for (const char* other :
-       {".pdf", ".png", ".svg", ".toml", ".csv", ".stl", ".ply", ".obj", ".off"})
-    if (ending == other)
-      throw InputError(fmt::format("{}: the page is HTML, expected a name that ends in .html{}",
-                                   command.output, ending == ".pdf" ? "; browsers print it" : ""));
-  check_output_file(command.output);
+  if (std::filesystem::path(command.output).extension() == ".pdf")
+    throw InputError(command.output +
+                     ": the page is HTML, expected a name that ends in .html; browsers print it");
+  check_output_file(command.output, ".html");
   refuse_to_overwrite(command.output, {command.runs.begin(), command.runs.end()});
 }
 

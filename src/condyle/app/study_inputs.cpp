@@ -58,7 +58,7 @@ void change_as_asked(const StudyCommand& command, StudyDescription& study) {
 
 StudyPlan ready_study(const StudyCommand& command) {
   check_study_options(command);
-  check_output_file(command.output);
+  check_output_file(command.output, ".h5");
   ReadStudy read = read_study(command.study);
   change_as_asked(command, read.study);
   check_study_files(command, read);

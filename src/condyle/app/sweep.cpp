@@ -141,7 +141,7 @@ std::shared_ptr<const MeshUncertainty> uncertainty_aloud(const Talk& talk,
 int run_sweep(const SweepCommand& command) {
   const Talk& talk = command.talk;
   CommandClock clock;
-  check_output_file(command.output);
+  check_output_file(command.output, ".h5");
   Scene scene = read_scene(command.scene);
   const int more_sweeps = sweeps_of_uncertainty(command.uncertainty);
   if (!command.uncertainty.empty()) check_uncertainty(scene, {more_sweeps, 1, 0});

@@ -37,8 +37,8 @@ KinematicCondition flexion_condition(const Model& model, double value) {
   return condition;
 }
 
-/// The model as it is held before the release: with its weight, the loads as they are at the start,
-/// and the flexion prescribed; returns which condition that is, or -1.
+/// The model as it is held before the release: with its weight, the loads as they are just before the start (a pulse that
+/// starts then is a blow), and the flexion prescribed; returns which condition that is, or -1.
 int hold_for_start(const Scene& scene, const MassProperties& mass, Model& model) {
   const SimulationDescription& simulation = *scene.simulation;
   Load weight;
@@ -46,9 +46,10 @@ int hold_for_start(const Scene& scene, const MassProperties& mass, Model& model)
   weight.at = mass.center;
   model.loads.push_back(weight);
   model.load_names.emplace_back("weight");
+  const double before = std::nextafter(0.0, -1.0);
   for (std::size_t i = 0; i < scene.loads.size(); ++i)
     model.loads[i].scale =
-        load_scale_at(simulation.drives, static_cast<int>(i), 0, scene.loads[i].scale);
+        load_scale_at(simulation.drives, static_cast<int>(i), before, scene.loads[i].scale);
   if (!simulation.flexion) return -1;
   for (std::size_t i = 0; i < model.conditions.size(); ++i)
     if (model.conditions[i].kind == ConditionKind::kFlexion) return static_cast<int>(i);
