@@ -105,20 +105,21 @@ std::string shortened(std::string text) {
 
 /// Where a comment or a quoted text that begins at `i` ends: at its last character; `i` where none begins.
 std::size_t end_of_words(const std::string& text, std::size_t i) {
-  const auto last = [&](std::size_t found, std::size_t size) {
-    return found == std::string::npos ? text.size() - 1 : found + size - 1;
-  };
   const char c = text[i];
-  if (c == '#') return last(text.find('\n', i), 0);
+  if (c == '#') return std::min(text.find('\n', i), text.size()) - 1;
   if (c != '"' && c != '\'') return i;
   const std::string three(3, c);
   const bool long_text = text.compare(i, 3, three) == 0;
   for (std::size_t k = i + (long_text ? 3 : 1); k < text.size(); ++k) {
-    if (c == '"' && text[k] == '\\')
+    if (c == '"' && text[k] == '\\') {
       ++k;
-    else if (long_text ? text.compare(k, 3, three) == 0 : text[k] == c || text[k] == '\n')
-      return std::min(text.find_first_not_of(c, k + (long_text ? 3 : 1)), k + (long_text ? 5 : 1)) -
-             1;
+    } else if (!long_text && (text[k] == c || text[k] == '\n')) {
+      return k;
+    } else if (long_text && text.compare(k, 3, three) == 0) {
+      k += 2;  // one or two more quotes may be its last characters
+      for (int more = 0; more < 2 && k + 1 < text.size() && text[k + 1] == c; ++more) ++k;
+      return k;
+    }
   }
   return text.size() - 1;
 }
