@@ -19,8 +19,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 std::string newtons(double force) {
-  if (force < 0.05) return "< 0.1 N";
-  return fmt::format("{:.{}f} N", force, force < 9.95 ? 1 : 0);
+  if (std::abs(force) < 0.05) return "< 0.1 N";
+  return fmt::format("{:.{}f} N", force, std::abs(force) < 9.95 ? 1 : 0);
 }
 
 Vector2d on_page(const Scenery& scenery, const Vector3d& p) {
