@@ -11,14 +11,6 @@ ContactChanges PathFollower::changes_at(const PathPoint& point) {
   return rules_.changes(system_.linearization(point));
 }
 
-bool PathFollower::leaps_no_corner(const PathPoint& next, double length) {
-  const auto before = static_cast<std::ptrdiff_t>(located_.size());
-  SolvedPose there;
-  const bool none = !look_at(next, there) || locate_changes(there.result, length);
-  located_.erase(located_.begin() + before, located_.end());
-  return none;
-}
-
 bool PathFollower::turn_corner() {
   PathPoint beyond = system_.ahead(point_, tangent_, kCorner * model_.length);
   Direction way;
@@ -74,9 +66,10 @@ bool PathFollower::change_contacts(double length) {
                      model_.pairs[static_cast<std::size_t>(pair)].name, name(kind)));
     return false;
   }
+  Ahead unchanged;
+  (void)look_ahead(*there, length, unchanged);
+  located_ = std::move(unchanged.events);
   locate_limit(length, before);
-  SolvedPose as_before;
-  if (look_at(*there, as_before)) (void)locate_changes(as_before.result, length);
   located_.push_back({length, {changed.value, kind, pair}});
   if (after.value() * before.value() < 0)
     located_.push_back({length, {changed.value, EventKind::kLimitPoint, -1}});

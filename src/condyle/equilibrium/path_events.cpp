@@ -39,7 +39,9 @@ std::vector<Event> PathFollower::changes(const PoseResult& before,
   return events;
 }
 
-bool PathFollower::locate_changes(const PoseResult& last, double length) {
+bool PathFollower::locate_changes(const PoseResult& last,
+                                  double length,
+                                  std::vector<Located>& located) {
   if (!told_) return true;
   bool followed = true;
   PoseResult from = *told_;
@@ -59,7 +61,7 @@ bool PathFollower::locate_changes(const PoseResult& last, double length) {
       (changed ? right : left) = middle;
       if (changed) after = trial.result;
     }
-    for (const Event& event : changes(from, after, after.value)) located_.push_back({right, event});
+    for (const Event& event : changes(from, after, after.value)) located.push_back({right, event});
     from = std::move(after);
     begin = right;
   }

@@ -77,18 +77,23 @@ bool PathFollower::look_at(const PathPoint& point, SolvedPose& pose) {
   return walker_.step(point.value, Patience::kNone, pose);
 }
 
-bool PathFollower::describe(const PathPoint& point, double length) {
-  SolvedPose pose;
-  const bool usable = look_at(point, pose);
-  if (usable) {
-    pose.result.trace.origin = PoseOrigin::kPath;
-    (void)locate_changes(pose.result, length);
-    told_ = pose.result;
-  } else if (pose.result.reason.empty()) {
-    pose.result.reason = kEnds;
+bool PathFollower::look_ahead(const PathPoint& point, double length, Ahead& ahead) {
+  ahead.events.clear();
+  ahead.usable = look_at(point, ahead.pose);
+  return !ahead.usable || locate_changes(ahead.pose.result, length, ahead.events);
+}
+
+bool PathFollower::tell(Ahead ahead) {
+  PoseResult& pose = ahead.pose.result;
+  located_.insert(located_.end(), ahead.events.begin(), ahead.events.end());
+  if (ahead.usable) {
+    pose.trace.origin = PoseOrigin::kPath;
+    told_ = pose;
+  } else if (pose.reason.empty()) {
+    pose.reason = kEnds;
   }
-  append(std::move(pose.result));
-  return usable;
+  append(std::move(pose));
+  return ahead.usable;
 }
 
 double PathFollower::wanted_length() const {
@@ -115,6 +120,7 @@ bool PathFollower::try_step() {
   double length = wanted_length();
   std::optional<PathPoint> next;
   Direction next_tangent;
+  Ahead ahead;
   bool near = false;  // where a path that turns has a corner
   for (;; length /= 2) {
     if (length < kShortest * model_.length) {
@@ -128,11 +134,14 @@ bool PathFollower::try_step() {
     next = at(length);
     if (!next || !system_.tangent(*next, next_tangent)) continue;
     if (system_.product(next_tangent, tangent_) < 0) reverse(next_tangent);
-    if (near && system_.distance(point_, *next) < 2 * length) break;
+    if (near && system_.distance(point_, *next) < 2 * length) {
+      (void)look_ahead(*next, length, ahead);
+      break;
+    }
     // A path that turns much within a step was perhaps left for another, and beyond a corner its value may run away.
     if (system_.product(next_tangent, tangent_) > 0.8 &&
         std::abs(next->value - point_.value) < kMostOfStep * largest_step_ &&
-        leaps_no_corner(*next, length))
+        look_ahead(*next, length, ahead))
       break;
   }
   const bool changes = changes_at(*next).any();
@@ -140,7 +149,7 @@ bool PathFollower::try_step() {
   if (const std::optional<double> end = length_to_end(length)) return finish(*end, length);
   if (!changes) {
     locate_limit(length, next_tangent);
-    if (!describe(*next, length)) return false;
+    if (!tell(std::move(ahead))) return false;
     point_ = *next;
     tangent_ = next_tangent;
     return true;
@@ -176,7 +185,9 @@ bool PathFollower::finish(double length, double whole) {
     return false;
   }
   last->value = to_;
-  describe(*last, length);
+  Ahead ahead;
+  (void)look_ahead(*last, length, ahead);
+  tell(std::move(ahead));
   return false;
 }
 

@@ -30,14 +30,27 @@ class PathFollower {
   static constexpr double kCorner =
       1e-5;  ///< a step [L] below which a path that turns has a corner
 
+  struct Located {
+    double length;  ///< from the present point
+    Event event;
+  };
+  struct Ahead {
+    SolvedPose pose;
+    bool usable = false;  ///< of equilibrium
+    std::vector<Located> events;
+  };
+
   // Steps (path_follower.cpp)
 
   static void reverse(Direction& direction);
   void append(PoseResult pose);
   void stop(const std::string& why);
   bool look_at(const PathPoint& point, SolvedPose& pose);
-  /// The pose at a point `length` ahead of the present one, with all that is told about it and about the way there.
-  bool describe(const PathPoint& point, double length);
+  /// The pose at a point `length` ahead of the present one and what happens on the way; false where not all of that can
+  /// be located, as the path has a corner between.
+  bool look_ahead(const PathPoint& point, double length, Ahead& ahead);
+  /// That pose is the next one, with those events; false where it is none of equilibrium.
+  bool tell(Ahead ahead);
   [[nodiscard]] double wanted_length() const;
   /// The point of the path some length ahead of the present one.
   std::optional<PathPoint> at(double length);
@@ -52,8 +65,6 @@ class PathFollower {
   // Where contacts and ligaments change (path_corners.cpp)
 
   ContactChanges changes_at(const PathPoint& point);
-  /// Can all that changes on the way be located?
-  bool leaps_no_corner(const PathPoint& next, double length);
   /// Where a ligament comes to lie on a surface or leaves it stiffness jumps, and the path may turn by any angle: on
   /// along the tangent that it has with the ligament as it lies just ahead, in the sense in which it stays so.
   bool turn_corner();
@@ -77,7 +88,7 @@ class PathFollower {
                                            double value) const;
   /// Where what the last pose tells changes on the way to another one that lies `length` ahead; false where the way
   /// cannot be followed, and what was found is the least that holds it.
-  bool locate_changes(const PoseResult& last, double length);
+  bool locate_changes(const PoseResult& last, double length, std::vector<Located>& located);
 
   Walker walker_;
   const Model& model_;
@@ -89,10 +100,6 @@ class PathFollower {
   PathPoint point_;
   std::optional<PoseResult> told_;  ///< at that point, where that is known
   Direction tangent_;
-  struct Located {
-    double length;  ///< from the present point
-    Event event;
-  };
   std::vector<Located> located_;  ///< in this step
   SweepResult result_;
 };
