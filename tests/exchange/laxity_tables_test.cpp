@@ -195,6 +195,10 @@ TEST_F(LaxityTables, AsAUserMakesThem) {
       run("import EI1_kinematics_in_JCS_experiment.csv -o t.csv --sd-length 1 --sd-angle 1"),
       "EI1_kinematics_in_JCS_experiment.csv: kinematics alone, expected EI1_kinetics... beside it, "
       "which says what load is applied in which sense");
+  expect_bad_input(run("import EI1_kinematics_in_JCS_experiment.csv -o t.csv --side left"),
+                   "--side: expected with a model (.osim) only");
+  expect_bad_input(run("import a.osim -o knee.toml --held 0"),
+                   "--held: expected with tables of tests (.csv) only");
   expect_bad_input(run("import a.csv b.osim -o t.csv"),
                    "a.csv: expected one model (.osim), or tables of tests (.csv) alone");
 }

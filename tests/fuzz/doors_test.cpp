@@ -10,11 +10,19 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <ostream>
 #include <string>
 
 #include "condyle/input_error.h"
 #include "condyle/results/hdf5_file.h"
 #include "condyle/scene_file/read_scene.h"
+
+namespace condyle::fuzz {
+
+/// A test is named after its door, not after the bytes of it.
+void PrintTo(const Door& door, std::ostream* out) { *out << door.name; }
+
+}  // namespace condyle::fuzz
 
 namespace condyle {
 namespace {

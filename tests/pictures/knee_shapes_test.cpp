@@ -115,7 +115,23 @@ TEST(KneeShapes, LigamentsWithoutASlackLengthAreColouredByForce) {
     ligament.law = PolynomialLaw{{0, 1}, true};
   const PictureScales scales = picture_scales(run);
   EXPECT_FALSE(scales.strain_known);
-  EXPECT_NE(ligament_color(scales, {40, 0, 30}), ligament_color(scales, {40, 0, 10}));
+  EXPECT_FALSE(scales.some_unstrained);
+  const LigamentDescription& ligament = run.scene.ligaments[0];
+  EXPECT_NE(ligament_color(scales, ligament, {40, 0, 30}),
+            ligament_color(scales, ligament, {40, 0, 10}));
+}
+
+TEST(KneeShapes, OneLigamentWithoutASlackLengthAmongOthersHasAColourOfItsOwn) {
+  auto run = block_run();
+  EXPECT_FALSE(picture_scales(run).some_unstrained);
+  run.scene.ligaments[0].law = PolynomialLaw{{0, 1}, true};
+  const PictureScales scales = picture_scales(run);
+  EXPECT_TRUE(scales.strain_known);
+  EXPECT_TRUE(scales.some_unstrained);
+  EXPECT_EQ(ligament_color(scales, run.scene.ligaments[0], {40, 0, 30}), kUnstrainedColor);
+  EXPECT_EQ(ligament_color(scales, run.scene.ligaments[0], {40, 0, 0}), kSlackColor);
+  EXPECT_EQ(ligament_color(scales, run.scene.ligaments[1], {40, 0, 30}),
+            map_color(ColorMap::kStrain, 0));
 }
 
 TEST(KneeShapes, ThePathEndsWhereTheContactOpens) {
@@ -143,14 +159,15 @@ TEST(KneeShapes, RunsWithoutMeshesAndPatchesAreDrawable) {
 
 TEST(KneeShapes, OneStrandOfFiftyPerCentDoesNotMakeTheOthersBlack) {
   auto run = block_run();
-  const Rgb before = ligament_color(picture_scales(run), {40, 0.05, 30});
+  const LigamentDescription& strand = run.scene.ligaments[0];
+  const Rgb before = ligament_color(picture_scales(run), strand, {40, 0.05, 30});
   run.sweep.poses[1].ligaments[1] = {60, 0.5, 3000};
   const PictureScales scales = picture_scales(run);
   EXPECT_DOUBLE_EQ(scales.ligament_top, 0.10);
   EXPECT_DOUBLE_EQ(scales.ligament_greatest, 0.5);
-  EXPECT_EQ(ligament_color(scales, {60, 0.5, 3000}), map_color(ColorMap::kStrain, 1));
-  EXPECT_EQ(ligament_color(scales, {40, 0.05, 30}), map_color(ColorMap::kStrain, 0.5));
-  EXPECT_NE(before, ligament_color(scales, {40, 0.05, 30})) << "5 % was the end before";
+  EXPECT_EQ(ligament_color(scales, strand, {60, 0.5, 3000}), map_color(ColorMap::kStrain, 1));
+  EXPECT_EQ(ligament_color(scales, strand, {40, 0.05, 30}), map_color(ColorMap::kStrain, 0.5));
+  EXPECT_NE(before, ligament_color(scales, strand, {40, 0.05, 30})) << "5 % was the end before";
 }
 
 TEST(KneeShapes, ThePathIsNotDrawnThroughAJump) {

@@ -56,6 +56,16 @@ TEST_F(PictureCommands, ASinglePictureMayGoIntoAFile) {
   expect_refusal(run("render run.h5 -o one.mp4 --at 10 --view plateau"), "add --movie");
 }
 
+TEST_F(PictureCommands, PosesThatLieCloseHaveAPictureEach) {
+  ASSERT_EQ(run("sweep knee.toml -o close.h5 --from 10 --to 10.00002 --step 0.00001").code, 0);
+  const Outcome three =
+      run("render close.h5 -o out --view medial --size 200x200 --at 10,10.00001,10.00002");
+  EXPECT_EQ(three.code, 0) << three.err;
+  EXPECT_EQ(three.out,
+            "wrote out/medial_010.png\nwrote out/medial_010.00001.png\n"
+            "wrote out/medial_010.00002.png\n");
+}
+
 TEST_F(PictureCommands, SayWhatIsWrong) {
   expect_refusal(run("render run.h5 -o one.jpg --at 10 --view plateau"), "pictures are PNG");
   expect_refusal(run("render run.h5 -o out --hertz"), "holds no estimates of contact pressure");
@@ -63,6 +73,11 @@ TEST_F(PictureCommands, SayWhatIsWrong) {
   expect_refusal(run("render run.h5 -o out --pressure --proximity"), "--proximity");
   expect_refusal(run("render run.h5 -o out --view front"), "condyles, exploded");
   expect_refusal(run("render run.h5 -o out --strip --movie"), "--strip");
+  expect_refusal(run("render run.h5 -o out --fps 20"), "--movie");
+  expect_refusal(
+      run("render run.h5 -o out --strip --view medial --size 500x800 --at 0,5,10,15,20"),
+      "a strip of 5 poses on 500x800 pixels leaves 76x566 for each, expected at least 200 "
+      "each way: fewer poses (--at) or a larger page (--size)");
   expect_refusal(run("plot run.h5 missing.h5 -o out"), "missing.h5");
   expect_refusal(run("plot run.h5 -o out --format jpg"), "expected png, svg or pdf");
 }

@@ -5,10 +5,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <fstream>
+#include <functional>
+#include <sstream>
 
 #include "condyle/input_error.h"
 #include "condyle/math/rotation.h"
 #include "condyle/results/line_file.h"
+#include "condyle/results/run_columns.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/verify/verify.h"
 #include "verify/computed_run.h"
@@ -63,17 +66,20 @@ TEST(VerifyRun, FindsNothingWrongInSpecimens) {
 TEST(VerifyRun, LooksAtEverythingThatTheFileHolds) {
   VerifyOptions options;
   options.pushes = true;
+  const ColumnTree columns = columns_of(phantom_run());
+  options.columns = &columns;
   const Verification v = verify_run(phantom_run(), options);
   EXPECT_EQ(v.converged, 25U);
   EXPECT_EQ(verdict(v), "25 of 25 poses converged, none of them is false");
   // The phantom has no elastic layers.
   for (std::size_t i = 0; i < v.checks.size(); ++i)
-    EXPECT_EQ(v.checks[i].count > 0, i < static_cast<std::size_t>(Check::kDepth))
+    EXPECT_EQ(v.checks[i].count > 0, i < static_cast<std::size_t>(Check::kDepth) ||
+                                         i == static_cast<std::size_t>(Check::kColumns))
         << v.checks[i].name;
   const Verification layered = verify_run(computed_run(kSource / "data/phantom/layered.toml"));
   EXPECT_EQ(verdict(layered), "25 of 25 poses converged, none of them is false");
   for (std::size_t i = static_cast<std::size_t>(Check::kDepth); i < layered.checks.size(); ++i)
-    EXPECT_EQ(layered.checks[i].count > 0, i != static_cast<std::size_t>(Check::kPath))
+    EXPECT_EQ(layered.checks[i].count > 0, i < static_cast<std::size_t>(Check::kPath))
         << layered.checks[i].name;
 }
 
@@ -207,6 +213,51 @@ TEST(VerifyCatches, AContactThatPulls) {
   point.force = -point.force;
   pose_of(run).contacts[1].force = point.force;
   EXPECT_WORDS(fault_of(run, Check::kPush), "contact \"lateral\": pulls with");
+}
+
+TEST(VerifyCatches, AResultantThatIsNotThatOfItsPoints) {
+  condyle::Run run = test::phantom_poses();
+  pose_of(run).contacts[0].resultant_ground.x() += 1e-6;
+  EXPECT_WORDS(fault_of(run, Check::kTogether), "contact \"medial\": acts at [");
+}
+
+/// Of the three poses, with a dataset of their file altered.
+Verification verified_with(const std::string& group,
+                           const std::string& name,
+                           const std::function<void(DataColumn&)>& alter) {
+  const condyle::Run run = test::phantom_poses();
+  ColumnTree columns = columns_of(run);
+  ColumnTree* at = columns.groups.at("sweep").get();
+  std::istringstream places(group);
+  for (std::string place; std::getline(places, place, '/');) at = at->groups.at(place).get();
+  alter(at->columns.at(name));
+  VerifyOptions options;
+  options.meshes = false;
+  options.columns = &columns;
+  return verify_run(run, options);
+}
+
+TEST(VerifyCatches, ANumberThatTheRestOfTheFileContradicts) {
+  for (const auto& [group, name] : {std::pair{"contacts/medial", "gap"},
+                                    {"contacts/medial", "point_ground"},
+                                    {"contacts/lateral", "force"},
+                                    {"joint", "flexion"}}) {
+    const Verification v = verified_with(group, name, [](DataColumn& column) {
+      auto& numbers = std::get<std::vector<double>>(column.values);
+      numbers[numbers.size() / 2] += 1e-6;
+    });
+    ASSERT_EQ(v.faults.size(), 1U) << group << "/" << name;
+    EXPECT_EQ(v.faults[0].pose, 1U);
+    EXPECT_WORDS(v.faults[0].text,
+                 std::string("flexion = 25 deg: /sweep/") + group + "/" + name + ": row 1 holds ");
+  }
+}
+
+TEST(VerifyCatches, AUnitThatCondyleDoesNotWrite) {
+  const Verification v =
+      verified_with("contacts/medial", "force", [](DataColumn& column) { column.units = "kN"; });
+  ASSERT_EQ(v.faults.size(), 1U);
+  EXPECT_EQ(v.faults[0].text, "/sweep/contacts/medial/force: unit \"kN\", expected \"N\"");
 }
 
 TEST(VerifyCatches, ANormalThatTurned) {

@@ -13,6 +13,8 @@
 #include "condyle/report/study_json.h"
 #include "condyle/report/study_page.h"
 #include "condyle/report/summary_json.h"
+#include "condyle/results/hdf5_file.h"
+#include "condyle/results/hdf5_group.h"
 #include "condyle/results/rehearsal.h"
 #include "condyle/results/run_identity.h"
 #include "condyle/results/study_file.h"
@@ -35,8 +37,11 @@ void summarise(const Run& run) {
   for (const PoseResult& pose : run.sweep.poses) (void)table.row(pose);
 }
 
-void verify(const Run& run) {
-  const Verification verification = verify_run(run, {.pushes = true, .on_pose = {}});
+void verify(const Run& run, const std::filesystem::path& file) {
+  const Hdf5Reader reader(file);
+  const ColumnTree columns = read_columns(reader.root());
+  const Verification verification =
+      verify_run(run, {.pushes = true, .on_pose = {}, .columns = &columns});
   (void)json_verification({}, run, verification);
 }
 
@@ -58,15 +63,15 @@ void export_shapes(const Run& run) {
 }
 
 /// What shows numbers, always; what takes a hundred times as long, by a hash of the bytes.
-void show(const Run& run, std::uint64_t turn) {
+void show(const Run& run, const std::filesystem::path& file, std::uint64_t turn) {
   taken([&] { summarise(run); });
   taken([&] { export_numbers(run); });
   taken([&] { (void)report_page(run, "run.h5", {.pictures = false, .on_part = {}}); });
-  if (turn % 16 == 0) taken([&] { verify(run); });
+  if (turn % 16 == 0) taken([&] { verify(run, file); });
   if (turn % 16 == 8) taken([&] { export_shapes(run); });
 }
 
-void show(const StudyView& study, std::uint64_t) {
+void show(const StudyView& study, const std::filesystem::path&, std::uint64_t) {
   (void)json_study({}, study);
   (void)study_page(study, "study.h5", {.pictures = false, .on_part = {}});
 }
@@ -84,7 +89,8 @@ void open_run(Bytes bytes) {
   const std::filesystem::path file = file_of(text);
   const std::uint64_t turn = hash_bytes(text);
   taken([&] {
-    is_study_file(file) ? show(read_study_file(file), turn) : show(read_run(file), turn);
+    is_study_file(file) ? show(read_study_file(file), file, turn)
+                        : show(read_run(file), file, turn);
   });
 }
 
@@ -93,8 +99,8 @@ void open_altered_run(Bytes bytes) {
   Choices choices(bytes);
   const std::filesystem::path file = file_of(altered_run(choices));
   const std::uint64_t turn = hash_bytes(text_of(bytes));
-  if (!taken([&] { show(read_run_at_once(file), turn); }))
-    taken([&] { show(read_study_file_at_once(file), turn); });
+  if (!taken([&] { show(read_run_at_once(file), file, turn); }))
+    taken([&] { show(read_study_file_at_once(file), file, turn); });
 }
 
 }  // namespace condyle::fuzz

@@ -19,12 +19,15 @@
 namespace condyle {
 namespace {
 
+using Options = std::vector<const CLI::Option*>;
+
 struct ImportCommand {
   std::vector<std::string> files;
   std::string output, side, offsets, step = "end";
   OsimOptions knee;
   OsimSceneOptions scene;
   LaxityTableOptions tests;
+  Options of_models, of_tables;  ///< of the command line
 };
 
 std::optional<Side> parse_side(const std::string& text) {
@@ -85,31 +88,55 @@ int import_model(ImportCommand& command) {
   return 0;
 }
 
+void refuse_given(const Options& options, const std::string& meant_for) {
+  for (const CLI::Option* option : options)
+    if (option->count() > 0)
+      throw InputError(option->get_name() + ": expected with " + meant_for + " only");
+}
+
 int run_import(ImportCommand& command) {
   const auto tables = std::count_if(command.files.begin(), command.files.end(), is_table);
-  if (tables == static_cast<std::ptrdiff_t>(command.files.size())) return import_tests(command);
+  if (tables == static_cast<std::ptrdiff_t>(command.files.size())) {
+    refuse_given(command.of_models, "a model (.osim)");
+    return import_tests(command);
+  }
   if (command.files.size() > 1)
     throw InputError(command.files[tables == 0 ? 1 : 0] +
                      ": expected one model (.osim), or tables of tests (.csv) alone");
+  refuse_given(command.of_tables, "tables of tests (.csv)");
   return import_model(command);
 }
 
+/// Of models only.
+Options add_model_options(CLI::App& command, ImportCommand& options) {
+  return {command.add_option(
+              "--joint", options.knee.joint,
+              "of a model: the joint, where the one that most ligaments span is not meant"),
+          command.add_option("--side", options.side,
+                             "of a model: right or left, where names do not tell"),
+          command
+              .add_option("--compression", options.scene.compression,
+                          "of a model: load along the tibia in N, in place of muscles and weight")
+              ->capture_default_str()};
+}
+
 /// Of tables of tests only.
-void add_table_options(CLI::App& command, ImportCommand& options) {
-  command.add_option("--sd-length", options.tests.sd_length,
-                     "of tests: standard deviation of displacements in mm");
-  command.add_option("--sd-angle", options.tests.sd_angle,
-                     "of tests: standard deviation of angles in deg");
-  command.add_option("--offsets", options.offsets,
-                     "of tests: State.cfg or kinematic_offsets.csv, added to the kinematics");
-  command.add_option("--specimen", options.tests.specimen, "of tests: its name in the table")
-      ->capture_default_str();
-  command
-      .add_option("--held", options.tests.held,
-                  "of tests: rows whose load differs by at most this are one step; 0: each row")
-      ->capture_default_str();
-  command.add_option("--step", options.step, "of tests: of a step its end, or its mean")
-      ->capture_default_str();
+Options add_table_options(CLI::App& command, ImportCommand& options) {
+  return {
+      command.add_option("--sd-length", options.tests.sd_length,
+                         "of tests: standard deviation of displacements in mm"),
+      command.add_option("--sd-angle", options.tests.sd_angle,
+                         "of tests: standard deviation of angles in deg"),
+      command.add_option("--offsets", options.offsets,
+                         "of tests: State.cfg or kinematic_offsets.csv, added to the kinematics"),
+      command.add_option("--specimen", options.tests.specimen, "of tests: its name in the table")
+          ->capture_default_str(),
+      command
+          .add_option("--held", options.tests.held,
+                      "of tests: rows whose load differs by at most this are one step; 0: each row")
+          ->capture_default_str(),
+      command.add_option("--step", options.step, "of tests: of a step its end, or its mean")
+          ->capture_default_str()};
 }
 
 }  // namespace
@@ -127,14 +154,8 @@ void setup_import(CLI::App& program, int& status) {
       ->add_option("-o,--output", options->output,
                    "scene (TOML) or table of measurements (CSV) to write")
       ->required();
-  command->add_option("--joint", options->knee.joint,
-                      "the joint, where the one that most ligaments span is not meant");
-  command->add_option("--side", options->side, "right or left, where names do not tell");
-  command
-      ->add_option("--compression", options->scene.compression,
-                   "load along the tibia in N, in place of muscles and weight")
-      ->capture_default_str();
-  add_table_options(*command, *options);
+  options->of_models = add_model_options(*command, *options);
+  options->of_tables = add_table_options(*command, *options);
   command->footer("Example: condyle import lenhart2015.osim -o knee.toml");
   command->callback([options, &status] { status = run_import(*options); });
 }

@@ -112,13 +112,12 @@ int keep_drawable(const Run& run, const SweptQuantity& swept, std::vector<std::s
   return status;
 }
 
-// anterior_060, plateau_m005, medial_037.5
+// anterior_060, plateau_m005, medial_037.5; to nine decimals, beyond which a turn of units rounds.
 std::string file_stem(View view, double shown) {
-  const double rounded = std::round(1e4 * shown) / 1e4;
+  const double rounded = std::round(1e9 * shown) / 1e9;
   const double magnitude = std::abs(rounded), whole = std::floor(magnitude);
-  std::string fraction =
-      magnitude > whole ? fmt::format("{:g}", std::round(1e4 * (magnitude - whole)) / 1e4).substr(1)
-                        : "";
+  std::string fraction = fmt::format("{:.9f}", magnitude - whole).substr(1);
+  fraction.erase(fraction.find_last_not_of(".0") + 1);
   return fmt::format("{}_{}{:03.0f}{}", name(view), rounded < 0 ? "m" : "", whole, fraction);
 }
 
@@ -299,10 +298,13 @@ void setup_render(CLI::App& program, int& status) {
       ->excludes(proximity);
   command->add_flag("--hertz", options->hertz, "ellipses of contact pressure, to scale");
   CLI::Option* strip = command->add_flag("--strip", options->strip, "all values side by side");
-  command->add_flag("--movie", options->movie, "a moving picture over all poses (or those of --at)")
-      ->excludes(strip);
+  CLI::Option* movie = command
+                           ->add_flag("--movie", options->movie,
+                                      "a moving picture over all poses (or those of --at)")
+                           ->excludes(strip);
   command->add_option("--fps", options->frames_per_second, "poses per second of a movie")
       ->check(CLI::Range(1, 100))
+      ->needs(movie)
       ->capture_default_str();
   command->footer(
       "Example: condyle render out/phantom.h5 -o out --at 0,60,120 --view anterior,plateau");

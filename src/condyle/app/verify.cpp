@@ -13,6 +13,7 @@
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
 #include "condyle/input_error.h"
+#include "condyle/results/run_columns.h"
 
 namespace condyle {
 namespace {
@@ -36,11 +37,13 @@ Verification verified(const std::string& file, const Run& run, const VerifyOptio
 int run_verify(const VerifyCommand& command) {
   const Talk& talk = command.talk;
   CommandClock clock;
-  const Run run = read_run(command.run);
+  const RunWithColumns read = read_run_with_columns(command.run);
+  const Run& run = read.run;
   Progress progress(talk, "poses");
   VerifyOptions options;
   options.pushes = command.pushes;
   options.meshes = !command.no_meshes;
+  options.columns = &read.columns;
   options.on_pose = [&](int done, int total) { progress.at(done, total); };
   const Verification verification = verified(command.run, run, options);
   progress.clear();

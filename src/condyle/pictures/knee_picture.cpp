@@ -32,13 +32,17 @@ constexpr double kKneeRadius = 25;                    // what is smaller has sma
 constexpr double kContactDot = 1.5, kSmallDot = 0.7;  // [mm]
 
 void check_size(const PictureOptions& options) {
-  const auto good = [](int size) { return size >= 200 && size <= 8000; };
-  if (good(options.width) && good(options.height)) return;
-  throw InputError(fmt::format("picture size {}x{}, expected 200 to 8000 pixels each way",
-                               options.width, options.height));
+  if (!is_drawable(options))
+    throw InputError(fmt::format("picture size {}x{}, expected {} to {} pixels each way",
+                                 options.width, options.height, kLeastPicture, kGreatestPicture));
 }
 
 }  // namespace
+
+bool is_drawable(const PictureOptions& options) {
+  const auto good = [](int size) { return size >= kLeastPicture && size <= kGreatestPicture; };
+  return good(options.width) && good(options.height);
+}
 
 struct KneePictures::State {
   struct KeptShape {

@@ -10,14 +10,19 @@
 
 namespace condyle {
 
+inline constexpr int kLeastPicture = 200, kGreatestPicture = 8000;  ///< each way [pixel]
+
 struct PictureOptions {
-  int width = 1200, height = 900;  ///< [pixel], 200 to 8000
+  int width = 1200, height = 900;  ///< [pixel]
   bool words = true;  ///< title, labels, bars; false: the knee alone, in the same place
   SurfaceColors colors = SurfaceColors::kPlain;  ///< of the articular surfaces
   bool hertz = false;   ///< ellipses of the contact pressure, where the run holds estimates
   bool panel = false;   ///< without words, as large as the page lets it be
   bool frames = false;  ///< the joint's frames of femur and tibia as arrows (joint_axes.h)
 };
+
+/// Is a picture of that size possible?
+[[nodiscard]] bool is_drawable(const PictureOptions& options);
 
 class KneePictures {
  public:

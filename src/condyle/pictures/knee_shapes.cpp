@@ -87,11 +87,14 @@ std::vector<BodyShape> body_shapes(const Run& run, double spacing) {
   return shapes;
 }
 
+bool has_strain(const LigamentDescription& ligament) { return slack_length(ligament.law) > 0; }
+
 PictureScales picture_scales(const Run& run, double size) {
   PictureScales scales;
-  scales.strain_known =
-      std::any_of(run.scene.ligaments.begin(), run.scene.ligaments.end(),
-                  [](const auto& ligament) { return slack_length(ligament.law) > 0; });
+  const std::vector<LigamentDescription>& ligaments = run.scene.ligaments;
+  scales.strain_known = std::any_of(ligaments.begin(), ligaments.end(), has_strain);
+  scales.some_unstrained =
+      scales.strain_known && !std::all_of(ligaments.begin(), ligaments.end(), has_strain);
   double tension = 1, contact = 1, low = 1e300, high = -1e300;
   for (const PoseResult& pose : run.sweep.poses) {
     if (!has_place(pose)) continue;

@@ -36,6 +36,7 @@ inline constexpr Paint kCartilage = {{186, 207, 223}, 0.42};
 struct PictureScales {
   bool strain_known =
       true;  ///< some ligament has a slack length; else ligaments are coloured by force
+  bool some_unstrained = false;     ///< and some other one has none
   double ligament_top = 0.05;       ///< strain [-] or force [N] at the upper end of the colours
   double ligament_greatest = 0.05;  ///< of all strands; above the end it has the end's colour
   double force_top = 100;           ///< largest contact force [N]
@@ -46,8 +47,16 @@ struct PictureScales {
 };
 [[nodiscard]] PictureScales picture_scales(const Run& run, double size = 1);
 
-/// Colour of a ligament; slack ones are grey.
-[[nodiscard]] Rgb ligament_color(const PictureScales& scales, const LigamentResult& ligament);
+inline constexpr Rgb kSlackColor = {168, 168, 165};
+/// Of a taut one whose law knows no strain, where others are coloured by theirs.
+inline constexpr Rgb kUnstrainedColor = {20, 122, 116};
+
+/// Has its law a slack length?
+[[nodiscard]] bool has_strain(const LigamentDescription& ligament);
+
+[[nodiscard]] Rgb ligament_color(const PictureScales& scales,
+                                 const LigamentDescription& described,
+                                 const LigamentResult& ligament);
 
 /// A ligament's line in P, end to end: along its path where it wraps; else straight when taut; when
 /// slack, bowed away from the joint until it is as long as its slack length (within reason).

@@ -13,7 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr Rgb kSlackColor = {168, 168, 165};
 constexpr double kThroughBone = 0.62;
 constexpr double kThread = 0.24;  // of the radius of a tube
 constexpr double kDeepestBow =
@@ -49,8 +48,11 @@ bool is_slack(const LigamentResult& ligament) { return !(ligament.force > 0); }
 
 }  // namespace
 
-Rgb ligament_color(const PictureScales& scales, const LigamentResult& ligament) {
+Rgb ligament_color(const PictureScales& scales,
+                   const LigamentDescription& described,
+                   const LigamentResult& ligament) {
   if (is_slack(ligament)) return kSlackColor;
+  if (scales.strain_known && !has_strain(described)) return kUnstrainedColor;
   return map_color(ColorMap::kStrain,
                    (scales.strain_known ? ligament.strain : ligament.force) / scales.ligament_top);
 }
@@ -90,7 +92,8 @@ ShadedMesh ligament_tubes(const Run& run,
   for (std::size_t i = 0; i < pose.ligaments.size() && i < run.scene.ligaments.size(); ++i) {
     const LigamentResult& result = pose.ligaments[i];
     const bool slack = is_slack(result);
-    const Paint paint = {ligament_color(scales, result), slack ? 0.7 * kThroughBone : kThroughBone};
+    const Paint paint = {ligament_color(scales, run.scene.ligaments[i], result),
+                         slack ? 0.7 * kThroughBone : kThroughBone};
     std::vector<TubePoint> line;
     for (const Vector3d& p : ligament_line(run.scene, X_P, i, pose)) {
       line.push_back({p, slack ? 0.45 * scales.tube_radius : scales.tube_radius, paint});
@@ -106,7 +109,8 @@ ShadedMesh ligament_threads(const Run& run,
                             const PictureScales& scales) {
   ShadedMesh mesh;
   for (std::size_t i = 0; i < pose.ligaments.size() && i < run.scene.ligaments.size(); ++i) {
-    const Paint paint = {ligament_color(scales, pose.ligaments[i]), 0.5 * kThroughBone};
+    const Paint paint = {ligament_color(scales, run.scene.ligaments[i], pose.ligaments[i]),
+                         0.5 * kThroughBone};
     const auto [a, b] = ends_of(run.scene.ligaments[i], X_P);
     append(mesh, tube({{a, kThread * scales.tube_radius, paint},
                        {b, kThread * scales.tube_radius, paint}}));
@@ -125,7 +129,7 @@ ShadedMesh insertions(const Run& run,
     for (const Attachment& end : run.scene.ligaments[i].ends) {
       if (end.body != body) continue;
       append(mesh, ball(X_P[static_cast<std::size_t>(body)] * end.at, 1.05 * scales.tube_radius,
-                        {ligament_color(scales, pose.ligaments[i]), 0.8}));
+                        {ligament_color(scales, run.scene.ligaments[i], pose.ligaments[i]), 0.8}));
     }
   }
   return mesh;

@@ -34,9 +34,13 @@ void draw_ligament_bar(const Pen& pen, const PictureScales& scales, const Frame&
                  {ColorMap::kStrain, "Ligament", scales.strain_known ? "strain [%]" : "force [N]",
                   0, factor * scales.ligament_top, words_above(scales)},
                  place);
-  const double y = place.bottom + 24 * pen.s;
-  pen.canvas.line({place.left, y}, {place.right, y}, 3 * pen.s, ligament_color(scales, {}));
-  pen.canvas.text({place.right + 9 * pen.s, y + 5 * pen.s}, "slack", pen.style(14));
+  const auto key = [&](double below, Rgb color, const char* words) {
+    const double y = place.bottom + below * pen.s;
+    pen.canvas.line({place.left, y}, {place.right, y}, 3 * pen.s, color);
+    pen.canvas.text({place.right + 9 * pen.s, y + 5 * pen.s}, words, pen.style(14));
+  };
+  key(24, kSlackColor, "slack");
+  if (scales.some_unstrained) key(44, kUnstrainedColor, "no strain");
 }
 
 /// Overlap has a colour outside of the scale; it is named where it is seen.

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <optional>
 
+#include "condyle/input_error.h"
 #include "condyle/pictures/annotate.h"
 #include "condyle/pictures/page_scales.h"
 #include "condyle/results/run_view.h"
@@ -16,6 +17,14 @@ namespace {
 // In units of a page 800 high.
 constexpr double kHeight = 800, kHead = 92, kValueLine = 30, kFoot = 112, kBars = 120;
 constexpr int kPanelWidth = 340, kWidePanel = 500, kPageHeight = 640, kWidest = 8000;  // [pixel]
+
+void check_panel(const PictureOptions& page, const PictureOptions& panel, std::size_t poses) {
+  if (is_drawable(panel) || !is_drawable(page)) return;  // of a page that is none its size is told
+  throw InputError(fmt::format(
+      "a strip of {} poses on {}x{} pixels leaves {}x{} for each, expected at least {} each way: "
+      "fewer poses (--at) or a larger page (--size)",
+      poses, page.width, page.height, panel.width, std::max(0, panel.height), kLeastPicture));
+}
 
 /// What stands once on the page.
 void draw_page_words(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
@@ -63,6 +72,7 @@ Image draw_strip(const Run& run,
   panel.panel = true;
   panel.width = static_cast<int>(options.width - kBars * s) / columns;
   panel.height = static_cast<int>(options.height - (kHead + kValueLine + kFoot) * s);
+  check_panel(options, panel, poses.size());
   KneePictures pictures(run, panel);
   Image page = blank_image(options.width, options.height, {255, 255, 255});
   const int top = static_cast<int>((kHead + kValueLine) * s);

@@ -12,7 +12,7 @@ namespace condyle {
 [[nodiscard]] PictureOptions strip_size(View view, std::size_t poses);
 
 /// `options.width` and `height` are those of the whole page. `poses` must have converged and not be
-/// empty. Throws as KneePictures does.
+/// empty. Throws as KneePictures does, and where the page leaves too little for each pose.
 [[nodiscard]] Image draw_strip(const Run& run,
                                View view,
                                const std::vector<std::size_t>& poses,

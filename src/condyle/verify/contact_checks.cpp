@@ -198,9 +198,12 @@ void check_contacts(const Subject& subject, const PoseResult& pose, Ledger& ledg
     const PairOfSides pair = pair_of(subject, i);
     const bool may_pull =
         scene.contacts[i].state != ContactState::kAuto && contact.points.size() == 1;
-    double sum = 0;
+    double sum = 0, magnitudes = 0;
+    Vector3d moment = Vector3d::Zero();
     for (const ContactPointResult& point : contact.points) {
       sum += point.force;
+      magnitudes += std::abs(point.force);
+      moment += point.force * point.point_ground;
       check_point(pair, scene, pose.X_BA, point, element, contact.closed, ledger);
       if (!may_pull)
         ledger.note(
@@ -213,6 +216,13 @@ void check_contacts(const Subject& subject, const PoseResult& pose, Ledger& ledg
     }
     ledger.note(Check::kPush, std::abs(sum - contact.force) / scale, element,
                 fmt::format("carries {:.12g} N, its points {:.12g} N", contact.force, sum));
+    if (!contact.closed || magnitudes == 0) continue;
+    const double off = (sum * contact.resultant_ground - moment).norm() / magnitudes;
+    ledger.note(Check::kTogether, off, element,
+                fmt::format("acts at {} of {}, its points at {}", place(contact.resultant_ground),
+                            scene.bodies[static_cast<std::size_t>(scene.fixed_body())].name,
+                            place(moment / sum)),
+                1e-8 + 1e-12 * contact.resultant_ground.norm());
   }
 }
 

@@ -40,6 +40,7 @@ constexpr std::array<Kind, kCheckCount> kKinds = {{
     {"force of layers on another grid", "relative", 0.013},
     {"depth that layers bear", "mm", 3},
     {"wrapped paths", "mm", 1e-6},
+    {"numbers that stand twice", "relative", 1e-12},
 }};
 
 }  // namespace
@@ -50,6 +51,11 @@ Ledger::Ledger(const SweptQuantity& swept) : swept_(swept) {
     checks_[i].units = kKinds[i].units;
     checks_[i].allowed = kKinds[i].allowed;
   }
+}
+
+void Ledger::beside_poses() {
+  pose_ = 0;
+  pose_name_.clear();
 }
 
 void Ledger::at_pose(std::size_t index, double value) {

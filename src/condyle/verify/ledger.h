@@ -18,6 +18,9 @@ class Ledger {
   /// The checks that follow are of this pose.
   void at_pose(std::size_t index, double value);
 
+  /// The checks that follow are of no single pose.
+  void beside_poses();
+
   /// `figure` in the units of the check, allowed up to `allowed` (of the check itself where 0);
   /// NaN is wrong. `element` names what was checked, `words` say what is wrong with it: "" for the
   /// usual sentence.

@@ -31,9 +31,10 @@ enum class Check {
   kLayerSums,   ///< force and moment of a layer, from its pressures
   kLayerForce,  ///< force of a layer on a grid of the verifier's own
   kLayerDepth,  ///< depth that layers bear
-  kPath         ///< ligaments that wrap: on their surfaces, geodesic there, straight between
+  kPath,        ///< ligaments that wrap: on their surfaces, geodesic there, straight between
+  kColumns      ///< numbers and units of the file, from the rest of it
 };
-inline constexpr int kCheckCount = 23;
+inline constexpr int kCheckCount = 24;
 
 /// One kind of check over the whole run.
 struct CheckSummary {

@@ -8,6 +8,7 @@
 #include "condyle/input_error.h"
 #include "condyle/results/run_view.h"
 #include "condyle/results/without_poses.h"
+#include "condyle/verify/column_checks.h"
 #include "condyle/verify/gap_checks.h"
 #include "condyle/verify/layer_checks.h"
 #include "condyle/verify/ledger.h"
@@ -72,6 +73,7 @@ Verification verify_run(const Run& run, const VerifyOptions& options) {
   if (options.pushes && !subject.moving()) pushes.emplace(subject);
   Ledger ledger(subject.swept);
   check_slack_lengths(run, ledger, result.not_checked);
+  if (options.columns != nullptr) check_columns(*options.columns, run, ledger);
   const std::vector<PoseResult>& poses = run.sweep.poses;
   result.poses = poses.size();
   for (std::size_t i = 0; i < poses.size(); ++i) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "condyle/on_progress.h"
+#include "condyle/results/column_tree.h"
 #include "condyle/results/run_file.h"
 #include "condyle/verify/verification.h"
 
@@ -18,6 +19,7 @@ struct VerifyOptions {
   bool pushes = false;  ///< stability too
   bool meshes = true;   ///< meshes inside each other
   OnProgress on_pose = {};
+  const ColumnTree* columns = nullptr;  ///< all that the run's file holds; null: not looked at
 };
 
 /// Throws InputError for a run without poses, or with a patch that cannot be evaluated.

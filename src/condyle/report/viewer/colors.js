@@ -14,6 +14,7 @@ const PRESSURE_STOPS = [
 const END = 0.8;  // of the stops: what is paler drowns on bone
 
 export const SLACK = [0.62, 0.64, 0.66];
+export const UNSTRAINED = [0.08, 0.48, 0.45];  // taut, of a law without slack length
 
 function between(stops, place) {
   const x = Math.min(1, Math.max(0, place)) * (stops.length - 1);

@@ -82,6 +82,7 @@ function addLegend(place, data) {
   place.classList.toggle('above', above);  // an arrow at the end of the scale
   const marks = place.querySelector('.marks');
   addMarks(marks, most, '%');
+  if (data.ligaments.some((ligament) => !ligament.has_strain)) place.querySelector('span').textContent += ', green where the law knows no strain';
   if (above) place.querySelector('span').textContent += `, some up to ${(100 * data.greatest_strain).toFixed(0)} %`;
 }
 

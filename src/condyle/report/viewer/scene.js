@@ -6,7 +6,7 @@ import {
 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { colorAt, pressureColorAt, SLACK } from './colors.js';
+import { colorAt, pressureColorAt, SLACK, UNSTRAINED } from './colors.js';
 import { addElements } from './elements.js';
 
 const nameOf = (node) => node.userData.name ?? node.name;
@@ -144,8 +144,8 @@ export async function createScene(canvas, model, data) {
     mixer.setTime(Math.min(between(data.times, at), end - 1e-6 * Math.max(1e-6, end - first)));
     for (const ligament of data.ligaments) {
       const taut = between(ligament.force, at) > 0;
-      const strain = between(ligament.strain, at);
-      const rgb = taut ? colorAt(strain / data.strain_top) : SLACK;
+      const known = ligament.has_strain ? colorAt(between(ligament.strain, at) / data.strain_top) : UNSTRAINED;
+      const rgb = taut ? known : SLACK;
       for (const mesh of meshes.ligaments.get(ligament.name) ?? []) {
         mesh.material.color = new Color().setRGB(...rgb, SRGBColorSpace);
         mesh.material.transparent = !taut;
