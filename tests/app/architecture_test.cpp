@@ -80,7 +80,7 @@ TEST(Architecture, TheMechanicsIncludesNoOtherLibraryAndItsHeadersNothingButEige
     }
     const bool standard = include.to.find_first_of("/.") == std::string::npos;
     if (standard || starts_with(include.to, "<Eigen/")) continue;
-    const bool inside = include.from == "src/condyle/surface/point_tree.h" ||
+    const bool inside = include.from == "src/condyle/mesh/point_tree.h" ||
                         include.from.substr(include.from.rfind('.')) == ".cpp";
     EXPECT_TRUE(inside &&
                 (starts_with(include.to, "<nanoflann") || starts_with(include.to, "<fmt/")))
@@ -126,7 +126,7 @@ TEST(Architecture, ACircleOverThreeFilesIsSeenAndAHeaderWithItsSourceIsNone) {
 
 TEST(Architecture, EachLibraryIsIncludedInOneRoom) {
   const std::map<std::string, std::string> room_of = {
-      {"<assimp/", "mesh_files"},   {"<nanoflann", "surface"},
+      {"<assimp/", "mesh_files"},   {"<nanoflann", "mesh"},
       {"<toml++/", "scene_file"},   {"<cvode/", "network"},
       {"<hdf5", "results"},         {"<openssl/", "results"},
       {"<tiny_gltf", "exchange"},   {"<meshoptimizer", "exchange"},

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "condyle/mesh/clean_mesh.h"
+#include "condyle/mesh/mesh_measures.h"
 #include "condyle/mesh_files/load_mesh.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "support/mesh_shapes.h"
@@ -92,6 +93,48 @@ TEST_F(FitWarnings, NameAMeshThatWasMirrored) {
   for (Vector3d& v : mesh.vertices) v.z() = -v.z();
   EXPECT_TRUE(holds(notes_of(mesh, medial()),
                     "triangles faced into the bone, as after mirroring: check the side"));
+}
+
+/// Triangles whose middle lies below z get vertices of their own, 0.02 mm away from those of the others.
+TriangleMesh cracked(TriangleMesh mesh, double z) {
+  const std::size_t count = mesh.vertices.size();
+  for (std::size_t i = 0; i < count; ++i)
+    mesh.vertices.emplace_back(mesh.vertices[i] - Vector3d(0, 0, 0.02));
+  for (auto& triangle : mesh.triangles)
+    if (triangle_middle(mesh, triangle).z() < z)
+      for (int& v : triangle) v += static_cast<int>(count);
+  return mesh;
+}
+
+// What lies beyond a crack is linked with the rest again: the patch is the same but for the 0.02 mm.
+TEST_F(FitWarnings, NameASeamAndJoinIt) {
+  const FittedSurface whole = fit(phantom_femur(), medial());
+  EXPECT_FALSE(holds(whole.report->notes, "seam"));
+  const FittedSurface joined = fit(cracked(phantom_femur(), -24), medial());
+  EXPECT_TRUE(holds(joined.report->notes, "warning: seam: along "));
+  EXPECT_NEAR(joined.report->area, whole.report->area, 0.01 * whole.report->area);
+  const auto &patch = *joined.surface, &expected = *whole.surface;
+  for (const Place& place : expected.samples(4)) {
+    const Vector3d p = expected.evaluate(place).c;
+    if (expected.edge_distance(place) < 2) continue;
+    const SurfacePoint there = patch.evaluate(patch.closest(p, patch.seed(p)));
+    EXPECT_LT((there.c - p).norm(), 0.03);
+  }
+}
+
+TEST_F(FitWarnings, NameAHole) {
+  TriangleMesh mesh = phantom_femur();
+  const Vector3d distal(0, -21, -23);
+  const auto far = [&](const auto& triangle) {
+    return (triangle_middle(mesh, triangle) - distal).norm() > 5;
+  };
+  std::vector<bool> keep;
+  for (const auto& triangle : mesh.triangles) keep.push_back(far(triangle));
+  const std::size_t all = mesh.triangles.size();
+  mesh = sub_mesh(mesh, keep).mesh;
+  ASSERT_LT(mesh.triangles.size(), all);
+  EXPECT_TRUE(
+      holds(notes_of(mesh, medial()), "warning: hole: one in the region left out, the widest "));
 }
 
 // Six by four control points cannot follow a condyle; those that are chosen leave 0.2 mm of

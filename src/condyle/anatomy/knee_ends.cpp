@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "condyle/mesh/mesh_measures.h"
-#include "condyle/surface/point_tree.h"
+#include "condyle/mesh/point_tree.h"
 
 namespace condyle {
 namespace {

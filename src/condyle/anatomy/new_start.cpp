@@ -163,11 +163,24 @@ void doubt_start(NewKnee& knee, bool bare, const Vector2d& after) {
         std::abs(start.tilted) / kDegree, start.tilted > 0 ? "adduction" : "abduction"));
 }
 
+/// Of the scene that is being made: a user has no such file yet, so that errors name its tables and meshes alone.
+Gaps gaps_of(const NewKnee& knee) {
+  const std::filesystem::path nowhere = std::filesystem::current_path() / "new.toml";
+  try {
+    return Gaps(parse_scene(new_scene_text(knee, nowhere), nowhere));
+  } catch (const InputError& error) {
+    std::string text = error.what();
+    if (text.starts_with(nowhere.string() + ":"))
+      text.erase(0, text.find(": ", nowhere.string().size() + 1) + 2);
+    throw InputError(fmt::format("{} and {} make no knee: {}", knee.files.femur.string(),
+                                 knee.files.tibia.string(), text));
+  }
+}
+
 }  // namespace
 
 void find_start(NewKnee& knee) {
-  const std::filesystem::path nowhere = std::filesystem::current_path() / "new.toml";
-  Gaps gaps(parse_scene(new_scene_text(knee, nowhere), nowhere));
+  Gaps gaps = gaps_of(knee);
   const JointFrames frames = joint_frames(gaps.scene());
   NewStart& start = knee.start;
   start.scan = joint_coordinates(frames, RigidTransform{});

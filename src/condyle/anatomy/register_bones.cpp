@@ -9,7 +9,7 @@
 
 #include "condyle/input_error.h"
 #include "condyle/mesh/mesh_measures.h"
-#include "condyle/surface/point_tree.h"
+#include "condyle/mesh/point_tree.h"
 
 namespace condyle {
 namespace {

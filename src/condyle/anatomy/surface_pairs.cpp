@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "condyle/surface/point_tree.h"
+#include "condyle/mesh/point_tree.h"
 
 namespace condyle {
 

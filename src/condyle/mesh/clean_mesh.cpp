@@ -14,6 +14,7 @@
 #include "condyle/mesh/merge_vertices.h"
 #include "condyle/mesh/mesh_edges.h"
 #include "condyle/mesh/mesh_measures.h"
+#include "condyle/mesh/mesh_seams.h"
 #include "condyle/mesh/orient_mesh.h"
 
 namespace condyle {
@@ -111,15 +112,14 @@ void drop_strays(TriangleMesh& mesh,
 CleanMesh clean_mesh(TriangleMesh mesh, const CleaningOptions& options) {
   CleanMesh result;
   CleaningReport& report = result.report;
-  Eigen::AlignedBox3d box;
-  for (const auto& triangle : mesh.triangles)
-    for (const int v : triangle) box.extend(mesh.vertices[v]);
-  const double tolerance =
-      mesh.triangles.empty() ? 0 : options.merge_tolerance * box.diagonal().norm();
+  const double tolerance = mesh.triangles.empty()
+                               ? 0
+                               : options.merge_tolerance * box_of_triangles(mesh).diagonal().norm();
 
   report.merged_vertices = merge_vertices(mesh, tolerance);
   report.degenerate_triangles = drop_degenerate(mesh, tolerance);
   report.duplicate_triangles = drop_duplicates(mesh);
+  report.welded = weld_seams(mesh);
   auto links = std::make_unique<TriangleLinks>(mesh);
   result.component = find_components(mesh, *links);
   drop_strays(mesh, result.component, options.stray_fraction, report);
@@ -149,6 +149,11 @@ std::vector<std::string> describe(const CleaningReport& report) {
   if (report.stray_components > 0)
     lines.push_back(fmt::format("{} stray pieces ({} triangles) dropped", report.stray_components,
                                 report.stray_triangles));
+  if (report.welded > 0)
+    lines.push_back(fmt::format(
+        "warning: seam: along {:.0f} mm the triangles on either side were not linked (a crack, or "
+        "vertices on one side only), and have been joined: look whether the mesh is what was meant",
+        report.welded));
   say(report.flipped_triangles, "triangles turned the other way round");
   say(report.non_manifold_edges, "edges shared by more than two triangles");
   return lines;

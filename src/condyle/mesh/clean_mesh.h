@@ -1,7 +1,7 @@
 #pragma once
 
 /// Mends what segmentation and mesh tools leave behind: coincident vertices, degenerate and
-/// duplicate triangles, strays, triangles turned the wrong way round. Everything that is done is
+/// duplicate triangles, seams, strays, triangles turned the wrong way round. Everything that is done is
 /// counted.
 
 #include <string>
@@ -22,6 +22,7 @@ struct CleaningReport {
   int merged_vertices = 0;
   int degenerate_triangles = 0;  ///< with a repeated vertex or no area
   int duplicate_triangles = 0;   ///< the same three vertices once more
+  double welded = 0;  ///< length of seams whose two sides were linked (mesh_seams.h) [mm]
   int unreferenced_vertices = 0;
   int stray_components = 0, stray_triangles = 0;
   int flipped_triangles = 0;  ///< turned to agree with their neighbours, or outward

@@ -18,6 +18,13 @@ Vector3d triangle_middle(const TriangleMesh& mesh, const std::array<int, 3>& tri
   return (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3;
 }
 
+Eigen::AlignedBox3d box_of_triangles(const TriangleMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const auto& triangle : mesh.triangles)
+    for (const int v : triangle) box.extend(mesh.vertices[v]);
+  return box;
+}
+
 std::vector<Vector3d> triangle_areas(const TriangleMesh& mesh) {
   std::vector<Vector3d> areas;
   areas.reserve(mesh.triangles.size());

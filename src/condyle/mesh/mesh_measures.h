@@ -2,6 +2,8 @@
 
 /// Normals, areas and lengths of a triangle mesh.
 
+#include <Eigen/Geometry>
+
 #include <array>
 #include <vector>
 
@@ -26,6 +28,9 @@ namespace condyle {
 
 /// A third of the area of the triangles around each vertex [mm²].
 [[nodiscard]] std::vector<double> vertex_areas(const TriangleMesh& mesh);
+
+/// About all triangles [mm]: a vertex of none is no part of the bone.
+[[nodiscard]] Eigen::AlignedBox3d box_of_triangles(const TriangleMesh& mesh);
 
 /// Mean length of the edges [mm]; 0 for a mesh without triangles.
 [[nodiscard]] double mean_edge_length(const TriangleMesh& mesh);

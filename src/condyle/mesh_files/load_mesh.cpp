@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "condyle/input_error.h"
+#include "condyle/mesh/mesh_measures.h"
 #include "condyle/mesh_files/isolated_import.h"
 #include "condyle/mesh_files/mesh_bytes.h"
 #include "condyle/mesh_files/mesh_readers.h"
@@ -63,10 +64,7 @@ void check_numbers(const std::filesystem::path& file, const TriangleMesh& mesh) 
 }
 
 void check_size(const std::filesystem::path& file, const TriangleMesh& mesh, double to_mm) {
-  Eigen::AlignedBox3d box;
-  for (const auto& triangle : mesh.triangles)  // a vertex of none is no part of the bone
-    for (const int v : triangle) box.extend(mesh.vertices[v]);
-  const double extent = box.sizes().maxCoeff();
+  const double extent = box_of_triangles(mesh).sizes().maxCoeff();
   if (extent <= kLargest && extent >= kSmallest) return;
   throw InputError(fmt::format("{}: a knee of {}? expected a mesh of {} to {} mm{}", file.string(),
                                readable_length(extent), kSmallest, kLargest,

@@ -106,6 +106,18 @@ std::string move_out(double offset, ArticularRegion& region, PatchFit& fit) {
       offset, moved.rms, moved.max);
 }
 
+std::string words_of(const WideHoles& holes,
+                     const TriangleMesh& region,
+                     const Eigen::Vector3d& moved) {
+  const Eigen::Vector3d at = holes.middle + moved;
+  return fmt::format(
+      "warning: hole: {} in the region left out, the widest {:.0f} mm round at [{:.1f}, {:.1f}, "
+      "{:.1f}] mm: contacts there are told as beyond an edge; those up to {:.0f} mm round are "
+      "bridged",
+      holes.count == 1 ? "one" : fmt::format("{}", holes.count), holes.perimeter, at.x(), at.y(),
+      at.z(), bridged_perimeter(region));
+}
+
 /// Adds to an error of `work` what `keys` says of the scene.
 template <typename Work, typename Words>
 auto naming_keys(const Work& work, const Words& keys) {
@@ -137,6 +149,8 @@ FittedSurface fit_one(const Scene& scene, const PatchSource& source, int index) 
     FitReport report = report_of(surface.name, region, fit);
     for (const std::vector<std::string>& notes : {source.notes, region.notes, fit.notes})
       report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+    if (fit.holes.count > 0)
+      report.notes.push_back(words_of(fit.holes, region.mesh, source.middle));
     if (surface.patch.offset > 0)
       report.notes.push_back(move_out(surface.patch.offset, region, fit));
     report.seconds =

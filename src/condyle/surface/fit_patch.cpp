@@ -269,8 +269,7 @@ PatchFit fit_patch(const ArticularRegion& region, const FitOptions& options) {
   correct_parameters(grid, Patch(data), points);
   finish(region, outline, std::move(data), points, fit);
   if (outline.holes > 0) fit.notes.push_back(fmt::format("{} small holes bridged", outline.holes));
-  if (outline.wide_holes > 0)
-    fit.notes.push_back(fmt::format("{} wide holes left out", outline.wide_holes));
+  fit.holes = outline.wide_holes;
   return fit;
 }
 

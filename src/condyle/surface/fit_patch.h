@@ -16,6 +16,7 @@
 #include "condyle/surface/articular_region.h"
 #include "condyle/surface/fit_smoothing.h"
 #include "condyle/surface/patch.h"
+#include "condyle/surface/region_outline.h"
 
 namespace condyle {
 
@@ -57,6 +58,7 @@ struct PatchFit {
   std::vector<Eigen::Vector2d> parameters;  ///< of the closest point to each vertex of the region
   std::vector<double> distance;             ///< of each vertex, positive outside the patch [mm]
   std::vector<double> edge_distance;  ///< of each closest point from the edge of the data [mm]
+  WideHoles holes = {};               ///< in the region, which are not known
   std::vector<std::string> notes;
 };
 

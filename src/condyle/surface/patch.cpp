@@ -10,7 +10,7 @@
 #include "condyle/math/simd.h"
 #include "condyle/surface/bspline_basis.h"
 #include "condyle/surface/knot_span.h"
-#include "condyle/surface/point_tree.h"
+#include "condyle/mesh/point_tree.h"
 
 namespace condyle {
 

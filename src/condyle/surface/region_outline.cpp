@@ -42,6 +42,18 @@ double perimeter(const TriangleMesh& region, const std::vector<int>& loop) {
   return sum;
 }
 
+void add_hole(const TriangleMesh& region,
+              const std::vector<int>& loop,
+              double perimeter,
+              WideHoles& holes) {
+  ++holes.count;
+  if (perimeter <= holes.perimeter) return;
+  holes.perimeter = perimeter;
+  holes.middle.setZero();
+  for (std::size_t i = 1; i < loop.size(); ++i) holes.middle += region.vertices[loop[i]];
+  holes.middle /= static_cast<double>(loop.size() - 1);
+}
+
 double square_distance(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
   const Vector3d ab = b - a, ap = p - a;
   const double t = std::clamp(ap.dot(ab) / std::max(ab.squaredNorm(), 1e-300), 0.0, 1.0);
@@ -99,7 +111,7 @@ RegionOutline trace_outline(const TriangleMesh& region, double small_hole) {
       continue;
     }
     for (std::size_t i = 1; i < loop.size(); ++i) outline.edges.push_back({loop[i - 1], loop[i]});
-    outline.wide_holes += lengths[k] < longest;
+    if (lengths[k] < longest) add_hole(region, loop, lengths[k], outline.wide_holes);
   }
   return outline;
 }

@@ -11,11 +11,18 @@
 
 namespace condyle {
 
+/// Holes that no data bridge, and the widest of them.
+struct WideHoles {
+  int count = 0;
+  double perimeter = 0;                              ///< [mm]
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of its vertices [mm]
+};
+
 struct RegionOutline {
   std::vector<std::array<int, 2>> edges;      ///< boundary edges, small holes left out
   std::vector<std::array<int, 3>> hole_fans;  ///< triangles that close the small holes
   int holes = 0;                              ///< closed this way
-  int wide_holes = 0;                         ///< left open
+  WideHoles wide_holes = {};                  ///< left open
 };
 
 /// The perimeter below which a hole of a region is bridged [mm].

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "condyle/mesh/mesh_measures.h"
-#include "condyle/surface/point_tree.h"
+#include "condyle/mesh/point_tree.h"
 
 namespace condyle {
 

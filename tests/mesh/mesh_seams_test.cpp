@@ -1,0 +1,90 @@
+/// Seams are found, and both sides linked, whatever vertices either has.
+
+#include "condyle/mesh/mesh_seams.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+#include "condyle/mesh/clean_mesh.h"
+#include "condyle/mesh/merge_vertices.h"
+#include "condyle/mesh/mesh_measures.h"
+
+namespace condyle {
+namespace {
+
+/// Squares of a side, two triangles each, from (x, y) on.
+void add_squares(double x, double y, double side, int columns, int rows, TriangleMesh& mesh) {
+  for (int i = 0; i < columns; ++i)
+    for (int k = 0; k < rows; ++k) {
+      const int first = static_cast<int>(mesh.vertices.size());
+      for (const auto& [u, v] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+        mesh.vertices.emplace_back(x + (i + u) * side, y + (k + v) * side, 0);
+      mesh.triangles.push_back({first, first + 1, first + 2});
+      mesh.triangles.push_back({first, first + 2, first + 3});
+    }
+}
+
+double area_of(const TriangleMesh& mesh) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& triangle : mesh.triangles) sum += triangle_area(mesh, triangle);
+  return sum.norm();
+}
+
+/// Squares of 1 mm up to x = 0, of another side beyond a gap.
+TriangleMesh two_sheets(double side, double gap) {
+  TriangleMesh mesh;
+  add_squares(-10, 0, 1, 10, 10, mesh);
+  const int columns = static_cast<int>(std::lround(10 / side));
+  add_squares(gap, 0, side, columns, columns, mesh);
+  merge_vertices(mesh, 1e-6);
+  return mesh;
+}
+
+const std::pair<double, double> kSheets[] = {{1, 0.02},  {1, 0.2},   {0.5, 0}, {0.5, 0.05},
+                                             {0.4, 0},   {0.4, 0.1}, {2.0, 0}, {5.0, 0.02},
+                                             {0.125, 0}, {2.5, 0.02}};
+
+TEST(MeshSeams, AreAsLongAsTheyLook) {
+  EXPECT_EQ(seam_length({}), 0);
+  EXPECT_EQ(seam_length(two_sheets(1, 0)), 0) << "both sides have the same vertices";
+  EXPECT_EQ(seam_length(two_sheets(0.5, 1)), 0) << "a gap as wide as the triangles";
+  for (const auto& [side, gap] : kSheets)
+    EXPECT_NEAR(seam_length(two_sheets(side, gap)), 10, 1) << side << ", " << gap;
+}
+
+TEST(MeshSeams, AreWelded) {
+  for (const auto& [side, gap] : kSheets) {
+    TriangleMesh mesh = two_sheets(side, gap);
+    const double area = area_of(mesh);
+    EXPECT_NEAR(weld_seams(mesh), 10, 1);
+    EXPECT_NEAR(area_of(mesh), area, 10 * gap + 1e-9) << side << ", " << gap;
+    EXPECT_EQ(seam_length(mesh), 0) << side << ", " << gap;
+    const CleanMesh clean = clean_mesh(mesh);
+    EXPECT_EQ(clean.report.components, 1) << side << ", " << gap;
+    EXPECT_EQ(clean.report.non_manifold_edges, 0) << side << ", " << gap;
+    // All the way: the boundary is the outline of both sheets.
+    const int outline = 30 + 3 * static_cast<int>(std::lround(10 / side));
+    EXPECT_EQ(clean.report.boundary_edges, outline) << side << ", " << gap;
+  }
+}
+
+// The rims of both walls of a thin sheet and short slits stay as they are.
+TEST(MeshSeams, AreNotSeenWhereThereAreNone) {
+  TriangleMesh walls;
+  add_squares(0, 0, 1, 10, 10, walls);
+  const std::size_t upper = walls.vertices.size();
+  add_squares(0, 0, 1, 10, 10, walls);
+  for (std::size_t i = upper; i < walls.vertices.size(); ++i) walls.vertices[i].z() = 0.1;
+  merge_vertices(walls, 1e-6);
+  EXPECT_EQ(seam_length(walls), 0);
+  TriangleMesh slit = two_sheets(1, 0);
+  const std::size_t triangles = slit.triangles.size();
+  slit.triangles.erase(slit.triangles.begin() + 40);
+  EXPECT_EQ(weld_seams(slit), 0);
+  EXPECT_EQ(slit.triangles.size(), triangles - 1);
+}
+
+}  // namespace
+}  // namespace condyle
