@@ -61,6 +61,32 @@ TEST(ArcLength, EndsBeforeTheLimitPointWhereItIsAskedTo) {
 }
 
 // Snapping through, the apex lands on a floor: at the load that belongs to z = -7.
+// A step that passes the last value, turns at the limit point and comes back lies on one side of it at both ends.
+TEST(ArcLength, EndsJustBeforeALimitPointWhateverTheStep) {
+  for (const double part : {0.9, 0.99, 0.9996, 0.999999})
+    for (const double step : {0.1, 0.5, 2.0, 8.0}) {
+      EquilibriumSolver solver(Truss::model());
+      const double end = part * Truss::limit_load();
+      const SweepResult path = follow_path(solver, kPress, 0, end, step);
+      EXPECT_TRUE(path.events.empty()) << part << ", " << step;
+      EXPECT_EQ(path.poses.back().value, end) << part << ", " << step;
+      EXPECT_TRUE(path.poses.back().converged());
+      EXPECT_GT(path.poses.back().X_BA.p.z(), Truss::limit_height()) << part << ", " << step;
+    }
+}
+
+TEST(ArcLength, FindsLimitPointsWhateverTheStep) {
+  for (const double step : {0.1, 1.0, 4.0, 16.0, 64.0}) {
+    EquilibriumSolver solver(Truss::model());
+    PathOptions options;
+    options.longest = 1;
+    const SweepResult path = follow_path(solver, kPress, 0, 2 * Truss::limit_load(), step, options);
+    ASSERT_EQ(path.events.size(), 2u) << step << ": " << path.poses.size() << " poses";
+    EXPECT_NEAR(path.events[0].value, Truss::limit_load(), 1e-9) << step;
+    EXPECT_NEAR(path.events[1].value, -Truss::limit_load(), 1e-9) << step;
+  }
+}
+
 TEST(ArcLength, ClosesAContactAfterTheSnapAndOpensItAgain) {
   EquilibriumSolver solver(Truss::with_floor());
   const SweepResult down = follow_path(solver, kPress, 0, 40, 1);
@@ -184,8 +210,8 @@ TEST(ArcLength, TurnsACornerByAnyAngle) {
     const SweepResult path = sweep(scene, {});
     for (std::size_t k = 0; k < path.poses.size(); ++k) {
       ASSERT_TRUE(path.poses[k].converged()) << steps << ": " << path.poses[k].reason;
-      if (k > 0)
-        EXPECT_LE(std::abs(path.poses[k].value - path.poses[k - 1].value), 1.5 * 60 / steps + 1e-9);
+      if (k == 0) continue;
+      EXPECT_LE(std::abs(path.poses[k].value - path.poses[k - 1].value), 1.5 * 60 / steps + 1e-9);
     }
     EXPECT_EQ(path.poses.back().value, 60) << steps;
     limits.emplace_back();
@@ -217,6 +243,39 @@ TEST(ArcLength, TellsTheEventsOfASweepInSteps) {
       EXPECT_EQ(path.events[i].ligament, steps.events[i].ligament);
       EXPECT_NEAR(path.events[i].value, steps.events[i].value, 1e-6);
     }
+  }
+}
+
+/// The truss with strings that come to lie on posts one after the other as it is pressed down.
+Scene truss_over_posts(int posts, bool arc_length) {
+  Scene scene = truss_with_string(0, 8, arc_length);
+  const WrapDescription post = scene.wraps[0];
+  LigamentDescription string = scene.ligaments[2];
+  string.law = PolynomialLaw{{0, 1e-6}, false};  // pulls at nothing
+  scene.wraps.clear();
+  scene.ligaments.pop_back();
+  for (int i = 0; i < posts; ++i) {
+    scene.wraps.push_back(post);
+    scene.wraps.back().name = "post" + std::to_string(i);
+    scene.wraps.back().placement.p.z() += 1.36 + 0.0015 * i;
+    scene.ligaments.push_back(string);
+    scene.ligaments.back().name = "string" + std::to_string(i);
+    scene.ligaments.back().path.wraps = {i};
+  }
+  return scene;
+}
+
+TEST(Events, OfOneStepAreToldAllHoweverManyTheyAre) {
+  const auto touchings = [](const SweepResult& of) {
+    return std::count_if(of.events.begin(), of.events.end(),
+                         [](const Event& event) { return event.kind == EventKind::kTouching; });
+  };
+  const auto fine = touchings(sweep(truss_over_posts(40, false), {}));
+  ASSERT_GT(fine, 16);
+  for (const bool arc_length : {false, true}) {
+    Scene scene = truss_over_posts(40, arc_length);
+    scene.sweep->values = {0, 4, 8};
+    EXPECT_EQ(touchings(sweep(scene, {})), fine) << arc_length;
   }
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "condyle/math/rotation.h"
+#include "condyle/math/pose_step.h"
 
 namespace condyle {
 namespace {
@@ -56,18 +56,6 @@ constexpr double kLongestSecond = 2;     // second-order correction, of the step
 
 constexpr int kPatience = 2;       // iterations between attempts of Newton
 constexpr double kCarries = 1e-9;  // multiplier of a contact that carries, of the greatest
-
-/// X moved by a step in scaled components (da, L dπ).
-RigidTransform moved(const RigidTransform& X, const Vector6& step, double L) {
-  return {exp_rotation(step.tail<3>() / L) * X.R, X.p + step.head<3>()};
-}
-
-/// The step that leads from one pose to another.
-Vector6 step_between(const RigidTransform& from, const RigidTransform& to, double L) {
-  Vector6 step;
-  step << to.p - from.p, L * log_rotation(to.R * from.R.transpose());
-  return step;
-}
 
 }  // namespace
 
@@ -335,7 +323,7 @@ void Descent::take_step(const Programme& programme, const Vector6& step, Descent
     const bool free = constraints_.empty() && newton_.system().potentials().empty();
     reach_ = std::min(kGrow * reach_, (free ? kLongestFree : options_.longest_step) * L);
   };
-  const RigidTransform to = moved(X_, step, L);
+  const RigidTransform to = moved_by(X_, step, L);
   if (improves(to, kRoundOff * programme.force_scale * step.norm())) return accept(to, step.norm());
   // Restoring the constraints may cost more energy than the forces of this moment suggest.
   if (violation_after < kRestores * violation_before) {
@@ -345,7 +333,7 @@ void Descent::take_step(const Programme& programme, const Vector6& step, Descent
   }
   const Vector6 second = corrected_step(programme, step, to, trial_);
   if (second.allFinite() && second.norm() < kLongestSecond * step.norm()) {
-    const RigidTransform corrected = moved(X_, second, L);
+    const RigidTransform corrected = moved_by(X_, second, L);
     if (improves(corrected, 0)) return accept(corrected, second.norm());
   }
   reach_ = kShrink * std::min(reach_, step.norm());

@@ -13,7 +13,7 @@
 #include "condyle/equilibrium/edge_in_words.h"
 #include "condyle/equilibrium/motion_name.h"
 #include "condyle/equilibrium/stability.h"
-#include "condyle/math/rotation.h"
+#include "condyle/math/pose_step.h"
 
 namespace condyle {
 namespace {
@@ -52,8 +52,7 @@ std::string driving_load(const Model& model,
                          const EquilibriumState& state,
                          const Drive& drive) {
   const double L = model.length;
-  Eigen::Matrix<double, 6, 1> way;
-  way << state.X.p - model.start.p, L * log_rotation(state.X.R * model.start.R.transpose());
+  const Eigen::Matrix<double, 6, 1> way = step_between(model.start, state.X, L);
   double most = 0;
   std::string name;
   for (std::size_t i = 0; i < parameters.loads.size(); ++i) {

@@ -9,7 +9,7 @@
 #include "condyle/equilibrium/closing_event.h"
 #include "condyle/equilibrium/path_system.h"
 #include "condyle/equilibrium/pose_changes.h"
-#include "condyle/math/rotation.h"
+#include "condyle/math/pose_step.h"
 
 namespace condyle {
 namespace {
@@ -79,10 +79,8 @@ double motion(const PoseResult& a, const PoseResult& b, std::size_t contact) {
   return largest;
 }
 
-/// How far the body moved, as its point O_A of the model went and rotations counted as L dπ [mm].
 double body_motion(const SolvedPose& from, const SolvedPose& to, double L) {
-  const RigidTransform &a = from.state.X, &b = to.state.X;
-  return std::hypot((b.p - a.p).norm(), L * log_rotation(b.R * a.R.transpose()).norm());
+  return distance_between(from.state.X, to.state.X, L);
 }
 
 void append_limit(const SolvedPose& before, const SolvedPose& after, std::vector<Event>& events) {
@@ -253,7 +251,10 @@ std::optional<SolvedPose> locate_events(Walker& walker,
   SolvedPose from = left;
   for (int k = 0; k < options.most_events && !same_contacts(from.result, right.result); ++k) {
     SolvedPose before = from, after = right;
-    if (!search.bisect_change(before, after)) return std::nullopt;
+    if (!search.bisect_change(before, after)) {  // where it lies is not known
+      append_changes(from.result, right.result, right.value, events);
+      return std::nullopt;
+    }
     if (body_motion(before, after, L) >= options.jump * L) {
       if (auto there = instead(search.arrival(before, after, right))) return there;
       append_limit(before, after, events);
@@ -262,6 +263,7 @@ std::optional<SolvedPose> locate_events(Walker& walker,
                    events);
     from = after;
   }
+  append_changes(from.result, right.result, right.value, events);
   if (same_contacts(left.result, right.result) && search.moved_unexpectedly(left, right)) {
     SolvedPose before = left, after = right;
     // Contacts that jump with the body are not told of again.

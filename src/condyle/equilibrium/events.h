@@ -26,10 +26,10 @@ struct EventOptions {
       0.01;  ///< and has, when it still moves farther than this within the tolerance, in units of L
   double snap = 0.05;    ///< a body that moved farther than this, in units of L, may have snapped
                          ///< through
-  int most_events = 16;  ///< between two poses
+  int most_events = 64;  ///< located between two poses; further ones are told at the later one
   bool arrival = true;   ///< where the way from the left one goes on, say where it arrives
   /// On trials without equilibrium, and on all of them: after either no event more is looked for between the two
-  /// poses. Each is counted for itself: to close in on a limit point takes thousands of iterations and hardly a point.
+  /// poses, and what differs yet is told at the later one. Each is counted for itself: to close in on a limit point takes thousands of iterations and hardly a point.
   Work most_wasted{6000, 200000}, most{20000, 500000};
 };
 

@@ -68,18 +68,20 @@ bool PathFollower::change_contacts(double length) {
   }
   Ahead unchanged;
   (void)look_ahead(*there, length, unchanged);
-  located_ = std::move(unchanged.events);
-  locate_limit(length, before);
+  located_.insert(located_.end(), unchanged.events.begin(), unchanged.events.end());
+  if (unchanged.usable) told_ = std::move(unchanged.pose.result);
   located_.push_back({length, {changed.value, kind, pair}});
   if (after.value() * before.value() < 0)
     located_.push_back({length, {changed.value, EventKind::kLimitPoint, -1}});
   point_ = changed;
   tangent_ = after;
+  // Where one of the two is no pose of equilibrium, what happened up to there is told from the other one.
   SolvedPose there_now;
-  if (look_at(point_, there_now))
-    told_ = std::move(there_now.result);
-  else
-    told_.reset();
+  if (!look_at(point_, there_now)) return true;
+  if (told_)
+    for (const Event& event : this->changes(*told_, there_now.result, changed.value))
+      located_.push_back({length, event});
+  told_ = std::move(there_now.result);
   return true;
 }
 

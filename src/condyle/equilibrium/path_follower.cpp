@@ -146,9 +146,14 @@ bool PathFollower::try_step() {
   }
   const bool changes = changes_at(*next).any();
   if (changes) length = last_without_change(length);
-  if (const std::optional<double> end = length_to_end(length)) return finish(*end, length);
+  const std::optional<Sample> last =
+      changes ? sample(length) : sample_of(length, *next, next_tangent);
+  const std::vector<Sample> ways = last ? ways_to(*last) : std::vector<Sample>();
+  const std::optional<double> end = length_to_end(ways);
+  for (std::size_t i = 1; i + 1 < ways.size() && !(end && ways[i].length > *end); ++i)
+    located_.push_back({ways[i].length, {ways[i].value, EventKind::kLimitPoint, -1}});
+  if (end) return finish(*end);
   if (!changes) {
-    locate_limit(length, next_tangent);
     if (!tell(std::move(ahead))) return false;
     point_ = *next;
     tangent_ = next_tangent;
@@ -157,28 +162,24 @@ bool PathFollower::try_step() {
   return change_contacts(length);
 }
 
-std::optional<double> PathFollower::length_to_end(double length) {
-  const double before = point_.value - to_;
-  const std::optional<PathPoint> there = at(length);
-  // A fold that begins and ends beyond the value within one step is not looked for.
-  if (!there || before * (there->value - to_) > 0 || before == 0) return std::nullopt;
-  double left = 0, right = length;
-  for (int k = 0; k < 60 && right - left > 1e-6 * model_.length; ++k) {
-    const double middle = 0.5 * (left + right);
-    const std::optional<PathPoint> point = at(middle);
-    if (!point) return std::nullopt;
-    ((point->value - to_) * before > 0 ? left : right) = middle;
+std::optional<double> PathFollower::length_to_end(const std::vector<Sample>& ways) {
+  for (std::size_t i = 0; i + 1 < ways.size(); ++i) {
+    const double before = ways[i].value - to_;
+    if (before * (ways[i + 1].value - to_) > 0 || before == 0) continue;
+    double left = ways[i].length, right = ways[i + 1].length;
+    for (int k = 0; k < 60 && right - left > 1e-6 * model_.length; ++k) {
+      const double middle = 0.5 * (left + right);
+      const std::optional<PathPoint> point = at(middle);
+      if (!point) return std::nullopt;
+      ((point->value - to_) * before > 0 ? left : right) = middle;
+    }
+    return right;
   }
-  return right;
+  return std::nullopt;
 }
 
-bool PathFollower::finish(double length, double whole) {
+bool PathFollower::finish(double length) {
   std::optional<PathPoint> last = at(length);
-  Direction tangent;
-  if (last && system_.tangent(*last, tangent)) {
-    if (system_.product(tangent, tangent_) < 0) reverse(tangent);
-    locate_limit(std::min(length, whole), tangent);
-  }
   if (last) last->value = to_;
   if (!last || !system_.correct(*last, tangent_, true)) {
     stop("the path turns back just where it was to end");

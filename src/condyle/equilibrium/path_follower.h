@@ -34,6 +34,10 @@ class PathFollower {
     double length;  ///< from the present point
     Event event;
   };
+  /// How the swept value goes where the path has come some length ahead of the present point.
+  struct Sample {
+    double length, value, rate;  ///< rate: of the value by that length
+  };
   struct Ahead {
     SolvedPose pose;
     bool usable = false;  ///< of equilibrium
@@ -57,10 +61,11 @@ class PathFollower {
   /// One pose further; false at the end of the path.
   bool step();
   bool try_step();
-  /// The length at which the swept value passes `to`, where it does within `length`.
-  std::optional<double> length_to_end(double length);
+  /// The length at which the swept value first passes `to`; `ways`: along which it grows or falls all the time, one after
+  /// the other, by their ends.
+  std::optional<double> length_to_end(const std::vector<Sample>& ways);
   /// The last pose, with the swept value at `to` itself.
-  bool finish(double length, double whole);
+  bool finish(double length);
 
   // Where contacts and ligaments change (path_corners.cpp)
 
@@ -80,8 +85,17 @@ class PathFollower {
 
   // Events (path_events.cpp)
 
-  /// Where the swept value stops growing between here and `length`, or begins to.
-  void locate_limit(double length, const Direction& end);
+  /// `tangent` in either sense.
+  [[nodiscard]] Sample sample_of(double length,
+                                 const PathPoint& point,
+                                 const Direction& tangent) const;
+  std::optional<Sample> sample(double length);
+  /// Here, each limit point up to `end` and that itself: where the swept value stops growing, or begins to.
+  std::vector<Sample> ways_to(const Sample& end);
+  void find_limits(const Sample& left,
+                   const Sample& right,
+                   int halvings,
+                   std::vector<Sample>& ways);
   /// What differs but for contacts that forces and gaps close and open (change_contacts).
   [[nodiscard]] std::vector<Event> changes(const PoseResult& before,
                                            const PoseResult& after,

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "condyle/math/rotation.h"
+#include "condyle/math/pose_step.h"
 
 namespace condyle {
 namespace {
@@ -49,8 +49,7 @@ double PathSystem::product(const Direction& a, const Direction& b) const {
 }
 
 double PathSystem::distance(const PathPoint& a, const PathPoint& b) const {
-  const RigidTransform &X = a.state.X, &Y = b.state.X;
-  return std::hypot((Y.p - X.p).norm(), model_.length * log_rotation(Y.R * X.R.transpose()).norm(),
+  return std::hypot(distance_between(a.state.X, b.state.X, model_.length),
                     weight_ * (b.value - a.value));
 }
 
