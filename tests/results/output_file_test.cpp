@@ -3,14 +3,13 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <fstream>
 #include <iterator>
 
 #include "condyle/input_error.h"
+#include "support/small_files.h"
 
 namespace condyle {
 namespace {
@@ -101,6 +100,19 @@ TEST_F(WrittenFile, OfAnotherProcessIsLeftAlone) {
   ::close(other);
 }
 
+// Containers number their processes anew, so two of one number may write into one folder: each has a part of its own.
+TEST_F(WrittenFile, IsWholeWhereTwoOfOneProcessNumberWriteIt) {
+  OutputFile first(folder_ / "a"), second(folder_ / "a");
+  first.append("first");
+  second.append("second, and longer");
+  EXPECT_EQ(files(), 2);
+  first.keep();
+  EXPECT_EQ(contents(folder_ / "a"), "first");
+  second.keep();
+  EXPECT_EQ(contents(folder_ / "a"), "second, and longer");
+  EXPECT_EQ(files(), 1);
+}
+
 TEST_F(WrittenFile, HasANameWithRoomForAnEnding) {
   const fs::path path = folder_ / std::string(250, 'n');
   EXPECT_EQ(message_of(path, "x"),
@@ -125,18 +137,13 @@ TEST_F(WrittenFile, NeverReplacesADevice) {
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
-// A limit on the size of files stands for a full disk: the kernel refuses the write in the same
-// way.
 TEST_F(WrittenFile, OfAFullDiskLeavesTheOlderOneAndNothingElse) {
   write_output_file(folder_ / "a", "older");
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  const rlimit small{10000, before.rlim_max};
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  setrlimit(RLIMIT_FSIZE, &small);
-  const std::string message = message_of(folder_ / "a", std::string(20000, 'x'));
-  setrlimit(RLIMIT_FSIZE, &before);
-  (void)std::signal(SIGXFSZ, handler);
+  std::string message;
+  {
+    const test::FilesUpTo small(10000);
+    message = message_of(folder_ / "a", std::string(20000, 'x'));
+  }
   EXPECT_EQ(message, (folder_ / "a").string() + ": cannot be written: File too large");
   EXPECT_EQ(contents(folder_ / "a"), "older");
   EXPECT_EQ(files(), 1);

@@ -229,7 +229,8 @@ Verification verified_with(const std::string& group,
   ColumnTree columns = columns_of(run);
   ColumnTree* at = columns.groups.at("sweep").get();
   std::istringstream places(group);
-  for (std::string place; std::getline(places, place, '/');) at = at->groups.at(place).get();
+  for (std::string place; std::getline(places, place, '/');)
+    if (place != ".") at = at->groups.at(place).get();
   alter(at->columns.at(name));
   VerifyOptions options;
   options.meshes = false;
@@ -251,6 +252,26 @@ TEST(VerifyCatches, ANumberThatTheRestOfTheFileContradicts) {
     EXPECT_WORDS(v.faults[0].text,
                  std::string("flexion = 25 deg: /sweep/") + group + "/" + name + ": row 1 holds ");
   }
+}
+
+TEST(VerifyCatches, DatasetsOfAnotherShapeOrWithOtherTexts) {
+  const Verification shorter = verified_with("contacts/medial", "gap", [](DataColumn& column) {
+    std::get<std::vector<double>>(column.values).pop_back();
+    column.shape = {2};
+  });
+  ASSERT_EQ(shorter.faults.size(), 1U);
+  EXPECT_EQ(shorter.faults[0].text,
+            "/sweep/contacts/medial/gap: numbers [2], expected numbers [3]");
+  const Verification texts = verified_with("contacts/medial", "gap", [](DataColumn& column) {
+    column.values = std::vector<std::string>(3, "0");
+  });
+  ASSERT_EQ(texts.faults.size(), 1U);
+  EXPECT_EQ(texts.faults[0].text, "/sweep/contacts/medial/gap: texts [3], expected numbers [3]");
+  const Verification other = verified_with(".", "reason", [](DataColumn& column) {
+    std::get<std::vector<std::string>>(column.values)[1] = "none";
+  });
+  ASSERT_EQ(other.faults.size(), 1U);
+  EXPECT_WORDS(other.faults[0].text, "/sweep/reason: holds other texts");
 }
 
 TEST(VerifyCatches, AUnitThatCondyleDoesNotWrite) {

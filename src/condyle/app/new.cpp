@@ -17,6 +17,7 @@
 #include "condyle/app/default_template.h"
 #include "condyle/app/start_run.h"
 #include "condyle/app/tell.h"
+#include "condyle/control_characters.h"
 #include "condyle/input_error.h"
 #include "condyle/mesh_files/mesh_bytes.h"
 #include "condyle/results/output_file.h"
@@ -52,8 +53,7 @@ NewKneeFiles files_of(const NewCommand& command) {
 
 void check_outputs(const NewCommand& command, const NewKneeFiles& files) {
   for (const std::string& name : {command.femur, command.tibia})
-    if (std::any_of(name.begin(), name.end(),
-                    [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+    if (has_control_characters(name))
       throw InputError(quotable(name) +
                        ": a name with control characters, which a scene cannot hold");
   check_output_file(command.output, ".toml");

@@ -137,7 +137,7 @@ class Output {
     const std::string ending = path.extension().string();
     if (ending == ".mp4" && !command.movie)
       throw InputError(command.output + ": an MP4 is a movie: add --movie");
-    if (ends_like_another_format(path))
+    if (ending != ".mp4" && ends_like_another_kind(path, ".png"))
       throw InputError(command.output +
                        ": pictures are PNG, expected a name that ends in .png, or a folder");
     if (ending != ".png" && ending != ".mp4") {

@@ -29,7 +29,7 @@ Run start_run(Scene scene) {
 }
 
 void check_scene_page(const std::string& file) {
-  if (ends_like_another_format(file))
+  if (ends_like_another_kind(file, ".png"))
     throw InputError(file + ": the picture is PNG, expected a name that ends in .png");
   check_output_file(file);
 }

@@ -1,4 +1,5 @@
 #include "condyle/exchange/laxity_tables.h"
+#include "condyle/control_characters.h"
 
 #include <fmt/format.h>
 
@@ -218,8 +219,7 @@ void write_test(const std::string& test,
 }  // namespace
 
 LaxityTable laxity_table(const std::vector<fs::path>& files, const LaxityTableOptions& options) {
-  if (std::any_of(options.specimen.begin(), options.specimen.end(),
-                  [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+  if (has_control_characters(options.specimen))
     throw InputError("--specimen = \"" + options.specimen +
                      "\", expected a name without control characters: it stands in each line");
   LaxityTable table;

@@ -46,13 +46,6 @@ bool encode(png_structp png, png_infop info, std::string& bytes, const Image& im
 
 }  // namespace
 
-bool ends_like_another_format(const std::filesystem::path& path) {
-  const std::string ending = path.extension().string();
-  for (const char* other : {".jpg", ".jpeg", ".svg", ".pdf", ".tif", ".tiff", ".html"})
-    if (ending == other) return true;
-  return false;
-}
-
 std::string encode_png(const Image& image) {
   std::string message = "no memory", bytes;
   png_structp png =

@@ -9,9 +9,6 @@
 
 namespace condyle {
 
-/// Does a name end like a picture or a page of another format?
-[[nodiscard]] bool ends_like_another_format(const std::filesystem::path& path);
-
 /// The bytes of a PNG file.
 [[nodiscard]] std::string encode_png(const Image& image);
 

@@ -111,8 +111,7 @@ std::string compared_source_section(const RunComparison& comparison) {
 
 std::string compared_runs_page(const RunComparison& comparison,
                                const ComparedRunsPageOptions& options) {
-  using Part = std::function<std::string()>;
-  const std::vector<Part> parts = {
+  const std::vector<std::function<std::string()>> parts = {
       [&] {
         return page_head(title_of_runs(comparison),
                          fmt::format("{} runs compared", comparison.runs.size()));
@@ -123,13 +122,7 @@ std::string compared_runs_page(const RunComparison& comparison,
       [&] { return compared_curves_section(comparison); },
       [&] { return options.pictures ? compared_picture_section(comparison) : std::string(); },
       [&] { return compared_source_section(comparison); }};
-  std::string page;
-  int done = 0;
-  for (const Part& part : parts) {
-    page += part();
-    if (options.on_part) options.on_part(++done, static_cast<int>(parts.size()));
-  }
-  return page + page_foot();
+  return page_of(parts, options.on_part);
 }
 
 }  // namespace condyle

@@ -155,6 +155,15 @@ std::string page_head(const std::string& title, const std::string& what) {
       kPolicy, escaped(title), page_style(), css_string(title), escaped(title), escaped(what));
 }
 
-std::string page_foot() { return "</main>\n</body>\n</html>\n"; }
+std::string page_of(const std::vector<std::function<std::string()>>& parts,
+                    const OnProgress& on_part) {
+  std::string page;
+  int done = 0;
+  for (const auto& part : parts) {
+    page += part();
+    if (on_part) on_part(++done, static_cast<int>(parts.size()));
+  }
+  return page + "</main>\n</body>\n</html>\n";
+}
 
 }  // namespace condyle

@@ -2,9 +2,12 @@
 
 /// Small pieces of HTML. Whatever comes from a scene or a file goes through `escaped`.
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "condyle/on_progress.h"
 
 namespace condyle {
 
@@ -40,9 +43,11 @@ struct HtmlTable {
 /// Folded away until it is asked for.
 [[nodiscard]] std::string details(std::string_view title, const std::string& body);
 
-/// All of a page before its sections, and behind them. Nothing is fetched from anywhere, whatever stands
-/// in the page.
+/// All of a page before its sections. Nothing is fetched from anywhere, whatever stands in the page.
 [[nodiscard]] std::string page_head(const std::string& title, const std::string& what);
-[[nodiscard]] std::string page_foot();
+
+/// A page of its head and its sections, which are made one after the other.
+[[nodiscard]] std::string page_of(const std::vector<std::function<std::string()>>& parts,
+                                  const OnProgress& on_part);
 
 }  // namespace condyle

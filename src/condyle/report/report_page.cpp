@@ -27,8 +27,7 @@ std::string what_was_done(const Run& run) {
 }  // namespace
 
 std::string report_page(const Run& run, const std::string& file, const ReportOptions& options) {
-  using Part = std::function<std::string()>;
-  std::vector<Part> parts = {
+  std::vector<std::function<std::string()>> parts = {
       [&] {
         return page_head(run.scene.title.empty() ? "A knee" : run.scene.title, what_was_done(run));
       },
@@ -50,13 +49,7 @@ std::string report_page(const Run& run, const std::string& file, const ReportOpt
   parts.emplace_back([&] { return sensitivity_section(run, options.pictures); });
   parts.emplace_back([&] { return solver_section(run) + fit_section(run); });
   parts.emplace_back([&] { return source_section(run, file); });
-  std::string page;
-  int done = 0;
-  for (const Part& part : parts) {
-    page += part();
-    if (options.on_part) options.on_part(++done, static_cast<int>(parts.size()));
-  }
-  return page + page_foot();
+  return page_of(parts, options.on_part);
 }
 
 }  // namespace condyle

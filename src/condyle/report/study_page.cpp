@@ -147,8 +147,7 @@ std::string study_source_section(const StudyView& study, const std::string& file
 std::string study_page(const StudyView& study,
                        const std::string& file,
                        const StudyPageOptions& options) {
-  using Part = std::function<std::string()>;
-  std::vector<Part> parts = {
+  std::vector<std::function<std::string()>> parts = {
       [&] {
         return page_head(study.title.empty() ? "A study" : study.title, what_was_studied(study));
       },
@@ -161,13 +160,7 @@ std::string study_page(const StudyView& study,
   }
   parts.emplace_back([&] { return study_band_section(study) + study_failure_section(study); });
   parts.emplace_back([&] { return study_source_section(study, file); });
-  std::string page;
-  int done = 0;
-  for (const Part& part : parts) {
-    page += part();
-    if (options.on_part) options.on_part(++done, static_cast<int>(parts.size()));
-  }
-  return page + page_foot();
+  return page_of(parts, options.on_part);
 }
 
 }  // namespace condyle

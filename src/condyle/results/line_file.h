@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "condyle/results/sync_file.h"
 #include "condyle/results/unkept_file.h"
 
 namespace condyle {
@@ -20,7 +21,8 @@ class LineFile {
 
   /// What comes next is appended to its first bytes.
   void keep(std::size_t bytes);
-  /// A line with its end, in one write. The first failure is kept, and nothing more is written.
+  /// A line with its end, in one write, which is on the disk a second later at most where more follow. The first failure
+  /// is kept, and nothing more is written.
   void append(const std::string& line);
   [[nodiscard]] const std::string& failure() const { return failure_; }
   /// The file is no longer needed.
@@ -30,6 +32,7 @@ class LineFile {
   std::filesystem::path path_;
   UnkeptFile empty_;  ///< as long as it is, a signal removes it
   int descriptor_ = -1;
+  SyncNowAndThen sync_;
   std::string failure_;
 };
 

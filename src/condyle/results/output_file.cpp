@@ -3,16 +3,19 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <set>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "condyle/input_error.h"
+#include "condyle/results/sync_file.h"
 
 namespace condyle {
 namespace {
@@ -21,20 +24,16 @@ namespace fs = std::filesystem;
 
 std::string reason(int code) { return std::generic_category().message(code); }
 
+/// Another one each time: processes of two machines, or in two containers, may have one number.
 std::string part_name(const fs::path& path) {
-  return path.string() + fmt::format(".part{}", ::getpid());
+  constexpr std::uint64_t kSixteenDigits = 10000000000000000U;
+  std::uint64_t random = 0;
+  if (::getrandom(&random, sizeof random, GRND_NONBLOCK) != sizeof random) random = 0;
+  return path.string() + fmt::format(".part{}{:016}", ::getpid(), random % kSixteenDigits);
 }
 
 fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
-/// The names in a folder: until then a rename may be lost with the machine.
-void sync_folder(const fs::path& folder) {
-  const int names = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (names < 0) return;
-  ::fsync(names);
-  ::close(names);
 }
 
 bool is_part_of(const std::string& name, const std::string& of) {
@@ -83,12 +82,17 @@ void check_output_file(const fs::path& path) {
   }
 }
 
+bool ends_like_another_kind(const fs::path& path, const std::string& own) {
+  static const std::set<std::string> known = {".csv",  ".glb",  ".h5",   ".html", ".jpeg", ".jpg",
+                                              ".json", ".mot",  ".mp4",  ".obj",  ".off",  ".osim",
+                                              ".pdf",  ".ply",  ".png",  ".sto",  ".stl",  ".svg",
+                                              ".tif",  ".tiff", ".toml", ".vtp",  ".webp"};
+  const std::string ending = path.extension().string();
+  return ending != own && known.contains(ending);
+}
+
 void check_output_file(const fs::path& path, const std::string& ending) {
-  static const std::set<std::string> known = {
-      ".csv", ".glb", ".h5",  ".html", ".json", ".mot", ".mp4",  ".obj", ".off", ".osim",
-      ".pdf", ".ply", ".png", ".sto",  ".stl",  ".svg", ".toml", ".vtp", ".webp"};
-  const std::string own = path.extension().string();
-  if (own != ending && known.contains(own))
+  if (ends_like_another_kind(path, ending))
     throw InputError(fmt::format("{}: expected a name that ends in {}", path.string(), ending));
   check_output_file(path);
 }
@@ -111,7 +115,7 @@ void OutputFile::open() {
   struct stat state {};
   while (state.st_nlink == 0) {
     if (descriptor_ >= 0) ::close(descriptor_);
-    descriptor_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    descriptor_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail(errno);
     (void)::flock(descriptor_,
                   LOCK_EX);  // where there are no locks nothing is taken for left behind

@@ -13,6 +13,9 @@ namespace condyle {
 /// Throws InputError where `path` cannot become a file: its folder does not exist or cannot be
 /// written, or something that is no file stands there. To be asked before a long computation.
 void check_output_file(const std::filesystem::path& path);
+/// Does a name end as files of another kind do? `own` is the ending of its kind, ".png".
+[[nodiscard]] bool ends_like_another_kind(const std::filesystem::path& path,
+                                          const std::string& own);
 /// And where its name ends as files of another kind do, whose place it would take; `ending` is its own, ".h5".
 void check_output_file(const std::filesystem::path& path, const std::string& ending);
 

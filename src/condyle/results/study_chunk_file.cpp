@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -181,14 +180,6 @@ ChunkWriter::ChunkWriter(const std::filesystem::path& folder,
 
 ChunkWriter::~ChunkWriter() { ::close(descriptor_); }
 
-void ChunkWriter::sync_now_and_then() {
-  constexpr std::chrono::seconds kBetween(1);
-  const auto now = std::chrono::steady_clock::now();
-  if (now - synced_ < kBetween) return;
-  ::fdatasync(descriptor_);  // what a disk refuses is met by the next write
-  synced_ = now;
-}
-
 std::uint64_t ChunkWriter::append(const std::string& bytes) {
   std::size_t done = 0;
   int code = 0;
@@ -204,7 +195,7 @@ std::uint64_t ChunkWriter::append(const std::string& bytes) {
   }
   const std::uint64_t at = size_;
   size_ += bytes.size();
-  sync_now_and_then();
+  sync_.wrote(descriptor_, path_);
   return at;
 }
 

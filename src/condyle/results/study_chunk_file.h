@@ -6,7 +6,6 @@
 ///     payload: status (8 bits each), values (64 or, of a study in single precision, 32 bits each)
 ///     checksum of all before it in the record (64 bits, FNV-1a)
 
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -15,6 +14,7 @@
 #include <string_view>
 
 #include "condyle/results/study_identity.h"
+#include "condyle/results/sync_file.h"
 #include "condyle/study/study_chunk.h"
 
 namespace condyle {
@@ -69,12 +69,10 @@ class ChunkWriter {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
-  void sync_now_and_then();
-
   std::filesystem::path path_;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
-  std::chrono::steady_clock::time_point synced_ = std::chrono::steady_clock::now();
+  SyncNowAndThen sync_;
 };
 
 }  // namespace condyle

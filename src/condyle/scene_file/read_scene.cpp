@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "condyle/control_characters.h"
 #include "condyle/input_error.h"
 #include "condyle/math/rotation.h"
 #include "condyle/scene_file/read_sections.h"
@@ -101,8 +102,7 @@ std::string read_name(const Section& section, const std::vector<std::string>& ta
   if (name.find('/') != std::string::npos || name == "." || name == "..")
     section.fail("name",
                  "a name without \"/\", other than \".\" and \"..\": groups of results have it");
-  if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20; }))
-    section.fail("name", "a name without control characters");
+  if (has_control_characters(name)) section.fail("name", "a name without control characters");
   if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
     section.fail("name", "a name that is not used twice");
   }

@@ -2,6 +2,7 @@
 
 #include <system_error>
 
+#include "condyle/control_characters.h"
 #include "condyle/scene_file/read_sections.h"
 
 namespace condyle {
@@ -12,14 +13,14 @@ std::string scene_string(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
-    result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+    result += is_control(c) ? ' ' : c;
   }
   return result + '"';
 }
 
 std::string scene_comment(const std::string& text) {
   std::string result = "# ";
-  for (const char c : text) result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+  for (const char c : text) result += is_control(c) ? ' ' : c;
   return result;
 }
 

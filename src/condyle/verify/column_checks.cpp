@@ -1,10 +1,12 @@
 #include "condyle/verify/column_checks.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "condyle/results/run_columns.h"
 
@@ -13,12 +15,14 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Integers as numbers; none of texts.
-std::vector<double> numbers_of(const DataColumn& column) {
+using Texts = std::vector<std::string>;
+
+/// Integers as numbers; nothing for texts.
+std::optional<std::vector<double>> numbers_of(const DataColumn& column) {
   if (const auto* numbers = std::get_if<std::vector<double>>(&column.values)) return *numbers;
   if (const auto* integers = std::get_if<std::vector<int>>(&column.values))
-    return {integers->begin(), integers->end()};
-  return {};
+    return std::vector<double>(integers->begin(), integers->end());
+  return std::nullopt;
 }
 
 /// 0 where both are the same, or both no number.
@@ -46,17 +50,27 @@ class Columns {
  private:
   void compare_column(const DataColumn& file, const DataColumn& made, const std::string& place) {
     ledger_.beside_poses();
-    const bool same_units = file.units == made.units;
-    ledger_.note(Check::kColumns, same_units ? 0 : kInfinity, place,
-                 fmt::format("unit \"{}\", expected \"{}\"", file.units, made.units));
-    const std::vector<double> held = numbers_of(file), expected = numbers_of(made);
-    if (held.size() != expected.size() || file.shape != made.shape) return;  // texts
+    expect(file.units == made.units, place,
+           fmt::format("unit \"{}\", expected \"{}\"", file.units, made.units));
+    const auto held = numbers_of(file), expected = numbers_of(made);
+    if (held.has_value() != expected.has_value() || file.shape != made.shape)
+      return expect(false, place,
+                    fmt::format("{} [{}], expected {} [{}]", held ? "numbers" : "texts",
+                                fmt::join(file.shape, ", "), expected ? "numbers" : "texts",
+                                fmt::join(made.shape, ", ")));
+    if (!held)
+      return expect(std::get<Texts>(file.values) == std::get<Texts>(made.values), place,
+                    "holds other texts than the rest of the file says");
     const std::size_t rows = file.shape.empty() ? 0 : file.shape.front();
     const bool of_poses = place.starts_with("/sweep/") && rows == run_.sweep.poses.size();
     for (std::size_t row = 0; row < rows; ++row) {
       if (of_poses) ledger_.at_pose(row, run_.sweep.poses[row].value);
-      compare_row(held, expected, row, held.size() / rows, place);
+      compare_row(*held, *expected, row, held->size() / rows, place);
     }
+  }
+
+  void expect(bool same, const std::string& place, const std::string& words) {
+    ledger_.note(Check::kColumns, same ? 0 : kInfinity, place, words);
   }
 
   void compare_row(const std::vector<double>& held,

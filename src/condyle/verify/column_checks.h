@@ -9,8 +9,8 @@
 
 namespace condyle::verification {
 
-/// Every dataset of the file that condyle would write of the run: its unit, its shape and its numbers, those of a pose as
-/// a fault of that pose. What others have added to the file, and texts, are passed over.
+/// Every dataset of the file that condyle would write of the run: its unit, its shape and its numbers or texts, those of a
+/// pose as a fault of that pose. What others have added to the file is passed over, and what an older file lacks.
 void check_columns(const ColumnTree& file, const Run& run, Ledger& ledger);
 
 }  // namespace condyle::verification
