@@ -70,6 +70,20 @@ TEST(MeshSeams, AreWelded) {
   }
 }
 
+// Ten thousand needles of 100 mm through one another, each beside all others.
+TEST(MeshSeams, TakeNoTimeWhateverLiesBesideWhat) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 10000; ++i) {
+    const double x = 1e-3 * i, y = i % 2 == 0 ? 0.01 : -0.01;
+    const int first = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), {{x, 0, 0}, {x + 100, 0, 1e-4 * i}, {x + 50, y, 0}});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  const std::size_t before = mesh.triangles.size();
+  (void)weld_seams(mesh);
+  EXPECT_LE(mesh.triangles.size(), before + 12 * before);
+}
+
 // The rims of both walls of a thin sheet and short slits stay as they are.
 TEST(MeshSeams, AreNotSeenWhereThereAreNone) {
   TriangleMesh walls;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -81,20 +80,25 @@ struct Seams {
 };
 
 Seams find_seams(const TriangleMesh& mesh) {
+  constexpr std::size_t kNearest = 32;  // points
   Seams seams{rims_of(mesh), {}, 0};
   if (seams.rims.empty()) return seams;
   const RimPoints all(mesh, seams.rims);
   const PointCloud cloud{all.points};
   PointTree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(16));
-  std::vector<std::pair<std::uint32_t, double>> near;
   for (std::size_t i = 0; i < seams.rims.size(); ++i) {
     const Rim& rim = seams.rims[i];
     const double reach = kBeside * rim.length;
-    tree.radiusSearch(rim.middle.data(), reach * reach, near, nanoflann::SearchParams());
+    // Those of one edge beside another are among the nearest; a hostile mesh has any number within reach.
+    std::array<std::size_t, kNearest> points;
+    std::array<double, kNearest> squares;
+    nanoflann::KNNResultSet<double> found(kNearest);
+    found.init(points.data(), squares.data());
+    tree.findNeighbors(found, rim.middle.data(), nanoflann::SearchParams());
     bool beside = false;
-    for (const auto& [point, square] : near) {
-      const std::size_t k = all.rim[point];
-      if (!lies_beyond(rim, seams.rims[k], all.points[point])) continue;
+    for (std::size_t n = 0; n < found.size() && squares[n] < reach * reach; ++n) {
+      const std::size_t k = all.rim[points[n]];
+      if (!lies_beyond(rim, seams.rims[k], all.points[points[n]])) continue;
       beside = true;
       seams.pairs.push_back(std::minmax(i, k));
     }
@@ -114,7 +118,7 @@ void merge_across(const Seams& seams, TriangleMesh& mesh) {
   std::vector<int> merged(mesh.vertices.size());
   std::iota(merged.begin(), merged.end(), 0);
   const auto root = [&](int v) {
-    while (merged[v] != v) v = merged[v];
+    for (; merged[v] != v; v = merged[v]) merged[v] = merged[merged[v]];
     return v;
   };
   for (const auto& [i, k] : seams.pairs) {
@@ -143,8 +147,9 @@ double place_on(const TriangleMesh& mesh, const Rim& rim, int v) {
   return off < kBeside * rim.length && t > kEnd && t < 1 - kEnd ? t : 0;
 }
 
-/// One edge of each triangle at most is divided by the vertices that lie on it across a seam; false where none is.
-bool split_across(const Seams& seams, TriangleMesh& mesh) {
+/// One edge of each triangle at most is divided by the vertices that lie on it across a seam; false where none is, or would
+/// make more than `most` triangles.
+bool split_across(const Seams& seams, std::size_t most, TriangleMesh& mesh) {
   std::vector<std::vector<std::pair<double, int>>> dividing(seams.rims.size());
   for (const auto& [i, k] : seams.pairs)
     for (const auto& [rim, other] : {std::pair{i, k}, {k, i}})
@@ -156,6 +161,7 @@ bool split_across(const Seams& seams, TriangleMesh& mesh) {
   for (std::size_t i = 0; i < dividing.size(); ++i) {
     const Rim& rim = seams.rims[i];
     if (dividing[i].empty() || done[rim.triangle]) continue;
+    if (mesh.triangles.size() + dividing[i].size() > most) return false;
     done[rim.triangle] = any = true;
     std::sort(dividing[i].begin(), dividing[i].end());
     std::array<int, 3> whole = mesh.triangles[rim.triangle];
@@ -182,10 +188,12 @@ double weld_seams(TriangleMesh& mesh) {
   Seams seams = find_seams(mesh);
   const double length = seams.length;
   if (length < kShort) return 0;
+  // Each vertex of a seam divides an edge or two.
+  const std::size_t most = mesh.triangles.size() + 4 * seams.rims.size();
   merge_across(seams, mesh);
   for (int round = 0; round < kMostRounds; ++round) {
     seams = find_seams(mesh);
-    if (!split_across(seams, mesh)) break;
+    if (!split_across(seams, most, mesh)) break;
   }
   return length;
 }
