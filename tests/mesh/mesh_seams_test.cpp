@@ -42,8 +42,8 @@ TriangleMesh two_sheets(double side, double gap) {
   return mesh;
 }
 
-const std::pair<double, double> kSheets[] = {{1, 0.02},  {1, 0.2},   {0.5, 0}, {0.5, 0.05},
-                                             {0.4, 0},   {0.4, 0.1}, {2.0, 0}, {5.0, 0.02},
+const std::pair<double, double> kSheets[] = {{1, 0.02},  {1, 0.2},    {0.5, 0}, {0.5, 0.05},
+                                             {0.4, 0},   {0.4, 0.08}, {2.0, 0}, {5.0, 0.02},
                                              {0.125, 0}, {2.5, 0.02}};
 
 TEST(MeshSeams, AreAsLongAsTheyLook) {
@@ -58,7 +58,9 @@ TEST(MeshSeams, AreWelded) {
   for (const auto& [side, gap] : kSheets) {
     TriangleMesh mesh = two_sheets(side, gap);
     const double area = area_of(mesh);
-    EXPECT_NEAR(weld_seams(mesh), 10, 1);
+    const WeldedSeams welded = weld_seams(mesh);
+    EXPECT_NEAR(welded.length, 10, 1);
+    EXPECT_EQ(welded.joined, welded.length);
     EXPECT_NEAR(area_of(mesh), area, 10 * gap + 1e-9) << side << ", " << gap;
     EXPECT_EQ(seam_length(mesh), 0) << side << ", " << gap;
     const CleanMesh clean = clean_mesh(mesh);
@@ -84,6 +86,42 @@ TEST(MeshSeams, TakeNoTimeWhateverLiesBesideWhat) {
   EXPECT_LE(mesh.triangles.size(), before + 12 * before);
 }
 
+// Outlines with notches, and ribbons narrower than their edges are long.
+TEST(MeshSeams, LeaveNotchesAndRibbonsAlone) {
+  TriangleMesh saw;
+  for (int i = 0; i <= 20; ++i)
+    saw.vertices.insert(saw.vertices.end(),
+                        {{double(i), 0, 0}, {i + 0.5, 1.5, 0}, {double(i), -1, 0}});
+  for (int i = 0; i < 20; ++i) {
+    const int at = 3 * i;
+    saw.triangles.push_back({at, at + 3, at + 1});
+    saw.triangles.push_back({at, at + 2, at + 5});
+    saw.triangles.push_back({at, at + 5, at + 3});
+  }
+  EXPECT_EQ(seam_length(saw), 0);
+  TriangleMesh ribbon;
+  for (int i = 0; i <= 8; ++i)
+    ribbon.vertices.insert(ribbon.vertices.end(), {{5.0 * i, 0, 0}, {5.0 * i, 0.4, 0}});
+  for (int i = 0; i < 8; ++i) {
+    const int at = 2 * i;
+    ribbon.triangles.push_back({at, at + 2, at + 3});
+    ribbon.triangles.push_back({at, at + 3, at + 1});
+  }
+  EXPECT_EQ(seam_length(ribbon), 0);
+  EXPECT_EQ(weld_seams(ribbon).length, 0);
+  EXPECT_EQ(ribbon.triangles.size(), 16U);
+}
+
+TEST(MeshSeams, AreWeldedAlikeInAnyUnit) {
+  TriangleMesh mesh = two_sheets(0.4, 0.08), large = mesh;
+  for (Eigen::Vector3d& v : large.vertices) v *= 1024;
+  weld_seams(mesh);
+  weld_seams(large);
+  ASSERT_EQ(large.triangles, mesh.triangles);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    EXPECT_LT((large.vertices[i] / 1024 - mesh.vertices[i]).norm(), 1e-12);
+}
+
 // The rims of both walls of a thin sheet and short slits stay as they are.
 TEST(MeshSeams, AreNotSeenWhereThereAreNone) {
   TriangleMesh walls;
@@ -96,7 +134,7 @@ TEST(MeshSeams, AreNotSeenWhereThereAreNone) {
   TriangleMesh slit = two_sheets(1, 0);
   const std::size_t triangles = slit.triangles.size();
   slit.triangles.erase(slit.triangles.begin() + 40);
-  EXPECT_EQ(weld_seams(slit), 0);
+  EXPECT_EQ(weld_seams(slit).length, 0);
   EXPECT_EQ(slit.triangles.size(), triangles - 1);
 }
 

@@ -94,11 +94,7 @@ std::string in_words(const Eigen::Vector3d& v) {
 std::string name_screw(const Eigen::Matrix<double, 6, 1>& motion,
                        const Eigen::Vector3d& at,
                        double L) {
-  Eigen::Vector3d v = motion.head<3>(), omega = motion.tail<3>() / L;
-  // To and fro are one motion: along what it has most of.
-  const Eigen::Vector3d& told = omega.norm() * L < kNothing ? v : omega;
-  Eigen::Index most = 0;
-  if (told.cwiseAbs().maxCoeff(&most) > 0 && told[most] < 0) v = -v, omega = -omega;
+  const Eigen::Vector3d v = motion.head<3>(), omega = motion.tail<3>() / L;
   if (omega.norm() * L < kNothing) return "a translation along " + in_words(v.normalized());
   const double square = omega.squaredNorm(), pitch = omega.dot(v) / square;
   const Eigen::Vector3d through = at + omega.cross(v) / square;

@@ -119,7 +119,11 @@ CleanMesh clean_mesh(TriangleMesh mesh, const CleaningOptions& options) {
   report.merged_vertices = merge_vertices(mesh, tolerance);
   report.degenerate_triangles = drop_degenerate(mesh, tolerance);
   report.duplicate_triangles = drop_duplicates(mesh);
-  report.welded = weld_seams(mesh);
+  report.seams = weld_seams(mesh);
+  if (report.seams.joined > 0) {
+    report.degenerate_triangles += drop_degenerate(mesh, tolerance);
+    report.duplicate_triangles += drop_duplicates(mesh);
+  }
   auto links = std::make_unique<TriangleLinks>(mesh);
   result.component = find_components(mesh, *links);
   drop_strays(mesh, result.component, options.stray_fraction, report);
@@ -149,11 +153,12 @@ std::vector<std::string> describe(const CleaningReport& report) {
   if (report.stray_components > 0)
     lines.push_back(fmt::format("{} stray pieces ({} triangles) dropped", report.stray_components,
                                 report.stray_triangles));
-  if (report.welded > 0)
+  if (report.seams.length > 0)
     lines.push_back(fmt::format(
         "warning: seam: along {:.0f} mm the triangles on either side were not linked (a crack, or "
-        "vertices on one side only), and have been joined: look whether the mesh is what was meant",
-        report.welded));
+        "vertices on one side only), {:.0f} mm of it have been joined: look whether the mesh is "
+        "what was meant",
+        report.seams.length, report.seams.joined));
   say(report.flipped_triangles, "triangles turned the other way round");
   say(report.non_manifold_edges, "edges shared by more than two triangles");
   return lines;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/mesh/mesh_seams.h"
 #include "condyle/mesh/triangle_mesh.h"
 
 namespace condyle {
@@ -22,7 +23,7 @@ struct CleaningReport {
   int merged_vertices = 0;
   int degenerate_triangles = 0;  ///< with a repeated vertex or no area
   int duplicate_triangles = 0;   ///< the same three vertices once more
-  double welded = 0;  ///< length of seams whose two sides were linked (mesh_seams.h) [mm]
+  WeldedSeams seams = {};        ///< whose two sides were not linked
   int unreferenced_vertices = 0;
   int stray_components = 0, stray_triangles = 0;
   int flipped_triangles = 0;  ///< turned to agree with their neighbours, or outward

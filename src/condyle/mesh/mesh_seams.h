@@ -10,8 +10,14 @@ namespace condyle {
 /// Length [mm] of the boundary beside which other boundary runs on its far side, within 0.3 of an edge's length.
 [[nodiscard]] double seam_length(const TriangleMesh& mesh);
 
-/// Links both sides of the seams: vertices within 0.3 of an edge become one, others divide the edge that they lie on. Returns
-/// the length of the seams [mm]; nothing is done where they are shorter than 5 mm altogether, as slits of pinholes are.
-double weld_seams(TriangleMesh& mesh);
+struct WeldedSeams {
+  double length = 0;  ///< that there were [mm]
+  double joined = 0;  ///< of it, of which both sides are linked now [mm]
+};
+
+/// Links both sides of the seams: vertices within 0.3 of an edge, and of the least height of their triangles, become one in
+/// their middle; others divide the edge that they lie on, where no part of its triangle turns over. Nothing is done, and
+/// nothing told, where seams are shorter than four mean edges altogether.
+WeldedSeams weld_seams(TriangleMesh& mesh);
 
 }  // namespace condyle

@@ -50,9 +50,11 @@ void LineFile::keep(std::size_t bytes) {
 void LineFile::append(const std::string& line) {
   if (!failure_.empty()) return;
   const ssize_t written = ::write(descriptor_, line.data(), line.size());
-  if (written == static_cast<ssize_t>(line.size())) return sync_.wrote(descriptor_, path_);
-  failure_ = fmt::format("{}: cannot be written: {}", path_.string(),
-                         std::generic_category().message(written < 0 ? errno : ENOSPC));
+  int code = written < 0 ? errno : ENOSPC;
+  if (written == static_cast<ssize_t>(line.size())) code = sync_.wrote(descriptor_, path_);
+  if (code != 0)
+    failure_ = fmt::format("{}: cannot be written: {}", path_.string(),
+                           std::generic_category().message(code));
 }
 
 void LineFile::remove() { ::unlink(path_.c_str()); }

@@ -21,7 +21,7 @@ class LineFile {
 
   /// What comes next is appended to its first bytes.
   void keep(std::size_t bytes);
-  /// A line with its end, in one write, which is on the disk a second later at most where more follow. The first failure
+  /// A line with its end, in one write, which the next one after a second brings to the disk. The first failure
   /// is kept, and nothing more is written.
   void append(const std::string& line);
   [[nodiscard]] const std::string& failure() const { return failure_; }

@@ -195,7 +195,8 @@ std::uint64_t ChunkWriter::append(const std::string& bytes) {
   }
   const std::uint64_t at = size_;
   size_ += bytes.size();
-  sync_.wrote(descriptor_, path_);
+  if (const int refused = sync_.wrote(descriptor_, path_); refused != 0)
+    cannot_write(path_, refused);
   return at;
 }
 

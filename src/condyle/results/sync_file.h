@@ -13,8 +13,8 @@ void sync_folder(const std::filesystem::path& folder);
 /// Of a file that grows: at most one sync a second, so that a crash of the machine costs a second or two of work.
 class SyncNowAndThen {
  public:
-  /// To be told after each write.
-  void wrote(int descriptor, const std::filesystem::path& file);
+  /// To be told after each write. 0, or why the disk has not taken what was written before (errno): it says so once.
+  int wrote(int descriptor, const std::filesystem::path& file);
 
  private:
   std::chrono::steady_clock::time_point synced_ = std::chrono::steady_clock::now();
