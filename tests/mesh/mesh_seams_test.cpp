@@ -10,6 +10,7 @@
 #include "condyle/mesh/clean_mesh.h"
 #include "condyle/mesh/merge_vertices.h"
 #include "condyle/mesh/mesh_measures.h"
+#include "condyle/mesh/weld_seams.h"
 
 namespace condyle {
 namespace {
@@ -47,11 +48,11 @@ const std::pair<double, double> kSheets[] = {{1, 0.02},  {1, 0.2},    {0.5, 0}, 
                                              {0.125, 0}, {2.5, 0.02}};
 
 TEST(MeshSeams, AreAsLongAsTheyLook) {
-  EXPECT_EQ(seam_length({}), 0);
-  EXPECT_EQ(seam_length(two_sheets(1, 0)), 0) << "both sides have the same vertices";
-  EXPECT_EQ(seam_length(two_sheets(0.5, 1)), 0) << "a gap as wide as the triangles";
+  EXPECT_EQ(find_seams({}).length, 0);
+  EXPECT_EQ(find_seams(two_sheets(1, 0)).length, 0) << "both sides have the same vertices";
+  EXPECT_EQ(find_seams(two_sheets(0.5, 1)).length, 0) << "a gap as wide as the triangles";
   for (const auto& [side, gap] : kSheets)
-    EXPECT_NEAR(seam_length(two_sheets(side, gap)), 10, 1) << side << ", " << gap;
+    EXPECT_NEAR(find_seams(two_sheets(side, gap)).length, 10, 1) << side << ", " << gap;
 }
 
 TEST(MeshSeams, AreWelded) {
@@ -62,7 +63,7 @@ TEST(MeshSeams, AreWelded) {
     EXPECT_NEAR(welded.length, 10, 1);
     EXPECT_EQ(welded.joined, welded.length);
     EXPECT_NEAR(area_of(mesh), area, 10 * gap + 1e-9) << side << ", " << gap;
-    EXPECT_EQ(seam_length(mesh), 0) << side << ", " << gap;
+    EXPECT_EQ(find_seams(mesh).length, 0) << side << ", " << gap;
     const CleanMesh clean = clean_mesh(mesh);
     EXPECT_EQ(clean.report.components, 1) << side << ", " << gap;
     EXPECT_EQ(clean.report.non_manifold_edges, 0) << side << ", " << gap;
@@ -98,7 +99,7 @@ TEST(MeshSeams, LeaveNotchesAndRibbonsAlone) {
     saw.triangles.push_back({at, at + 2, at + 5});
     saw.triangles.push_back({at, at + 5, at + 3});
   }
-  EXPECT_EQ(seam_length(saw), 0);
+  EXPECT_EQ(find_seams(saw).length, 0);
   TriangleMesh ribbon;
   for (int i = 0; i <= 8; ++i)
     ribbon.vertices.insert(ribbon.vertices.end(), {{5.0 * i, 0, 0}, {5.0 * i, 0.4, 0}});
@@ -107,7 +108,7 @@ TEST(MeshSeams, LeaveNotchesAndRibbonsAlone) {
     ribbon.triangles.push_back({at, at + 2, at + 3});
     ribbon.triangles.push_back({at, at + 3, at + 1});
   }
-  EXPECT_EQ(seam_length(ribbon), 0);
+  EXPECT_EQ(find_seams(ribbon).length, 0);
   EXPECT_EQ(weld_seams(ribbon).length, 0);
   EXPECT_EQ(ribbon.triangles.size(), 16U);
 }
@@ -130,7 +131,7 @@ TEST(MeshSeams, AreNotSeenWhereThereAreNone) {
   add_squares(0, 0, 1, 10, 10, walls);
   for (std::size_t i = upper; i < walls.vertices.size(); ++i) walls.vertices[i].z() = 0.1;
   merge_vertices(walls, 1e-6);
-  EXPECT_EQ(seam_length(walls), 0);
+  EXPECT_EQ(find_seams(walls).length, 0);
   TriangleMesh slit = two_sheets(1, 0);
   const std::size_t triangles = slit.triangles.size();
   slit.triangles.erase(slit.triangles.begin() + 40);

@@ -13,7 +13,7 @@
 #include "condyle/scene/start_pose.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
-#include "condyle/specimen/start_warnings.h"
+#include "condyle/specimen/start_gap.h"
 #include "condyle/surface/offset_patch.h"
 
 namespace condyle {

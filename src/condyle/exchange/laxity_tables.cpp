@@ -1,5 +1,4 @@
 #include "condyle/exchange/laxity_tables.h"
-#include "condyle/control_characters.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +9,7 @@
 #include <map>
 
 #include "condyle/calibration/csv_file.h"
+#include "condyle/control_characters.h"
 #include "condyle/elements/joint_table.h"
 #include "condyle/exchange/jcs_heading.h"
 #include "condyle/exchange/jcs_offsets.h"

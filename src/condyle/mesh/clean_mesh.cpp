@@ -14,8 +14,8 @@
 #include "condyle/mesh/merge_vertices.h"
 #include "condyle/mesh/mesh_edges.h"
 #include "condyle/mesh/mesh_measures.h"
-#include "condyle/mesh/mesh_seams.h"
 #include "condyle/mesh/orient_mesh.h"
+#include "condyle/mesh/weld_seams.h"
 
 namespace condyle {
 namespace {

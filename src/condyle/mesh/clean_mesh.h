@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "condyle/mesh/mesh_seams.h"
 #include "condyle/mesh/triangle_mesh.h"
+#include "condyle/mesh/weld_seams.h"
 
 namespace condyle {
 

@@ -3,21 +3,31 @@
 /// Seams of a mesh: where two sheets of it run along each other and share no edges, as a crack narrower than its triangles
 /// or a row of vertices on one side only leaves them. What lies beyond a seam is not linked with the rest.
 
+#include <Eigen/Core>
+
+#include <utility>
+#include <vector>
+
 #include "condyle/mesh/triangle_mesh.h"
 
 namespace condyle {
 
-/// Length [mm] of the boundary beside which other boundary runs on its far side, within 0.3 of an edge's length.
-[[nodiscard]] double seam_length(const TriangleMesh& mesh);
+/// What counts as beside an edge, of its length.
+inline constexpr double kBesideRim = 0.3;
 
-struct WeldedSeams {
-  double length = 0;  ///< that there were [mm]
-  double joined = 0;  ///< of it, of which both sides are linked now [mm]
+/// An edge of one triangle alone.
+struct Rim {
+  int a, b, triangle;
+  Eigen::Vector3d middle, inward;  ///< [mm]; unit, to the side on which the triangle lies
+  double length, height;           ///< [mm], the latter of the triangle over it
 };
 
-/// Links both sides of the seams: vertices within 0.3 of an edge, and of the least height of their triangles, become one in
-/// their middle; others divide the edge that they lie on, where no part of its triangle turns over. Nothing is done, and
-/// nothing told, where seams are shorter than four mean edges altogether.
-WeldedSeams weld_seams(TriangleMesh& mesh);
+struct Seams {
+  std::vector<Rim> rims;
+  std::vector<std::pair<std::size_t, std::size_t>>
+      pairs;          ///< of rims on either side, in rising order
+  double length = 0;  ///< of the boundary beside which other boundary runs on its far side [mm]
+};
+[[nodiscard]] Seams find_seams(const TriangleMesh& mesh);
 
 }  // namespace condyle

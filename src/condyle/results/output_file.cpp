@@ -149,7 +149,7 @@ void OutputFile::append(std::string_view bytes) {
 void OutputFile::keep() {
   if (::fsync(descriptor_) != 0 || ::rename(name_.c_str(), path_.c_str()) != 0) fail(errno);
   kept_ = true;
-  sync_folder(folder_of(path_));
+  sync_folder(path_.parent_path());
 }
 
 FileBeside::FileBeside(fs::path path, const std::string& ending)
@@ -168,7 +168,7 @@ void FileBeside::keep() {
   if (!kept_)
     throw InputError(
         fmt::format("{}: cannot be written: {}", path_.string(), reason(stored ? errno : code)));
-  sync_folder(folder_of(path_));  // what the file was made of may be removed now
+  sync_folder(path_.parent_path());  // what the file was made of may be removed now
 }
 
 }  // namespace condyle

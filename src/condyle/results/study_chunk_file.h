@@ -63,8 +63,8 @@ class ChunkWriter {
   ChunkWriter& operator=(const ChunkWriter&) = delete;
   ~ChunkWriter();
 
-  /// In one write, which is on the disk a second later at most where more follow; returns where it
-  /// begins. Throws InputError, and then the file is as before.
+  /// In one write, which the next one after a second brings to the disk; returns where it begins. Throws InputError where it
+  /// cannot be written, and then the file is as before, and where the disk refused what was written before.
   std::uint64_t append(const std::string& bytes);
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 

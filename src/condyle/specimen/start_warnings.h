@@ -23,12 +23,6 @@ struct StartLimits {
 /// Of exact surfaces far larger than a knee, one line each.
 [[nodiscard]] std::vector<std::string> size_warnings(const Scene& scene);
 
-/// Smallest gap of a contact at the start pose [mm], negative where the bodies overlap; infinite
-/// where the surfaces do not face each other.
-[[nodiscard]] double start_gap(const Scene& scene,
-                               const std::vector<FittedSurface>& surfaces,
-                               const ContactDescription& contact);
-
 /// One line each; those beyond the limits begin with "warning: ". `bones`: the mesh of each body of
 /// the scene, empty where it has none.
 [[nodiscard]] std::vector<std::string> start_warnings(const Scene& scene,

@@ -8,9 +8,9 @@
 
 #include "condyle/math/decompositions.h"
 #include "condyle/math/simd.h"
+#include "condyle/mesh/point_tree.h"
 #include "condyle/surface/bspline_basis.h"
 #include "condyle/surface/knot_span.h"
-#include "condyle/mesh/point_tree.h"
 
 namespace condyle {
 
