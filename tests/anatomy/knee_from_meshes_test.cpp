@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+
 #include "condyle/anatomy/new_scene_text.h"
 #include "condyle/exchange/ply_file.h"
 #include "condyle/input_error.h"
@@ -14,6 +16,7 @@
 #include "condyle/results/output_file.h"
 #include "condyle/scene/start_pose.h"
 #include "condyle/scene_file/read_scene.h"
+#include "support/cracked_mesh.h"
 #include "support/scratch_folder.h"
 
 namespace condyle {
@@ -128,6 +131,23 @@ TEST_F(NewKneeOfThePhantom, IsBroughtTogetherAndExtended) {
   EXPECT_LT(error.p.norm(), 1.5);
   EXPECT_LT(Eigen::AngleAxisd(error.R).angle() * 180 / M_PI, 2);
   EXPECT_FALSE(knee.doubts.empty());
+}
+
+TEST_F(NewKneeOfThePhantom, NamesTheFileWhoseSeamsWereJoined) {
+  Map in_cm;
+  in_cm.factor = 0.1;
+  const NewKneeFiles cracked = files(in_cm);
+  write_output_file(cracked.tibia, ply(test::cracked(load_mesh(cracked.tibia, 1), 1, 0.002)));
+  const NewKnee knee = knee_from_meshes(cracked, {});
+  const auto joined = std::find_if(
+      knee.doubts.begin(), knee.doubts.end(),
+      [](const std::string& line) { return line.find("seam: ") != std::string::npos; });
+  ASSERT_NE(joined, knee.doubts.end());
+  const std::string start = cracked.tibia.string() + ": seam: along ";
+  ASSERT_EQ(joined->substr(0, start.size()), start) << *joined;
+  const double length = std::stod(joined->substr(start.size()));
+  EXPECT_GT(length, 80) << *joined;  // around the bone, in mm whatever the unit of the file
+  EXPECT_LT(length, 400) << *joined;
 }
 
 TEST_F(NewKneeOfThePhantom, IsASceneThatCanBeRead) {

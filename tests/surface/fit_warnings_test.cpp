@@ -11,6 +11,7 @@
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/mesh_files/load_mesh.h"
 #include "condyle/specimen/fit_surfaces.h"
+#include "support/cracked_mesh.h"
 #include "support/mesh_shapes.h"
 #include "support/scratch_folder.h"
 
@@ -95,22 +96,11 @@ TEST_F(FitWarnings, NameAMeshThatWasMirrored) {
                     "triangles faced into the bone, as after mirroring: check the side"));
 }
 
-/// Triangles whose middle lies below z get vertices of their own, 0.02 mm away from those of the others.
-TriangleMesh cracked(TriangleMesh mesh, double z) {
-  const std::size_t count = mesh.vertices.size();
-  for (std::size_t i = 0; i < count; ++i)
-    mesh.vertices.emplace_back(mesh.vertices[i] - Vector3d(0, 0, 0.02));
-  for (auto& triangle : mesh.triangles)
-    if (triangle_middle(mesh, triangle).z() < z)
-      for (int& v : triangle) v += static_cast<int>(count);
-  return mesh;
-}
-
 // What lies beyond a crack is linked with the rest again: the patch is the same but for the 0.02 mm.
 TEST_F(FitWarnings, NameASeamAndJoinIt) {
   const FittedSurface whole = fit(phantom_femur(), medial());
   EXPECT_FALSE(holds(whole.report->notes, "seam"));
-  const FittedSurface joined = fit(cracked(phantom_femur(), -24), medial());
+  const FittedSurface joined = fit(test::cracked(phantom_femur(), -24, 0.02), medial());
   EXPECT_TRUE(holds(joined.report->notes, "warning: seam: along "));
   EXPECT_NEAR(joined.report->area, whole.report->area, 0.01 * whole.report->area);
   const auto &patch = *joined.surface, &expected = *whole.surface;

@@ -274,11 +274,15 @@ TEST(VerifyCatches, DatasetsOfAnotherShapeOrWithOtherTexts) {
   EXPECT_WORDS(other.faults[0].text, "/sweep/reason: holds other texts");
 }
 
+// What is wrong with the first pose is told beside it.
 TEST(VerifyCatches, AUnitThatCondyleDoesNotWrite) {
-  const Verification v =
-      verified_with("contacts/medial", "force", [](DataColumn& column) { column.units = "kN"; });
-  ASSERT_EQ(v.faults.size(), 1U);
+  const Verification v = verified_with("contacts/medial", "force", [](DataColumn& column) {
+    column.units = "kN";
+    std::get<std::vector<double>>(column.values)[0] += 1e-6;
+  });
+  ASSERT_EQ(v.faults.size(), 2U);
   EXPECT_EQ(v.faults[0].text, "/sweep/contacts/medial/force: unit \"kN\", expected \"N\"");
+  EXPECT_WORDS(v.faults[1].text, "flexion = 20 deg: /sweep/contacts/medial/force: row 0 holds ");
 }
 
 TEST(VerifyCatches, ANormalThatTurned) {

@@ -1,5 +1,6 @@
 /// Scenes of the grammar swept: what is called converged is finite and in balance, what is not has a
-/// reason.
+/// reason. The same ways as in the program, given up after an eighth of its work: most made scenes have no equilibrium, and
+/// what takes a search to its end is what it has begun with.
 
 #include <cmath>
 #include <stdexcept>
@@ -33,13 +34,22 @@ void expect_sound(const PoseResult& pose) {
   if (!finite) throw std::logic_error("a solved pose is not finite");
 }
 
+constexpr long kLess = 8;  // times
+
+SweepResult sweep_briefly(const Scene& scene) {
+  EquilibriumOptions options = equilibrium_options(scene);
+  options.most.points /= kLess;
+  options.most_at_first.points /= kLess;
+  EquilibriumSolver solver(build_model(scene, fit_surfaces(scene, {}, {}, 1)), options);
+  return sweep(solver, *scene.sweep);
+}
+
 void use(Choices& choices, const std::string& text) {
   Run run;
   run.scene = parse_scene(text, "made.toml");
   if (!run.scene.sweep) return;
   const bool verified = choices.once_in(4);
-  const std::vector<FittedSurface> surfaces = fit_surfaces(run.scene, {}, {}, 1);
-  run.sweep = sweep(run.scene, surfaces);
+  run.sweep = sweep_briefly(run.scene);
   const SweptQuantity swept = quantity_of_sweep(run.scene);
   for (const PoseResult& pose : run.sweep.poses) expect_sound(pose);
   for (const std::string& line : failures(swept, run.sweep)) expect_one_line(line);

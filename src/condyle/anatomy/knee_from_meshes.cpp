@@ -39,12 +39,19 @@ constexpr double kPoorFit = 2.5;  // rms of the registered bones, likewise [mm]
       *middle, *std::max_element(middle, far.end())));
 }
 
-TriangleMesh cleaned(const std::filesystem::path& file) {
+struct Loaded {
+  KneeMeshes meshes;
+  std::vector<Vector3d> tibial_centers;  // of each file with tibial cartilage
+  std::vector<std::pair<std::filesystem::path, WeldedSeams>> seams;  // of files that had some
+};
+
+TriangleMesh cleaned(const std::filesystem::path& file, Loaded& loaded) {
   try {
     const TriangleMesh mesh = load_mesh_of_any_unit(file);
-    TriangleMesh clean = clean_mesh(mesh).mesh;
-    if (clean.triangles.empty()) throw_no_triangles(mesh);
-    return clean;
+    CleanMesh clean = clean_mesh(mesh);
+    if (clean.mesh.triangles.empty()) throw_no_triangles(mesh);
+    if (clean.report.seams.length > 0) loaded.seams.emplace_back(file, clean.report.seams);
+    return std::move(clean.mesh);
   } catch (const InputError& error) {
     const std::string text = error.what();
     if (text.find(file.string()) != std::string::npos) throw;
@@ -62,20 +69,15 @@ Vector3d centroid(const TriangleMesh& mesh) {
   return sum / static_cast<double>(mesh.vertices.size());
 }
 
-struct Loaded {
-  KneeMeshes meshes;
-  std::vector<Vector3d> tibial_centers;  // of each file with tibial cartilage
-};
-
 Loaded load(const NewKneeFiles& files) {
   Loaded loaded;
-  loaded.meshes.femur = cleaned(files.femur);
-  loaded.meshes.tibia = cleaned(files.tibia);
+  loaded.meshes.femur = cleaned(files.femur, loaded);
+  loaded.meshes.tibia = cleaned(files.tibia, loaded);
   if (files.cartilage.empty()) return loaded;
-  loaded.meshes.femoral_cartilage = cleaned(files.cartilage[0]);
+  loaded.meshes.femoral_cartilage = cleaned(files.cartilage[0], loaded);
   TriangleMesh tibial;
   for (std::size_t i = 1; i < files.cartilage.size(); ++i) {
-    const TriangleMesh part = cleaned(files.cartilage[i]);
+    const TriangleMesh part = cleaned(files.cartilage[i], loaded);
     loaded.tibial_centers.push_back(centroid(part));
     append(tibial, part);
   }
@@ -221,6 +223,8 @@ NewKnee knee_from_meshes(const NewKneeFiles& files, const RecogniseOptions& opti
                     "in mm, cm or m",
                     files.femur.string()));
   knee.doubts = knee.shape.doubts;
+  for (const auto& [file, seams] : loaded.seams)
+    knee.doubts.push_back(file.string() + ": " + describe(seams, knee.shape.to_mm));
   scale(loaded.meshes.femur, knee.shape.to_mm);
   scale(loaded.meshes.tibia, knee.shape.to_mm);
   if (loaded.tibial_centers.size() == 2) {

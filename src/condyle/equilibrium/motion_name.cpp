@@ -89,17 +89,27 @@ std::string in_words(const Eigen::Vector3d& v) {
   return fmt::format("({:.2f}, {:.2f}, {:.2f})", tidy(v.x()), tidy(v.y()), tidy(v.z()));
 }
 
+/// Of the two directions along a line the one whose first component of at least half the greatest is positive: an eigenvector
+/// may come out either way.
+Eigen::Vector3d directed(const Eigen::Vector3d& v) {
+  const double least = v.cwiseAbs().maxCoeff() / 2;
+  for (const double x : v)
+    if (std::abs(x) >= least) return x < 0 ? Eigen::Vector3d(-v) : v;
+  return v;
+}
+
 /// The motion of a point of A at `at` (ground frame of the files) as a screw about an axis: a
 /// rotation, a translation, or both.
 std::string name_screw(const Eigen::Matrix<double, 6, 1>& motion,
                        const Eigen::Vector3d& at,
                        double L) {
   const Eigen::Vector3d v = motion.head<3>(), omega = motion.tail<3>() / L;
-  if (omega.norm() * L < kNothing) return "a translation along " + in_words(v.normalized());
+  if (omega.norm() * L < kNothing)
+    return "a translation along " + in_words(directed(v.normalized()));
   const double square = omega.squaredNorm(), pitch = omega.dot(v) / square;
   const Eigen::Vector3d through = at + omega.cross(v) / square;
-  std::string words =
-      "a rotation about " + in_words(omega.normalized()) + " through " + in_words(through) + " mm";
+  std::string words = "a rotation about " + in_words(directed(omega.normalized())) + " through " +
+                      in_words(through) + " mm";
   if (std::abs(pitch) > kNothing * L)
     words += fmt::format(" with {:.2f} mm along it per degree", pitch * M_PI / 180);
   return words;

@@ -153,12 +153,7 @@ std::vector<std::string> describe(const CleaningReport& report) {
   if (report.stray_components > 0)
     lines.push_back(fmt::format("{} stray pieces ({} triangles) dropped", report.stray_components,
                                 report.stray_triangles));
-  if (report.seams.length > 0)
-    lines.push_back(fmt::format(
-        "warning: seam: along {:.0f} mm the triangles on either side were not linked (a crack, or "
-        "vertices on one side only), {:.0f} mm of it have been joined: look whether the mesh is "
-        "what was meant",
-        report.seams.length, report.seams.joined));
+  if (report.seams.length > 0) lines.push_back("warning: " + describe(report.seams));
   say(report.flipped_triangles, "triangles turned the other way round");
   say(report.non_manifold_edges, "edges shared by more than two triangles");
   return lines;

@@ -1,5 +1,7 @@
 #include "condyle/mesh/weld_seams.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -139,6 +141,13 @@ WeldedSeams weld_seams(TriangleMesh& mesh) {
     seams = find_seams(mesh);
   welded.joined = std::max(0.0, welded.length - seams.length);
   return welded;
+}
+
+std::string describe(const WeldedSeams& seams, double to_mm) {
+  return fmt::format(
+      "seam: along {:.0f} mm the triangles on either side were not linked (a crack, or vertices on "
+      "one side only), {:.0f} mm of it have been joined: look whether the mesh is what was meant",
+      seams.length * to_mm, seams.joined * to_mm);
 }
 
 }  // namespace condyle

@@ -54,7 +54,7 @@ Ledger::Ledger(const SweptQuantity& swept) : swept_(swept) {
 }
 
 void Ledger::beside_poses() {
-  pose_ = 0;
+  pose_.reset();
   pose_name_.clear();
 }
 
@@ -82,13 +82,13 @@ void Ledger::note(Check check,
   }
   if (share <= 1) return;
   ++summary.failed;
-  Fault& fault = faults_[{pose_, check}];
+  Fault& fault = faults_[{pose_, check, pose_ ? "" : element}];
   if (share <= fault.excess) return;
   const std::string what = !words.empty()
                                ? words
                                : fmt::format("{}: off by {:.3g} {}, expected at most {:.1g}",
                                              summary.name, figure, summary.units, allowed);
-  fault = {pose_, check, share,
+  fault = {pose_.value_or(0), check, share,
            fmt::format("{}{}{}", pose_name_.empty() ? "" : pose_name_ + ": ",
                        element.empty() ? "" : element + ": ", what)};
 }

@@ -3,7 +3,9 @@
 /// Keeps what the checks find: the worst of each kind over the run, and what is wrong at a pose.
 
 #include <array>
+#include <compare>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "condyle/scene/swept_quantity.h"
@@ -53,10 +55,17 @@ class Ledger {
     int count = 0;
   };
   SweptQuantity swept_;
-  std::size_t pose_ = 0;
+  /// Of a pose the worst fault of each check is told; beside poses, that of each element too.
+  struct FaultKey {
+    std::optional<std::size_t> pose;
+    Check check;
+    std::string element;
+    auto operator<=>(const FaultKey&) const = default;
+  };
+  std::optional<std::size_t> pose_;
   std::string pose_name_;
   std::array<CheckSummary, kCheckCount> checks_;
-  std::map<std::pair<std::size_t, Check>, Fault> faults_;
+  std::map<FaultKey, Fault> faults_;
   std::map<std::string, Warning> warnings_, left_out_;
 };
 

@@ -48,7 +48,7 @@ struct CheckSummary {
 
 /// Something that is wrong, in words: "flexion = 45 deg: contact "medial": ...".
 struct Fault {
-  std::size_t pose = 0;  ///< index into SweepResult::poses
+  std::size_t pose = 0;  ///< index into SweepResult::poses; the first where it is of the whole run
   Check check = Check::kPose;
   double excess = 0;  ///< times what is allowed
   std::string text;
@@ -56,8 +56,8 @@ struct Fault {
 
 struct Verification {
   std::size_t poses = 0, converged = 0, false_poses = 0;
-  std::vector<CheckSummary> checks;      ///< kCheckCount
-  std::vector<Fault> faults;             ///< the worst of each kind at each false pose
+  std::vector<CheckSummary> checks;  ///< kCheckCount
+  std::vector<Fault> faults;         ///< the worst of each kind at each false pose, and of the file
   std::vector<std::string> warnings;     ///< what a reader should know
   std::vector<std::string> not_checked;  ///< what the file or this program leaves unsaid
   double seconds = 0;
