@@ -7,10 +7,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -124,6 +126,10 @@ TEST_F(SharedKnee, ADriveOfTheWrongSizeIsAnErrorInWords) {
     EXPECT_EQ(words_of([&] { (void)follow_path(solver, condition_value(0), 0, 1, 1, path); }),
               expected);
   }
+  for (const double none : {std::nan(""), std::numeric_limits<double>::infinity()})
+    for (const Swept& swept : {condition_value(0), load_scale(0)})
+      EXPECT_EQ(words_of([&] { solver.solve(swept.with(drive_of(*model), none), pose); }),
+                "the drive holds a number that is not finite");
   EXPECT_TRUE(solver.solve().converged());  // none of this has left a trace
 }
 
@@ -229,6 +235,30 @@ TEST_F(SharedKnee, AResetSolverSweepsAsANewOne) {
   used.solve(load_scale(0).with(drive_of(*model), -1));  // pulled apart: nothing carries it
   used.reset();
   EXPECT_EQ(follow(used, flexions), expected);
+}
+
+// A pose is given up after so much work: what is counted of it is part of the result.
+TEST_F(SharedKnee, AResetSolverSpendsOnAPoseWhatANewOneDoes) {
+  EquilibriumSolver used(model, covers);
+  follow(used, {90, 80, 70, 10});
+  EquilibriumSolver searched(model, covers);
+  (void)solve(searched, 45);
+  for (const double flexion : {0.0, 5.0, 50.0, 100.0, 110.0, 120.0}) {
+    EquilibriumSolver fresh(model, covers);
+    const PoseResult expected = fresh.solve(at(flexion));
+    for (int time = 0; time < 2; ++time) {
+      used.reset();
+      EXPECT_EQ(BitsOf(used.solve(at(flexion))).bits, BitsOf(expected).bits) << flexion;
+      EXPECT_EQ(used.spent().points, fresh.spent().points) << flexion << ", time " << time;
+    }
+    // Searches that begin where those of another solver did, likewise.
+    EquilibriumSolver beginning(model, covers);
+    beginning.reset(searched.searches());
+    (void)beginning.solve(at(flexion));
+    used.reset(searched.searches());
+    (void)used.solve(at(flexion));
+    EXPECT_EQ(used.spent().points, beginning.spent().points) << flexion;
+  }
 }
 
 TEST(Drive, AResetBuildsNothingAndAllocatesNothing) {

@@ -66,7 +66,7 @@ Rise Bending::in_shell(int level, int sample, const Eigen::Matrix3d& K) {
 
 bool Bending::pays(int sample) {
   if (cover_->bends_evenly() || sample < 0) return true;
-  return std::exchange(shells_[static_cast<std::size_t>(sample)].asked, true);
+  return std::exchange(shells_[static_cast<std::size_t>(sample)].asked, now_) == now_;
 }
 
 }  // namespace condyle

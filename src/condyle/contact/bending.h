@@ -45,8 +45,11 @@ class Bending {
   [[nodiscard]] Rise in_shell(int level, int sample, const Eigen::Matrix3d& K);
 
   /// Asks for shells about that sample, or none, once more: all of them cost more than a search does
-  /// without them, so they pay from the second time on.
+  /// without them, so they pay from the second time on since the last reset.
   [[nodiscard]] bool pays(int sample);
+
+  /// Forgets what was asked for; what was measured is the same whenever it is.
+  void reset() { ++now_; }
 
   /// What is added for a point in the cell of the sample, where the curvature tensor is K [1/mm].
   [[nodiscard]] double shift(int sample, const Eigen::Matrix3d& K) const;
@@ -57,13 +60,14 @@ class Bending {
   struct Shells {
     std::array<Rise, kLevels> of;
     std::array<bool, kLevels> measured = {};
-    bool asked = false;
+    int asked = -1;  ///< after which reset
   };
 
   const SurfaceCover* cover_;
   ClusterQuadrics quadrics_;
   Radii radii_;
   std::vector<Shells> shells_;  ///< of each sample
+  int now_ = 0;
 };
 
 }  // namespace condyle

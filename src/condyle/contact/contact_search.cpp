@@ -120,12 +120,10 @@ void ContactSearch::reset() {
   std::fill(cluster_closest_.begin(), cluster_closest_.end(), Closest());
   std::fill(split_.begin(), split_.end(), char{0});
   std::fill(near_contacts_.begin(), near_contacts_.end(), NearContact());
-  nearest_B_.reset();
-  nearest_A_.reset();
   division_ = Division();
   doubts_ = 0;
   now_ = 0;
-  nearest_reach_ = nearest_merge_ = -1;
+  forget_what_was_asked();
 }
 
 void ContactSearch::go_back(const ContactSearch& other) {
@@ -138,6 +136,15 @@ void ContactSearch::go_back(const ContactSearch& other) {
   division_ = other.division_;
   doubts_ = other.doubts_;
   now_ = other.now_;
+  forget_what_was_asked();
+}
+
+/// What is counted of the searches that follow does not depend on those before.
+void ContactSearch::forget_what_was_asked() {
+  bending_B_.reset();
+  bending_A_.reset();
+  nearest_B_.reset();
+  nearest_A_.reset();
   nearest_reach_ = nearest_merge_ = -1;
 }
 

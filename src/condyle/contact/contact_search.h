@@ -101,6 +101,8 @@ class ContactSearch {
   [[nodiscard]] bool has_samples() const { return sampled().size() > 0; }
 
  private:
+  void forget_what_was_asked();
+
   /// How far beyond the known part a minimum may lie, in sample spacings.
   static constexpr double kBeyondEdge = 2;
   /// Where the other surface is nearest to a point, kept from pose to pose.

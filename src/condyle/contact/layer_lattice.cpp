@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "condyle/surface/exact_charts.h"
 
@@ -112,6 +111,49 @@ constexpr double kSpan = 2;             // [mm]
 constexpr double kFine = 4;             // wide enough for a surface beside a smaller one [mm]
 constexpr int kFewest = 8, kMost = 64;  // a small or a great surface has them finer or coarser
 
+/// Which of a list of cells each is.
+class CellNumbers {
+ public:
+  explicit CellNumbers(const std::vector<std::array<int, 3>>& cells) {
+    for (const auto& [chart, row, column] : cells) {
+      if (chart >= std::ssize(grids_)) grids_.resize(static_cast<std::size_t>(chart) + 1);
+      Grid& grid = grids_[static_cast<std::size_t>(chart)];
+      grid.rows = std::max(grid.rows, row + 1);
+      grid.columns = std::max(grid.columns, column + 1);
+    }
+    for (Grid& grid : grids_)
+      grid.number.resize(
+          static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.columns), kNone);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const auto& [chart, row, column] = cells[i];
+      Grid& grid = grids_[static_cast<std::size_t>(chart)];
+      grid.number[grid.at(row, column)] = static_cast<std::uint32_t>(i);
+    }
+  }
+
+  /// `none` for a cell that is not in the list.
+  [[nodiscard]] std::uint32_t operator()(const std::array<int, 3>& cell, std::uint32_t none) const {
+    const auto& [chart, row, column] = cell;
+    if (chart >= std::ssize(grids_)) return none;
+    const Grid& grid = grids_[static_cast<std::size_t>(chart)];
+    if (row >= grid.rows || column >= grid.columns) return none;
+    const std::uint32_t number = grid.number[grid.at(row, column)];
+    return number == kNone ? none : number;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  struct Grid {
+    int rows = 0, columns = 0;
+    std::vector<std::uint32_t> number;
+    [[nodiscard]] std::size_t at(int row, int column) const {
+      return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+             static_cast<std::size_t>(column);
+    }
+  };
+  std::vector<Grid> grids_;
+};
+
 /// How wide the spans of a surface are; of one without bounds infinite.
 double widest_span(const std::vector<SurfaceChart>& charts) {
   double widest = charts.empty() ? std::numeric_limits<double>::infinity() : 0;
@@ -166,22 +208,20 @@ bool has_fine_lattice(const Surface& surface) {
 
 LayerCorners layer_corners(const Surface& surface, int per_span, const LayerLattice& lattice) {
   const LayerLattice shifted = layer_lattice(surface, per_span, true);
-  std::map<std::array<int, 3>, std::uint32_t> corner_of;
-  for (const std::array<int, 3>& cell : shifted.cell)
-    corner_of.emplace(cell, static_cast<std::uint32_t>(corner_of.size()));
+  const CellNumbers corner_of(shifted.cell);
   LayerCorners corners;
+  corners.points.reserve(shifted.x.size() + 1);
   for (std::size_t i = 0; i < shifted.x.size(); ++i) {
     const Vector3d &x = shifted.x[i], &n = shifted.n[i];
     corners.points.push_back({{x[0], x[1], x[2], shifted.area[i]}, {n[0], n[1], n[2], 0}});
   }
   corners.points.push_back({});
+  corners.of_cell.reserve(lattice.cell.size());
   for (const auto& [chart, row, column] : lattice.cell) {
     std::array<std::uint32_t, 4>& of_cell = corners.of_cell.emplace_back();
-    for (int k = 0; k < 4; ++k) {
-      const auto corner = corner_of.find({chart, row + k / 2, column + k % 2});
+    for (int k = 0; k < 4; ++k)
       of_cell[static_cast<std::size_t>(k)] =
-          corner == corner_of.end() ? corners.none() : corner->second;
-    }
+          corner_of({chart, row + k / 2, column + k % 2}, corners.none());
   }
   return corners;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace condyle {
@@ -21,8 +23,13 @@ void Swept::throw_none_such(std::size_t count) const {
 }
 
 void check_drive(const Drive& drive, const Model& model) {
-  if (drive.values.size() == model.conditions.size() && drive.scales.size() == model.loads.size())
-    return;
+  if (drive.values.size() == model.conditions.size() && drive.scales.size() == model.loads.size()) {
+    const auto finite = [](double x) { return std::isfinite(x); };
+    if (std::all_of(drive.values.begin(), drive.values.end(), finite) &&
+        std::all_of(drive.scales.begin(), drive.scales.end(), finite))
+      return;
+    throw std::invalid_argument("the drive holds a number that is not finite");
+  }
   throw std::invalid_argument(fmt::format(
       "the drive has {} values of conditions and {} scales of loads, expected {} and "
       "{} as the model has",

@@ -21,7 +21,7 @@ struct Drive {
 /// The model's nominal values: KinematicCondition::value and Load::scale.
 [[nodiscard]] Drive drive_of(const Model& model);
 
-/// Throws std::invalid_argument with one sentence where the drive is not one of the model.
+/// Throws std::invalid_argument with one sentence where the drive is not one of the model, or not finite.
 void check_drive(const Drive& drive, const Model& model);
 
 /// Which number of a drive is swept.

@@ -23,9 +23,12 @@ constexpr double kFreeStep =
 /// Forces in units of their sum or distances in units of L, whichever is greater.
 double relative(const NewtonReport& report, double distance) {
   const double force = report.force_scale > 0 ? report.residual / report.force_scale : 0;
-  const double greater = std::max(force, distance);
-  return std::isfinite(greater) ? greater : std::numeric_limits<double>::infinity();
+  const double error = std::max(force, distance);
+  return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
 }
+
+/// NaN where either is, which std::max may drop.
+double greater(double a, double b) { return a >= b ? a : b >= a ? b : a + b; }
 
 }  // namespace
 
@@ -174,16 +177,16 @@ bool NewtonSystem::is_assembled_at(const EquilibriumState& state) const {
 }
 
 double NewtonSystem::out_of_balance() const {
-  return std::max(wrench_.f.norm(), wrench_.m.norm() / model_.length);
+  return greater(wrench_.f.norm(), wrench_.m.norm() / model_.length);
 }
 
 double NewtonSystem::largest_distance() const {
   double largest = 0;
   for (const ContactLinearization& contact : contacts_) {
-    largest = std::max({largest, contact.g.norm(), model_.length * contact.h.norm()});
+    largest = greater(largest, greater(contact.g.norm(), model_.length * contact.h.norm()));
   }
   for (std::size_t k = 0; k < conditions_.size(); ++k)
-    largest = std::max(largest, condition_weight(model_, k) * std::abs(conditions_[k].k));
+    largest = greater(largest, condition_weight(model_, k) * std::abs(conditions_[k].k));
   return largest;
 }
 
