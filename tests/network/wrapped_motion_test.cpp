@@ -3,12 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstring>
 #include <set>
+#include <vector>
 
 #include "condyle/equilibrium/build_model.h"
 #include "condyle/equilibrium/pose_result.h"
 #include "condyle/network/integrate.h"
 #include "condyle/network/knee_network.h"
+#include "condyle/network/moving_network.h"
 #include "condyle/scene_file/read_scene.h"
 #include "network/integration_options.h"
 #include "support/wrapped_scenes.h"
@@ -52,6 +56,38 @@ TEST(WrappedMotion, KeepsItsEnergyWhileStrandsTouchAndLeave) {
     EXPECT_GE(both.size(), 1U) << "no strand touched and left";
     EXPECT_EQ(motion.frames.back().dissipated > 0, viscous_time > 0);
   }
+}
+
+// What is taken back leaves no trace in how strands lie: the same stretch again has the same bits.
+TEST(WrappedMotion, AStretchThatIsRepeatedGoesOnFromHowStrandsLayBeforeIt) {
+  const Scene scene = parse_scene(test::kHangingBody, "knee.toml");
+  const Model model = build_model(scene, {});
+  MassProperties mass;
+  mass.mass = 2e-4;
+  mass.center = {0, -65, 0};
+  mass.inertia = Eigen::Vector3d(0.1, 0.08, 0.12).asDiagonal();
+  const KneeNetwork knee = make_knee_network(model, mass);
+  NetworkState state;
+  state.bodies = {{model.start, {150, 40, -60}, {0, 0, 4}}};
+  MovingNetwork moving(knee.network, state, options(0.2, 0.005, 1e-9));
+  std::vector<ContactEvent> events;
+  moving.check_start();
+  moving.change_contacts({}, {}, events);
+  moving.restart(0);
+  const auto paths_at = [&](double from, double to) {
+    for (double t = from; t < to;) (void)moving.ode().advance(t, to, to);
+    const std::vector<double> paths = moving.moment(to).paths;
+    std::vector<std::uint64_t> bits(paths.size());
+    std::memcpy(bits.data(), paths.data(), sizeof(double) * paths.size());
+    return bits;
+  };
+  (void)paths_at(0, 0.02);
+  const MovingNetwork::Moment before = moving.moment(0.02);
+  moving.go_back(before);  // from here the steps are taken anew
+  const auto first = paths_at(0.02, 0.1);
+  ASSERT_FALSE(first.empty());
+  moving.go_back(before);
+  EXPECT_EQ(paths_at(0.02, 0.1), first);
 }
 
 // It turns until a strand slips off the end of the egg: the path that it held is the shortest no more. Rounding

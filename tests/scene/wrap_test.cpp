@@ -67,6 +67,17 @@ TEST(WrapOfAScene, SetsTheSlackLengthByTheLengthAlongThePath) {
   }
 }
 
+// Of an end inside a surface of the other body the path is a chord: no length to tell a strain of.
+TEST(WrapOfAScene, HasNoReferenceStrainWhereThereIsNoPathAtTheStartPose) {
+  const std::string inside = "body = \"tibia\"\nkind = \"sphere\"\ncenter = [1, 18, 0]\nradius = 5",
+                    text = wrapped(inside, "wraps = [\"rim\"]");
+  EXPECT_EQ(
+      message_of(with(text, "slack_length = 30", "reference_strain = 0.1")),
+      "some/knee.toml:52: [[ligament]] \"aACL\": reference_strain = 0.1, expected slack_length in "
+      "its place: at the start pose an end of it lies inside \"rim\"");
+  EXPECT_EQ(parse_scene(text, "knee.toml").ligaments.size(), 1U);
+}
+
 TEST(WrapOfAScene, ALigamentOverNoWrapIsStraight) {
   const Scene scene = parse_scene(kSmallScene, "knee.toml");
   EXPECT_EQ(ligament_path(scene, scene.ligaments[0]), nullptr);

@@ -145,6 +145,11 @@ bool ChangedKnee::check() {
           std::string(what) + " of \"" + model_.element_names[element] + "\" is not positive";
   };
   for (const std::size_t i : elements_) {
+    if (moved_[i] && strain_held_[i]) {
+      const std::string words = path_objection(changed_.elements[i], model_.start);
+      if (!words.empty())
+        objection_ = "\"" + model_.element_names[i] + "\" at the start pose: " + words;
+    }
     ForceLaw& law = changed_.elements[i].law;
     const double* stiffness = stiffness_of(law);
     if (stiffness == nullptr) continue;  // only its ends move

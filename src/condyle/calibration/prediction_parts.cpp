@@ -1,8 +1,11 @@
 #include "condyle/calibration/prediction_parts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "condyle/input_error.h"
 
@@ -92,10 +95,16 @@ bool PredictionParts::solve_all(const VectorXd& theta, bool derivatives) {
     for (std::size_t i = 0; i < greatest.size(); ++i)
       pose.forces[i] = bench.result().ligaments[i].force;
     if (!derivatives) continue;
-    if (Sensitivity* sensitivity = bench.sensitivity(p))
+    Sensitivity* sensitivity = bench.sensitivity(p);
+    if (sensitivity == nullptr) {
+      if (!fail(p, "no derivatives, as at a limit point")) return false;
+      continue;
+    }
+    try {
       differentiate(p, *sensitivity, offsets);
-    else if (!fail(p, "no derivatives, as at a limit point"))
-      return false;
+    } catch (const std::invalid_argument& none) {  // a path that follows its end in no known way
+      if (!fail(p, fmt::format("no derivatives: {}", none.what()).c_str())) return false;
+    }
   }
   return true;
 }

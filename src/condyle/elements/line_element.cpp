@@ -85,6 +85,13 @@ LineEnds ends_of(const LineElement& element, const RigidTransform& X_BA) {
   return {element.x_C, X_BA.p + q, q};
 }
 
+std::string path_objection(const LineElement& element, const RigidTransform& X_BA) {
+  if (!element.path) return {};
+  auto kept = unknown_path();
+  (void)path_length(element, X_BA, kept.data());
+  return element.path->objection(ends_of(element, X_BA), X_BA, kept.data());
+}
+
 std::size_t path_numbers(const std::vector<LineElement>& elements) {
   std::size_t numbers = 0;
   for (const LineElement& element : elements)

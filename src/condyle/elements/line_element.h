@@ -8,6 +8,7 @@
 /// f w, and f ∂w - f' w wᵀ to the derivatives.
 
 #include <memory>
+#include <string>
 
 #include "condyle/elements/force_law.h"
 #include "condyle/elements/line_path.h"
@@ -45,6 +46,10 @@ LineElementState add_line_element(const LineElement& element,
 [[nodiscard]] LineElementState line_element_state(const LineElement& element,
                                                   const RigidTransform& X_BA,
                                                   double* kept = nullptr);
+
+/// What speaks against the path of an element at a pose, found from nothing (LinePath::objection); empty where nothing
+/// does, and for a straight one.
+[[nodiscard]] std::string path_objection(const LineElement& element, const RigidTransform& X_BA);
 
 [[nodiscard]] LineEnds ends_of(const LineElement& element, const RigidTransform& X_BA);
 

@@ -1,6 +1,8 @@
 #include "condyle/equilibrium/sweep_sensitivities.h"
 
 #include <numbers>
+#include <span>
+#include <stdexcept>
 #include <utility>
 
 #include "condyle/elements/joint_table.h"
@@ -55,13 +57,32 @@ class PoseSensitivities {
     if (newton_.solve(state, drive).outcome != NewtonOutcome::kConverged) return J;
     const Linearization at = linearization(newton_.system(), state, drive);
     if (!sensitivity_.set(at)) return J;
-    sensitivity_.derivatives(outputs_, parts_, by_parts_);
+    differentiate();
     add_up(J);
     one_sided = names_of(one_sided_contacts(at, pose), model_);
     return J;
   }
 
  private:
+  /// Of all parts at once; where some have none, one by one, NaN in the columns of those.
+  void differentiate() {
+    try {
+      sensitivity_.derivatives(outputs_, parts_, by_parts_);
+    } catch (const std::invalid_argument&) {
+      by_parts_.setConstant(static_cast<Eigen::Index>(outputs_.size()),
+                            static_cast<Eigen::Index>(parts_.size()), kNoNumber);
+      for (std::size_t k = 0; k < parts_.size(); ++k) differentiate_by(k);
+    }
+  }
+  void differentiate_by(std::size_t part) {
+    Eigen::MatrixXd column;
+    try {
+      sensitivity_.derivatives(outputs_, std::span(&parts_[part], 1), column);
+      by_parts_.col(static_cast<Eigen::Index>(part)) = column;
+    } catch (const std::invalid_argument&) {  // it stays none
+    }
+  }
+
   void add_up(Eigen::MatrixXd& J) const {
     J.setZero();
     Eigen::Index part = 0;

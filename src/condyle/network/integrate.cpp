@@ -60,17 +60,9 @@ class Integration {
   }
 
  private:
-  /// What is needed to take a stretch of time back.
-  struct Moment {
-    double t;
-    std::vector<double> numbers;
-    NetworkState state;
-    std::size_t events;
-  };
-  Moment moment(double t) { return {t, moving_.numbers(), moving_.state(), motion_.events.size()}; }
-  void go_back(const Moment& moment) {
-    moving_.set(moment.t, moment.numbers, moment.state);
-    motion_.events.resize(moment.events);
+  void go_back(const MovingNetwork::Moment& moment, std::size_t events) {
+    moving_.go_back(moment);
+    motion_.events.resize(events);
     motion_.completed = true;
     motion_.reason.clear();
     hopeless_ = false;
@@ -136,7 +128,8 @@ class Integration {
   /// was lost.
   bool advance_detecting(double& t, double to, int halvings) {
     constexpr int kMostHalvings = 12, kMostAttempts = 200;
-    const Moment before = moment(t);
+    const MovingNetwork::Moment before = moving_.moment(t);
+    const std::size_t events_before = motion_.events.size();
     ++attempts_;
     if (advance(t, to) && land(t)) {
       const DetectedContacts detected = detect_(moving_.state());
@@ -149,7 +142,7 @@ class Integration {
           "the bodies overlap where no contact could be followed, as beyond the edge of a surface");
     }
     if (hopeless_ || halvings == kMostHalvings || attempts_ >= kMostAttempts) return false;
-    go_back(before);
+    go_back(before, events_before);
     t = before.t;
     const double middle = t + (to - t) / 2;
     return advance_detecting(t, middle, halvings + 1) && advance_detecting(t, to, halvings + 1);

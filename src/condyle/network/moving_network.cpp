@@ -95,13 +95,16 @@ void MovingNetwork::check_start() {
     throw InputError("network: the start cannot be put onto its constraints");
 }
 
-std::vector<double> MovingNetwork::numbers() { return {ode_.y(), ode_.y() + numbers_.size()}; }
+MovingNetwork::Moment MovingNetwork::moment(double t) {
+  return {t, std::vector<double>(ode_.y(), ode_.y() + numbers_.size()), state_, equations_.paths()};
+}
 
-void MovingNetwork::set(double t, const std::vector<double>& numbers, const NetworkState& state) {
-  std::copy(numbers.begin(), numbers.end(), ode_.y());
-  state_ = state;
+void MovingNetwork::go_back(const Moment& moment) {
+  std::copy(moment.numbers.begin(), moment.numbers.end(), ode_.y());
+  state_ = moment.state;
+  equations_.begin_anew(moment.paths);
   evaluated_ = NAN;
-  ode_.restart(t);
+  ode_.restart(moment.t);
 }
 
 std::vector<int> MovingNetwork::found() const {

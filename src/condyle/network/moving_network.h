@@ -32,8 +32,16 @@ class MovingNetwork {
 
   [[nodiscard]] NetworkState& state() { return state_; }
   [[nodiscard]] OdeIntegrator& ode() { return ode_; }
-  [[nodiscard]] std::vector<double> numbers();
-  void set(double t, const std::vector<double>& numbers, const NetworkState& state);
+
+  /// What is needed to take a stretch of time back.
+  struct Moment {
+    double t;
+    std::vector<double> numbers;
+    NetworkState state;
+    std::vector<double> paths;  ///< how strings lie, which they go on from
+  };
+  [[nodiscard]] Moment moment(double t);
+  void go_back(const Moment& moment);
 
   /// After an event: contacts whose root was found.
   [[nodiscard]] std::vector<int> found() const;

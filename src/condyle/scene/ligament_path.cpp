@@ -140,6 +140,12 @@ StartPath start_path(const Scene& scene, const LigamentDescription& ligament) {
   return {length, {}, {}};
 }
 
+std::string start_path_objection(const Scene& scene, const LigamentDescription& ligament) {
+  const auto [x_C, s_D] = fixed_then_moving(scene, ligament.ends);
+  return path_objection({x_C, s_D, ligament.law, ligament_path(scene, ligament)},
+                        start_pose(scene));
+}
+
 void settle_fitted_paths(Scene& scene) {
   for (LigamentDescription& ligament : scene.ligaments) {
     const std::vector<int>& wraps = ligament.path.wraps;
@@ -151,8 +157,13 @@ void settle_fitted_paths(Scene& scene) {
     if (!start.key.empty())
       throw InputError(
           fmt::format("{}: {}: expected {}", place_of(scene, ligament), start.key, start.expected));
-    if (ligament.reference_strain)
-      set_slack_length(ligament.law, start.length / (1 + *ligament.reference_strain));
+    if (!ligament.reference_strain) continue;
+    const std::string objection = start_path_objection(scene, ligament);
+    if (!objection.empty())
+      throw InputError(fmt::format(
+          "{}: reference_strain: expected slack_length in its place: at the start pose {}",
+          place_of(scene, ligament), objection));
+    set_slack_length(ligament.law, start.length / (1 + *ligament.reference_strain));
   }
 }
 

@@ -40,6 +40,10 @@ struct StartPath {
 };
 [[nodiscard]] StartPath start_path(const Scene& scene, const LigamentDescription& ligament);
 
+/// What speaks against the length of that path as one that a strain is measured on, half a sentence; empty where nothing does.
+[[nodiscard]] std::string start_path_objection(const Scene& scene,
+                                               const LigamentDescription& ligament);
+
 /// Once the surfaces are known that are fitted to bones: slack lengths that follow from reference
 /// strains on them. Throws InputError for an end that lies too deep in such a surface, and where
 /// there is no path at the start pose.

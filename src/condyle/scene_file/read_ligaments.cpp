@@ -153,6 +153,11 @@ LigamentDescription read_ligament(const Section& section,
   start_length = start_length_of(section, scene, ligament);
   ligament.law = read_law(section, scene, start_length, ligament);
   section.finish();
+  if (ligament.reference_strain && has_known_path(scene, ligament)) {
+    const std::string objection = start_path_objection(scene, ligament);
+    if (!objection.empty())
+      section.fail("reference_strain", "slack_length in its place: at the start pose " + objection);
+  }
   check_sizes(section, scene, ligament, start_length);
   return ligament;
 }
