@@ -3,6 +3,7 @@
 #include "condyle/calibration/measurement_table.h"
 #include "condyle/math/degree.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -139,6 +140,25 @@ TEST(MeasurementTable, TheUnloadedRowOfARelativeCurveMayStandBesideItsFlexion) {
   EXPECT_DOUBLE_EQ(table.rows[0].sd, 0.5);
   EXPECT_DOUBLE_EQ(table.rows[0].zero_flexion.value(), 30.5 * kDegree);
   EXPECT_EQ(table.rows[1].value, 8);  // more than two degrees away
+  ASSERT_EQ(table.warnings.size(), 1u);
+  EXPECT_NE(table.warnings[0].find("knee.csv:5: a, 33 deg, "), std::string::npos)
+      << table.warnings[0];
+  EXPECT_NE(table.warnings[0].find("has no unloaded row within 2 degrees"), std::string::npos);
+}
+
+TEST(MeasurementTable, OfTwoUnloadedRowsAsNearTheOrderInTheFileHasNoSay) {
+  for (const double flexion : {30.0, 45.0, 60.0}) {
+    std::string rows[2] = {fmt::format("a,{},none,0,anterior_drawer,2,0.3\n", flexion - 1.5),
+                           fmt::format("a,{},none,0,anterior_drawer,1,0.3\n", flexion + 1.5)};
+    for (int order = 0; order < 2; ++order) {
+      Scene scene = scene_beside(
+          table_folder(), "test,flexion,load,level,coordinate,value,sd\n" + rows[0] + rows[1] +
+                              fmt::format("a,{},anterior,88,anterior_drawer,7,0.4\n", flexion));
+      scene.calibration->relative = {"a"};
+      EXPECT_EQ(read_measurements(scene).rows.at(0).value, 5) << flexion << ", " << order;
+      std::swap(rows[0], rows[1]);
+    }
+  }
 }
 
 TEST(MeasurementTable, ALaxityIsOfACoordinate) {

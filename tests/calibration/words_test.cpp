@@ -58,6 +58,20 @@ TEST(CalibrationWords, TakeTheSamplesSdWhereItPartsFromTheDeltaMethods) {
   EXPECT_TRUE(says(line_with(told(result), "part by more than 10 %"), "pPCL.reference_strain"));
 }
 
+// Without prior and data no sample leaves the least: that says nothing of how well a number is known.
+TEST(CalibrationWords, ANumberOfWhichNothingIsKnownIsToldByTheDeltaMethod) {
+  CalibrationResult result = made_up_calibration();
+  result.parameters[1].prior_sd = 1e6;
+  result.known.sd[1] = 1e6;
+  result.sample_sd[1] = 0;
+  const ToldParameter told = told_parameters(result)[1];
+  EXPECT_FALSE(told.parts);
+  EXPECT_NEAR(told.shrinkage, 1, 1e-12);
+  result.known.sd[1] = 0.03;  // by the data alone
+  result.sample_sd[1] = 0.05;
+  EXPECT_TRUE(told_parameters(result)[1].parts);
+}
+
 TEST(CalibrationWords, NameTheWeakestDirectionsAndWhatTheyConsistOf) {
   CalibrationResult result = made_up_calibration();
   result.known.singular_values << 20, 5, 1.5, 0.8, 0.1;

@@ -35,6 +35,13 @@ TEST(Laxity, TheCoordinateOfADeadLoadIsSeenFromTheBone) {
   EXPECT_EQ(loaded_coordinate(scene), 4U);
 }
 
+TEST(Laxity, GoesBySteps) {
+  Scene scene = read_scene(kDrawer);
+  EXPECT_NO_THROW(check_laxity_scene(scene));
+  scene.sweep->arc_length = true;
+  EXPECT_THROW(check_laxity_scene(scene), InputError);
+}
+
 TEST(Laxity, GrowsWhenTheCruciateIsCut) {
   const Scene scene = read_scene(kDrawer);
   EXPECT_EQ(loaded_coordinate(scene), 4U);  // a drawer force draws

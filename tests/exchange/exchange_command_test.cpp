@@ -134,6 +134,19 @@ TEST_F(Exchange, NamesWhatItCannotImport) {
   EXPECT_TRUE(results().empty());
 }
 
+// A scene takes the place of nothing that its model needs, and of no file of another kind.
+TEST_F(Exchange, ImportsOverNoMeshOfTheModel) {
+  fs::copy(CONDYLE_SOURCE_DIR "/meshes", folder_ / "meshes");
+  fs::copy(folder_ / "meshes", folder_ / "model");
+  fs::copy(CONDYLE_SOURCE_DIR "/tests/data/phantom_jam.osim", folder_ / "model" / "knee.osim");
+  const auto size = fs::file_size(folder_ / "meshes" / "femur.stl");
+  for (const char* name : {"meshes/femur.stl", "model/femur.stl", "scene.h5", "scene.csv"})
+    EXPECT_EQ(run("import model/knee.osim -o " + std::string(name)).code, 1) << name;
+  EXPECT_EQ(fs::file_size(folder_ / "meshes" / "femur.stl"), size);
+  EXPECT_EQ(fs::file_size(folder_ / "model" / "femur.stl"), size);
+  EXPECT_FALSE(fs::exists(folder_ / "scene.h5") || fs::exists(folder_ / "scene.csv"));
+}
+
 // The commands of docs/exchange.md.
 TEST_F(Exchange, ImportsAModelThatChecksAndSweeps) {
   fs::create_directories(folder_ / "a" / "b");

@@ -149,6 +149,9 @@ TEST_F(LaxityTables, APassivePathNeedsNoLoads) {
       laxity_table({folder_ / "Passive_Flexion_Kinematics_in_JCS.csv"}, options_);
   const MeasurementTable read = read_by_scene(table.text);
   ASSERT_EQ(read.rows.size(), 2u);
+  options_.held = 10;  // of loads, which it has not
+  EXPECT_EQ(laxity_table({folder_ / "Passive_Flexion_Kinematics_in_JCS.csv"}, options_).text,
+            table.text);
   EXPECT_EQ(read.rows[1].load, -1);
   EXPECT_NEAR(read.rows[1].flexion, 5.5 * M_PI / 180, 1e-12);
 }

@@ -107,6 +107,25 @@ TEST(StudyPlan, ANumberTwiceIsRefusedByName) {
   }
 }
 
+TEST(StudyPlan, ALoadThatIsNotThereIsRefusedByName) {
+  ReadStudy study = small_study("wismans-type/drawer.toml", 3);
+  VariedNumber& load = study.varied[0].emplace_back();
+  load.number.what = ParameterKind::kLoadScale;
+  load.number.of = {0};
+  load.number.prior_sd = 0.1;
+  EXPECT_EQ(study_plan(study).parameters.size(), 13u);
+  study.scenes[0].loads[0].scale = 0;
+  EXPECT_NO_THROW((void)study_plan(study)) << "the sweep is over its size";
+  study.scenes[0].sweep->varies_load = false;
+  try {
+    (void)study_plan(study);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(" has scale = 0 in "), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(StudyPlan, OutputsAreFoundInEachKneeByTheirNames) {
   ReadStudy study = small_study("wismans-type/knee.toml", 2);
   study.scenes.push_back(study.scenes[0]);

@@ -94,7 +94,7 @@ void floor_at(SceneLines& out, const std::string& name, double x, double y, bool
 }
 
 /// Of the moving body, its bottom about (x, y, 0).
-void foot_at(SceneLines& out, const std::string& name, double x, double y, bool soft) {
+void bottom_at(SceneLines& out, const std::string& name, double x, double y, bool soft) {
   out.table("[[surface]]");
   out.line("name", name);
   out.line("body", "\"A\"");
@@ -128,13 +128,13 @@ Words contacts(SceneLines& out) {
   const double places[3][2] = {{-20, 0}, {20, 0}, {0, 25}};
   for (std::size_t i = 0; i < count; ++i) {
     const bool soft = out.choices().once_in(4);
-    const std::string floor = fmt::format("floor {}", i), foot = fmt::format("foot {}", i);
+    const std::string floor = fmt::format("floor {}", i), bottom = fmt::format("bottom {}", i);
     floor_at(out, out.quoted(floor), places[i][0], places[i][1], soft);
-    foot_at(out, out.quoted(foot), places[i][0], places[i][1], soft);
+    bottom_at(out, out.quoted(bottom), places[i][0], places[i][1], soft);
     names.push_back(fmt::format("contact {}", i));
     out.table("[[contact]]");
     out.line("name", out.quoted(names.back()));
-    out.line("surfaces", fmt::format("[\"{}\", \"{}\"]", floor, foot));
+    out.line("surfaces", fmt::format("[\"{}\", \"{}\"]", floor, bottom));
     if (soft) {
       out.line("law", "\"layer\"");
       out.perhaps("pressure", out.word({"linear", "logarithmic"}));

@@ -23,6 +23,7 @@
 #include "condyle/results/calibration_journal.h"
 #include "condyle/results/journal.h"
 #include "condyle/results/output_file.h"
+#include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
 
 namespace condyle {
@@ -183,6 +184,21 @@ int report_failures(const CalibrateCommand& command, const CalibrationResult& re
   return lines.empty() ? 0 : kNoWholeFit;
 }
 
+/// A fit may move an end to where no scene may have it.
+std::string readable_scene(const Scene& scene,
+                           const CalibrationResult& result,
+                           const fs::path& file) {
+  std::string text = fitted_scene_text(scene, result, file);
+  try {
+    (void)parse_scene(text, file);
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("{}: not written, as no scene may have the numbers that were found: {}",
+                    file.string(), error.what()));
+  }
+  return text;
+}
+
 std::vector<fs::path> write_tables(const CalibrateCommand& command,
                                    const Scene& scene,
                                    const CalibrationResult& result) {
@@ -193,11 +209,10 @@ std::vector<fs::path> write_tables(const CalibrateCommand& command,
     say(command.talk, "wrote {}\n", file);
     written.emplace_back(file);
   };
-  write(command.fitted_scene,
-        [&] { return fitted_scene_text(scene, result, command.fitted_scene); });
   write(command.table, [&] { return parameter_csv(result); });
   write(command.latex, [&] { return parameter_latex(result); });
   write(command.posterior, [&] { return samples_csv(result); });
+  write(command.fitted_scene, [&] { return readable_scene(scene, result, command.fitted_scene); });
   return written;
 }
 
@@ -212,6 +227,9 @@ int run_calibrate(const CalibrateCommand& command) {
                            ": [calibrate] is missing, expected the table of measurements");
         check_files(command, s);
         table = read_measurements(s);  // before the surfaces are fitted
+        if (!talk.quiet)
+          for (const std::string& warning : table.warnings)
+            tell(stderr, "condyle: warning: {}\n", warning);
       });
   if (command.seed) scene.calibration->seed = *command.seed;
   const std::vector<TriangleMesh> meshes = body_meshes(scene, surfaces);

@@ -54,7 +54,7 @@ void check_table_options(const ImportCommand& command) {
 
 int import_tests(ImportCommand& command) {
   check_table_options(command);
-  check_output_file(command.output);
+  check_output_file(command.output, ".csv");
   std::vector<std::filesystem::path> files(command.files.begin(), command.files.end());
   command.tests.mean = command.step == "mean";
   if (!command.offsets.empty()) command.tests.offsets = command.offsets;
@@ -71,11 +71,12 @@ int import_tests(ImportCommand& command) {
 int import_model(ImportCommand& command) {
   const std::string& file = command.files.front();
   command.knee.side = parse_side(command.side);
-  check_output_file(command.output);
+  check_output_file(command.output, ".toml");
   refuse_to_overwrite(command.output, {file});
   const OsimModel model = read_osim(file);
   const OsimKnee knee = find_knee(model, file, command.knee);
   const OsimScene scene = osim_scene(model, knee, file, command.output, command.scene);
+  refuse_to_overwrite(command.output, scene.used);
   for (const OsimMovedMesh& moved : scene.meshes) check_output_file(moved.file);
   for (const OsimMovedMesh& moved : scene.meshes) write_output_file(moved.file, ply(moved.mesh));
   write_output_file(command.output, scene.text);

@@ -1,6 +1,9 @@
 #include "condyle/calibration/posterior_samples.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "condyle/design/normal_draws.h"
 
@@ -27,6 +30,12 @@ Eigen::VectorXd column_sd(const Eigen::MatrixXd& samples) {
       .transpose();
 }
 
+/// What is kept of a fit: its derivatives would take a thousand times the memory.
+struct Sample {
+  Eigen::VectorXd theta;
+  bool converged = false, done = false;
+};
+
 }  // namespace
 
 PosteriorSamples posterior_samples(const FitProblem& problem,
@@ -34,16 +43,15 @@ PosteriorSamples posterior_samples(const FitProblem& problem,
                                    int count,
                                    unsigned seed,
                                    StudyProgress& progress) {
-  std::vector<LeastSquaresResult> fits(static_cast<std::size_t>(std::max(0, count)));
-  std::vector<char> done(fits.size(), 0);
+  std::vector<Sample> fits(static_cast<std::size_t>(std::max(0, count)));
   LeastSquaresOptions options;
   options.tolerance = kStudyTolerance;
   const auto make_task = [&] {
     return [&, worker = problem.make_worker()](int k) {
-      const auto at = static_cast<std::size_t>(k);
+      LeastSquaresResult fit;
       if (reach(worker, theta))
-        fits[at] = fit_by(worker, randomised(problem.rows, seed, k), theta, progress, options);
-      done[at] = fits[at].stopped ? 0 : 1;
+        fit = fit_by(worker, randomised(problem.rows, seed, k), theta, progress, options);
+      fits[static_cast<std::size_t>(k)] = {std::move(fit.theta), fit.converged, !fit.stopped};
     };
   };
   in_parallel("samples", static_cast<int>(fits.size()), problem.threads, make_task, progress);
@@ -51,10 +59,10 @@ PosteriorSamples posterior_samples(const FitProblem& problem,
   PosteriorSamples samples;
   samples.theta.resize(static_cast<Eigen::Index>(fits.size()), theta.size());
   Eigen::Index kept = 0;
-  for (std::size_t k = 0; k < fits.size(); ++k) {
-    if (fits[k].converged)
-      samples.theta.row(kept++) = fits[k].theta.transpose();
-    else if (done[k])
+  for (const Sample& sample : fits) {
+    if (sample.converged)
+      samples.theta.row(kept++) = sample.theta.transpose();
+    else if (sample.done)
       ++samples.lost;
   }
   samples.theta.conservativeResize(kept, Eigen::NoChange);

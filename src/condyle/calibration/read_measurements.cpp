@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include "condyle/calibration/csv_file.h"
 #include "condyle/calibration/measurement_table.h"
@@ -88,15 +90,16 @@ bool is_told(const Measurement& row, const Scene& scene) {
 }
 
 /// The unloaded row of the same curve and coordinate whose flexion is nearest to that of a row; null
-/// where none is near: a robot holds a flexion to a degree or so.
+/// where none is near: a robot holds a flexion to a degree or so. Of two as near it is that of less flexion.
 const Measurement* unloaded_of(const Measurement& row, const std::vector<Measurement>& unloaded) {
-  constexpr double kNear = 2 * M_PI / 180;
+  constexpr double kNear = 2 * M_PI / 180, kSame = 1e-9;
   const Measurement* nearest = nullptr;
   double least = kNear;
   for (const Measurement& other : unloaded) {
     const double away = std::abs(other.flexion - row.flexion);
-    if (other.test != row.test || other.index != row.index || away > least) continue;
-    if (nearest != nullptr && away == least) continue;
+    if (other.test != row.test || other.index != row.index || away > kNear) continue;
+    const bool as_near = nearest != nullptr && std::abs(away - least) < kSame;
+    if (as_near ? other.flexion >= nearest->flexion : away >= least && nearest != nullptr) continue;
     nearest = &other;
     least = away;
   }
@@ -112,9 +115,23 @@ void tell_from_unloaded(const Scene& scene, MeasurementTable& table) {
     unloaded.push_back(row);
     return true;
   });
+  std::set<std::pair<std::string, std::size_t>> warned;
   for (Measurement& row : table.rows) {
-    const Measurement* zero = is_told(row, scene) ? unloaded_of(row, unloaded) : nullptr;
-    if (zero == nullptr) continue;
+    if (!is_told(row, scene)) continue;
+    const Measurement* zero = unloaded_of(row, unloaded);
+    if (zero == nullptr) {
+      const bool elsewhere =
+          std::any_of(unloaded.begin(), unloaded.end(), [&](const Measurement& other) {
+            return other.test == row.test && other.index == row.index;
+          });
+      if (elsewhere && warned.emplace(row.test, row.index).second)
+        table.warnings.push_back(
+            name_of(row, table, scene) +
+            ": its curve is told from its unloaded pose (relative), and has no unloaded row within "
+            "2 "
+            "degrees of this one: it is taken as it stands, and so are others like it");
+      continue;
+    }
     row.value -= zero->value;
     row.sd = std::hypot(row.sd, zero->sd);
     row.zero_flexion = zero->flexion;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/calibration/least_squares_problem.h"
 #include "condyle/calibration/told_units.h"
 #include "condyle/math/no_number.h"
 
@@ -21,6 +22,9 @@ double parting(Eigen::Index samples) {
   return std::max(kParting, open);
 }
 
+constexpr double kUnknown =
+    0.5;  // of the prior's deviation: a number without prior that the data do not tell
+
 ToldParameter told_of(const CalibrationResult& result, std::size_t j) {
   const FreeParameter& parameter = result.parameters[j];
   const auto at = static_cast<Eigen::Index>(j);
@@ -35,7 +39,10 @@ ToldParameter told_of(const CalibrationResult& result, std::size_t j) {
   told.sd = entry(result.known.sd, at) / unit.factor;
   told.sample_sd = entry(result.sample_sd, at) / unit.factor;
   told.at_bound = j < result.at_bound.size() && result.at_bound[j];
-  told.parts = !told.at_bound &&
+  // Samples draw what the data and the prior say; where both say nothing they never leave the least.
+  const bool is_known = has_prior(parameter.prior_sd) ||
+                        (std::isfinite(told.sd) && told.sd < kUnknown * told.prior_sd);
+  told.parts = is_known && !told.at_bound &&
                std::abs(told.sample_sd - told.sd) > parting(result.samples.rows()) * told.sd;
   told.shrinkage = told.best_sd() / told.prior_sd;
   return told;

@@ -61,8 +61,12 @@ std::vector<std::size_t> offsets_of(const Measurement& row,
   return offsets;
 }
 
-void find_frames(const std::vector<FreeParameter>& parameters, ToldRows& told) {
+void find_frames(const std::vector<FreeParameter>& parameters, double side, ToldRows& told) {
   told.frame_parameters.fill(-1);
+  for (std::size_t i = 0; i < told.frame_signs.size(); ++i) {
+    const std::size_t component = i % 6;
+    told.frame_signs[i] = component == 0 || component > 3 ? side : 1;
+  }
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     const bool femur = parameters[j].kind == FreeParameter::Kind::kFemurFrame;
     if (!femur && parameters[j].kind != FreeParameter::Kind::kTibiaFrame) continue;
@@ -79,7 +83,8 @@ ToldRows told_rows(const MeasurementTable& table,
                    const TestPoses& tests,
                    const MeasuredModels& models) {
   ToldRows told;
-  find_frames(parameters, told);
+  const std::optional<JointFrames>& joint = models.models.front().model->joint;
+  find_frames(parameters, joint ? joint->side : 1, told);
   told.outputs.resize(tests.poses.size());
   // Coordinates first, so that what is asked for before them keeps its place.
   for (const bool coordinates : {true, false}) {
@@ -106,7 +111,8 @@ FrameOffsets frame_offsets(const ToldRows& told, const Eigen::VectorXd& theta) {
   FrameOffsets offsets;
   for (std::size_t i = 0; i < told.frame_parameters.size(); ++i)
     if (told.frame_parameters[i] >= 0)
-      (i < 6 ? offsets.femur[i] : offsets.tibia[i - 6]) = theta[told.frame_parameters[i]];
+      (i < 6 ? offsets.femur[i] : offsets.tibia[i - 6]) =
+          told.frame_signs[i] * theta[told.frame_parameters[i]];
   return offsets;
 }
 
@@ -155,7 +161,8 @@ void add_frame_derivatives(const ToldRows& told,
       derivatives_by_frames(*at.model.joint, offsets, at.state.X);
   for (std::size_t i = 0; i < told.frame_parameters.size(); ++i)
     if (told.frame_parameters[i] >= 0)
-      by_theta.col(told.frame_parameters[i]).head<6>() += by_frames.col(static_cast<int>(i));
+      by_theta.col(told.frame_parameters[i]).head<6>() +=
+          told.frame_signs[i] * by_frames.col(static_cast<int>(i));
 }
 
 }  // namespace condyle

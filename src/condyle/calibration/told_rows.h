@@ -31,6 +31,10 @@ struct ToldRows {
   std::vector<Row> rows;  ///< as MeasurementTable::rows
   /// By the six numbers of the femur's and the tibia's frame: which θ, -1: none.
   std::array<int, 12> frame_parameters{};
+  /// -1: those of a left knee whose numbers are told with the other sign than the program counts them along and about its
+  /// axes, of which the first points medially: shifts along `lateral`, turns about the others. A knee and its mirror image
+  /// have the same numbers.
+  std::array<double, 12> frame_signs{};
   bool frames = false;
 };
 

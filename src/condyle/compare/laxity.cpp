@@ -143,6 +143,9 @@ void check_laxity_scene(const Scene& scene) {
   if (!scene.laxity)
     throw InputError(scene.file.string() +
                      ": [laxity] is missing, expected the angles of flexion of the test");
+  if (scene.sweep && scene.sweep->arc_length)
+    throw InputError(scene.file.string() +
+                     ": [sweep]: path = \"arc length\", expected \"steps\" for a test of laxity");
 }
 
 LaxityResult test_laxity(const Scene& scene,

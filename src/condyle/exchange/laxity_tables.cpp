@@ -200,7 +200,8 @@ void write_test(const std::string& test,
   if (!passive) load = applied_load(test, kinematics, read_wide(*files.kinetics), table.notes);
   std::array<double, 6> signs{};
   const std::array<int, 6> columns = columns_of(kinematics, signs);
-  for (const auto& step : steps_of(kinematics.columns[0], options.held)) {
+  // A passive path holds no load: each of its rows is a pose.
+  for (const auto& step : steps_of(kinematics.columns[0], passive ? 0 : options.held)) {
     const auto coordinate = [&](std::size_t c) {
       const auto& column = kinematics.columns[static_cast<std::size_t>(columns[c])];
       return signs[c] * value_of(column, step, options.mean) + offsets[c];

@@ -99,6 +99,7 @@ class SceneText {
   }
 
   void add_mesh(const OsimPlacedMesh& placed) {
+    out_.used.push_back(found(placed.mesh));
     line("mesh = {}",
          scene_string(mesh_path_in(scene_, unmoved(placed) ? found(placed.mesh) : moved(placed))));
     line("mesh_units = \"{}\"", unmoved(placed) ? unit(placed.mesh.scale) : "mm");

@@ -239,11 +239,21 @@ void write_known(const Hdf5Group& group, const CalibrationResult& result) {
 
 void read_known(const Hdf5Group& group, CalibrationResult& result) {
   const Eigen::VectorXd units = told_units(result.parameters);
-  result.known.covariance = read_matrix(group, "covariance");
-  if (result.known.covariance.rows() == units.size())
-    result.known.covariance = units.asDiagonal() * result.known.covariance * units.asDiagonal();
-  result.known.singular_values = read_vector(group, "singular_values");
-  result.known.directions = read_matrix(group, "directions");
+  Identifiability& known = result.known;
+  const auto is_empty_or = [](const Eigen::MatrixXd& matrix, Eigen::Index rows,
+                              Eigen::Index columns) {
+    return matrix.size() == 0 || (matrix.rows() == rows && matrix.cols() == columns);
+  };
+  known.covariance = read_matrix(group, "covariance");
+  known.singular_values = read_vector(group, "singular_values");
+  known.directions = read_matrix(group, "directions");
+  if (!is_empty_or(known.covariance, units.size(), units.size()))
+    group.fail("covariance has not a row and a column for each parameter");
+  if (!is_empty_or(known.directions, units.size(), known.singular_values.size()) ||
+      (known.directions.size() == 0 && known.singular_values.size() > 0))
+    group.fail("directions has not a row for each parameter and a column for each singular value");
+  if (known.covariance.size() > 0)
+    known.covariance = units.asDiagonal() * known.covariance * units.asDiagonal();
 }
 
 void write_samples(const Hdf5Group& posterior, const CalibrationResult& result) {

@@ -14,6 +14,20 @@
 namespace condyle {
 namespace {
 
+/// A load that is not there stays so whatever its size is multiplied by.
+void refuse_idle_load(const Scene& scene, const FreeParameter& number, const std::string& study) {
+  for (const auto& [moved, factor] : number.moves) {
+    if (moved.kind != ParameterKind::kLoadScale) continue;
+    const bool swept = scene.sweep && scene.sweep->varies_load &&
+                       scene.sweep->index == static_cast<int>(moved.index);
+    if (scene.loads[moved.index].scale == 0 && !swept)
+      throw InputError(
+          fmt::format("{}: [[vary]] {}: load \"{}\" has scale = 0 in {}, expected another one for "
+                      "its size to vary",
+                      study, number.name, scene.loads[moved.index].name, scene.file.string()));
+  }
+}
+
 /// The numbers of one knee, as FreeParameter has them; a range, of a factor told as such, becomes
 /// bounds of θ.
 std::vector<FreeParameter> numbers_of(const Scene& scene,
@@ -25,6 +39,7 @@ std::vector<FreeParameter> numbers_of(const Scene& scene,
   std::vector<FreeParameter> numbers =
       free_numbers(scene, asked, body_meshes(scene, surfaces),
                    fmt::format("{}: [[vary]] in {}:", study, scene.file.string()));
+  for (const FreeParameter& number : numbers) refuse_idle_load(scene, number, study);
   for (FreeParameter& number : numbers) {
     const std::optional<std::array<double, 2>>& range = varied[number.asked].range;
     if (!range) continue;
