@@ -20,17 +20,25 @@
 namespace condyle {
 namespace {
 
-/// Thrown sideways from the start pose; [t], [mm], [s].
-Motion thrown(const Model& model, double viscous_time, double time) {
+/// In t, mm and s.
+KneeNetwork hanging_body(const Model& model) {
   MassProperties mass;
   mass.mass = 2e-4;
   mass.center = {0, -65, 0};
   mass.inertia = Eigen::Vector3d(0.1, 0.08, 0.12).asDiagonal();
-  KneeNetwork knee = make_knee_network(model, mass);
-  for (LineComponent& line : knee.network.lines) line.viscous_time = viscous_time;
+  return make_knee_network(model, mass);
+}
+
+NetworkState thrown_sideways(const Model& model) {
   NetworkState state;
   state.bodies = {{model.start, {150, 40, -60}, {0, 0, 4}}};
-  return integrate(knee.network, state, options(time, 0.005, 1e-11));
+  return state;
+}
+
+Motion thrown(const Model& model, double viscous_time, double time) {
+  KneeNetwork knee = hanging_body(model);
+  for (LineComponent& line : knee.network.lines) line.viscous_time = viscous_time;
+  return integrate(knee.network, thrown_sideways(model), options(time, 0.005, 1e-11));
 }
 
 TEST(WrappedMotion, KeepsItsEnergyWhileStrandsTouchAndLeave) {
@@ -62,14 +70,8 @@ TEST(WrappedMotion, KeepsItsEnergyWhileStrandsTouchAndLeave) {
 TEST(WrappedMotion, AStretchThatIsRepeatedGoesOnFromHowStrandsLayBeforeIt) {
   const Scene scene = parse_scene(test::kHangingBody, "knee.toml");
   const Model model = build_model(scene, {});
-  MassProperties mass;
-  mass.mass = 2e-4;
-  mass.center = {0, -65, 0};
-  mass.inertia = Eigen::Vector3d(0.1, 0.08, 0.12).asDiagonal();
-  const KneeNetwork knee = make_knee_network(model, mass);
-  NetworkState state;
-  state.bodies = {{model.start, {150, 40, -60}, {0, 0, 4}}};
-  MovingNetwork moving(knee.network, state, options(0.2, 0.005, 1e-9));
+  const KneeNetwork knee = hanging_body(model);
+  MovingNetwork moving(knee.network, thrown_sideways(model), options(0.2, 0.005, 1e-9));
   std::vector<ContactEvent> events;
   moving.check_start();
   moving.change_contacts({}, {}, events);

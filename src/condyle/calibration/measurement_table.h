@@ -51,7 +51,7 @@ struct MeasurementTable {
   std::string specimen;
   std::vector<Measurement>
       rows;  ///< of that specimen, in the order of the file, none to be skipped
-  std::vector<std::string> warnings;  ///< what a reader should know of it, one line each
+  std::vector<std::string> warnings = {};  ///< what a reader should know of it, one line each
 };
 
 /// The table that the scene's [calibrate] names. Throws InputError with file, line and column for what

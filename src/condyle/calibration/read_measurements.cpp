@@ -89,6 +89,14 @@ bool is_told(const Measurement& row, const Scene& scene) {
   return is_relative(scene, row.test) && row.kind == MeasuredKind::kJointCoordinate && !row.laxity;
 }
 
+bool same_curve(const Measurement& a, const Measurement& b) {
+  return a.test == b.test && a.index == b.index;
+}
+
+constexpr const char* kNoUnloadedRow =
+    ": its curve is told from its unloaded pose (relative), and has no unloaded row within "
+    "2 degrees of this one: it is taken as it stands, and so are others like it";
+
 /// The unloaded row of the same curve and coordinate whose flexion is nearest to that of a row; null
 /// where none is near: a robot holds a flexion to a degree or so. Of two as near it is that of less flexion.
 const Measurement* unloaded_of(const Measurement& row, const std::vector<Measurement>& unloaded) {
@@ -97,7 +105,7 @@ const Measurement* unloaded_of(const Measurement& row, const std::vector<Measure
   double least = kNear;
   for (const Measurement& other : unloaded) {
     const double away = std::abs(other.flexion - row.flexion);
-    if (other.test != row.test || other.index != row.index || away > kNear) continue;
+    if (!same_curve(row, other) || away > kNear) continue;
     const bool as_near = nearest != nullptr && std::abs(away - least) < kSame;
     if (as_near ? other.flexion >= nearest->flexion : away >= least && nearest != nullptr) continue;
     nearest = &other;
@@ -120,16 +128,10 @@ void tell_from_unloaded(const Scene& scene, MeasurementTable& table) {
     if (!is_told(row, scene)) continue;
     const Measurement* zero = unloaded_of(row, unloaded);
     if (zero == nullptr) {
-      const bool elsewhere =
-          std::any_of(unloaded.begin(), unloaded.end(), [&](const Measurement& other) {
-            return other.test == row.test && other.index == row.index;
-          });
-      if (elsewhere && warned.emplace(row.test, row.index).second)
-        table.warnings.push_back(
-            name_of(row, table, scene) +
-            ": its curve is told from its unloaded pose (relative), and has no unloaded row within "
-            "2 "
-            "degrees of this one: it is taken as it stands, and so are others like it");
+      const auto is_of_curve = [&](const Measurement& other) { return same_curve(row, other); };
+      if (std::any_of(unloaded.begin(), unloaded.end(), is_of_curve) &&
+          warned.emplace(row.test, row.index).second)
+        table.warnings.push_back(name_of(row, table, scene) + kNoUnloadedRow);
       continue;
     }
     row.value -= zero->value;
