@@ -19,7 +19,8 @@ struct FreeParameter {
   enum class Kind {
     kNumber,      ///< of the knee: model numbers that move with θ
     kFemurFrame,  ///< nuisance: component 0 to 2 a shift [mm], 3 to 5 a turn [rad] of the frame that
-    kTibiaFrame,  ///< the measurement uses against the scene's, along and about the axes of that frame as the program has it of a right knee; of a left one as of the right knee that it mirrors
+    kTibiaFrame,  ///< the measurement uses against the scene's, along and about the axes of that frame;
+                  ///< of a left knee those of the right one that it mirrors
     kCurveOffset  ///< nuisance: added to one coordinate of one curve
   };
   std::string

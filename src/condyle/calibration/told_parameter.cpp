@@ -22,8 +22,8 @@ double parting(Eigen::Index samples) {
   return std::max(kParting, open);
 }
 
-constexpr double kUnknown =
-    0.5;  // of the prior's deviation: a number without prior that the data do not tell
+// Of the prior's deviation: of a number without prior that the data do not tell as much is left.
+constexpr double kUnknown = 0.5;
 
 ToldParameter told_of(const CalibrationResult& result, std::size_t j) {
   const FreeParameter& parameter = result.parameters[j];
@@ -40,8 +40,7 @@ ToldParameter told_of(const CalibrationResult& result, std::size_t j) {
   told.sample_sd = entry(result.sample_sd, at) / unit.factor;
   told.at_bound = j < result.at_bound.size() && result.at_bound[j];
   // Samples draw what the data and the prior say; where both say nothing they never leave the least.
-  const bool is_known = has_prior(parameter.prior_sd) ||
-                        (std::isfinite(told.sd) && told.sd < kUnknown * told.prior_sd);
+  const bool is_known = has_prior(parameter.prior_sd) || told.sd < kUnknown * told.prior_sd;
   told.parts = is_known && !told.at_bound &&
                std::abs(told.sample_sd - told.sd) > parting(result.samples.rows()) * told.sd;
   told.shrinkage = told.best_sd() / told.prior_sd;

@@ -23,11 +23,10 @@ struct OsimMovedMesh {
 };
 
 struct OsimScene {
-  std::string text;                   ///< of the scene (TOML)
-  std::vector<OsimMovedMesh> meshes;  ///< that the scene names and that are not there yet
-  std::vector<std::filesystem::path>
-      used;                        ///< meshes of the model that it names or that were moved
-  std::vector<std::string> notes;  ///< what was left out, one line each
+  std::string text;                         ///< of the scene (TOML)
+  std::vector<OsimMovedMesh> meshes;        ///< that the scene names and that are not there yet
+  std::vector<std::filesystem::path> used;  ///< meshes of the model, named or moved
+  std::vector<std::string> notes;           ///< what was left out, one line each
 };
 
 /// `scene` is where the text will stand; meshes are named relative to its folder. A mesh is looked
