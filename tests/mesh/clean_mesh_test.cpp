@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "condyle/mesh/merge_vertices.h"
 #include "condyle/mesh/mesh_measures.h"
 #include "support/mesh_shapes.h"
 
@@ -20,6 +23,18 @@ TriangleMesh apart(const TriangleMesh& mesh) {
     result.triangles.push_back({first, first + 1, first + 2});
   }
   return result;
+}
+
+// Surfaces of damaged results may have both.
+TEST(MergeVertices, AVertexThatIsNoNumberIsNearNoneAndAnyMayLieFarAway) {
+  const Vector3d none(std::nan(""), 0, 0), infinite(0, HUGE_VAL, 0), far(0, 0, 1e300);
+  TriangleMesh mesh;
+  mesh.vertices = {none, far, Vector3d::Zero(), none, far, infinite, Vector3d(0, 0, 1e-10)};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 6}, {5, 4, 6}};
+  EXPECT_EQ(merge_vertices(mesh, 1e-9), 2);
+  EXPECT_EQ(mesh.vertices.size(), 5u);
+  const std::vector<std::array<int, 3>> expected = {{0, 1, 2}, {3, 1, 2}, {4, 1, 2}};
+  EXPECT_EQ(mesh.triangles, expected);
 }
 
 // A cube has 8 vertices; 12 triangles with 3 each make 36.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "condyle/compare/laxity.h"
@@ -108,6 +109,13 @@ TEST(RunView, ThePlaceOfInterestIsWhereMostIsCarried) {
   condyle::Run later = run;
   later.sweep.poses.erase(later.sweep.poses.begin());
   EXPECT_EQ(place_of_interest(later, later.scene.fixed_body()), made_up_point(4).point_ground);
+
+  // A damaged file may hold anything.
+  later = run;
+  later.sweep.poses[0].contacts[0].points[0].point_moving.x() = std::nan("");
+  const Eigen::Vector3d place = place_of_interest(later, later.scene.moving_body());
+  EXPECT_TRUE(place.allFinite());
+  EXPECT_NE(place, made_up_point(1).point_moving);
 }
 
 TEST(StrainScale, EndsAtTenPerCentWhateverOneStrandDoes) {

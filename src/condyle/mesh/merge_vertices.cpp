@@ -1,10 +1,10 @@
 #include "condyle/mesh/merge_vertices.h"
 
+#include <Eigen/Geometry>
+
 #include <bit>
 #include <cmath>
 #include <cstdint>
-
-#include <Eigen/Geometry>
 
 namespace condyle {
 namespace {
@@ -43,7 +43,9 @@ class PointGrid {
 
  private:
   [[nodiscard]] Cell cell_of(const Vector3d& p) const {
-    return ((p - origin_) * per_cell_).array().floor().cast<std::int64_t>();
+    constexpr double kFarthest = 0x1p62;  // what lies beyond shares a cell
+    const Eigen::Array3d cells = ((p - origin_) * per_cell_).array().floor();
+    return cells.max(-kFarthest).min(kFarthest).cast<std::int64_t>();
   }
   [[nodiscard]] std::size_t list_of(const Cell& cell) const {
     std::uint64_t key = 0;
@@ -74,16 +76,19 @@ int merge_vertices(TriangleMesh& mesh, double tolerance) {
   const std::size_t before = vertices.size();
   if (before == 0 || !(tolerance > 0)) return 0;
   Eigen::AlignedBox3d box;
-  for (const Vector3d& p : vertices) box.extend(p);
+  for (const Vector3d& p : vertices)
+    if (p.allFinite()) box.extend(p);
   PointGrid grid(vertices, box.min(), tolerance);
   std::vector<int> new_index(before);
   std::size_t kept = 0;
   for (std::size_t v = 0; v < before; ++v) {
-    new_index[v] = grid.find(vertices[v]);
+    const bool is_finite = vertices[v].allFinite();
+    new_index[v] = is_finite ? grid.find(vertices[v]) : -1;
     if (new_index[v] >= 0) continue;
     new_index[v] = static_cast<int>(kept);
     vertices[kept] = vertices[v];
-    grid.add(static_cast<int>(kept++));
+    if (is_finite) grid.add(new_index[v]);
+    ++kept;
   }
   if (kept == before) return 0;
   vertices.resize(kept);

@@ -6,7 +6,8 @@
 
 namespace condyle {
 
-/// Merges vertices closer than `tolerance` [mm] to an earlier one; returns how many were dropped.
+/// Merges vertices closer than `tolerance` [mm] to an earlier one; returns how many were dropped. One that is no number is near
+/// none.
 int merge_vertices(TriangleMesh& mesh, double tolerance);
 
 /// Drops vertices that no triangle uses; returns how many.

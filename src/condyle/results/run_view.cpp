@@ -108,8 +108,11 @@ Vector3d place_of_interest(const Run& run, int body) {
   for (const PoseResult& pose : run.sweep.poses) {
     if (!has_place(pose)) continue;
     for (const ContactResult& contact : pose.contacts) {
-      if (const ContactPointResult* point = strongest_point(contact))
-        return body == run.scene.moving_body() ? point->point_moving : point->point_ground;
+      const ContactPointResult* point = strongest_point(contact);
+      if (point == nullptr) continue;
+      const Eigen::Vector3d& place =
+          body == run.scene.moving_body() ? point->point_moving : point->point_ground;
+      if (place.allFinite()) return place;  // a damaged file may hold others
     }
   }
   return Vector3d::Zero();
