@@ -12,8 +12,10 @@ struct Span {
   int first, last;
 };
 Span pixels(double low, double high, int size) {
-  return {std::max(0, static_cast<int>(std::floor(low - 1))),
-          std::min(size - 1, static_cast<int>(std::ceil(high + 1)))};
+  if (!(low <= high)) return {0, -1};  // places of damaged results may lie nowhere, or anywhere
+  const double end = size;
+  return {static_cast<int>(std::min(end, std::max(0.0, std::floor(low - 1)))),
+          static_cast<int>(std::max(-1.0, std::min(end - 1, std::ceil(high + 1))))};
 }
 
 /// Distance from p to the segment a b.

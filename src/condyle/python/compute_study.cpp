@@ -101,7 +101,7 @@ std::shared_ptr<StudyColumns> compute_study(StudyToCompute asked, const OnProgre
   StudyJournals journals(asked.output, plan, StudyPart{}, asked.resume);
   if (asked.resume && journals.count() == 0 && holds_study(asked.output, plan)) {
     journals.remove();
-    return open_own_study(asked.output);
+    return open_study(asked.output, ReadBy::kThisProcess);
   }
   const int threads = thread_count(asked.threads);
   std::shared_ptr<const StudyModels> models;
@@ -113,7 +113,7 @@ std::shared_ptr<StudyColumns> compute_study(StudyToCompute asked, const OnProgre
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
   write_result(asked.output, plan, *models, journals, {passed.count(), threads, 1});
   journals.remove();
-  return open_own_study(asked.output);
+  return open_study(asked.output, ReadBy::kThisProcess);
 }
 
 }  // namespace condyle::python

@@ -3,6 +3,7 @@
 #include <new>
 
 #include "condyle/input_error.h"
+#include "condyle/results/hdf5_answers.h"
 #include "condyle/results/hdf5_calls.h"
 
 namespace condyle {
@@ -47,26 +48,51 @@ void Hdf5DiskFile::close() {
     throw InputError(name_ + ": cannot be written, expected room on the disk");
 }
 
-Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : name_(file.string()) {
-  hdf5::silence();
+namespace {
+
+void check_plain_file(const std::filesystem::path& file) {
+  const std::string name = file.string();
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
-    throw InputError(name_ + ": is a folder, expected a run (HDF5)");
+    throw InputError(name + ": is a folder, expected a run (HDF5)");
   if (!std::filesystem::is_regular_file(file, error))
     throw InputError(
-        name_ + (std::filesystem::exists(file, error) ? ": is no plain file" : ": no such file") +
+        name + (std::filesystem::exists(file, error) ? ": is no plain file" : ": no such file") +
         ", expected a run (HDF5)");
   if (file.extension() == ".toml")
-    throw InputError(name_ +
+    throw InputError(name +
                      ": is a scene (TOML), expected a run (HDF5), as condyle sweep writes it");
-  file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (file_.id() < 0 && hdf5::lacked_memory()) throw std::bad_alloc();
-  if (file_.id() < 0)
-    throw InputError(name_ + ": cannot be opened, expected a run (HDF5), whole and readable");
+}
+
+Hdf5Handle opened(const std::string& name) {
+  hdf5::silence();
+  Hdf5Handle file(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (file.id() < 0 && hdf5::lacked_memory()) throw std::bad_alloc();
+  if (file.id() < 0)
+    throw InputError(name + ": cannot be opened, expected a run (HDF5), whole and readable");
+  return file;
+}
+
+Hdf5Group root_of(const Hdf5Handle& file, const std::string& name) {
+  return {Hdf5Handle(H5Gopen2(file.id(), "/", H5P_DEFAULT), H5Gclose), name + ": /"};
+}
+
+}  // namespace
+
+Hdf5Reader::Hdf5Reader(const std::filesystem::path& file, ReadBy by) : name_(file.string()) {
+  check_plain_file(file);
+  if (by == ReadBy::kThisProcess) {
+    file_ = opened(name_);
+    return;
+  }
+  process_ = std::make_shared<Hdf5Process>(file, [&] {
+    file_ = opened(name_);
+    return answers_of(root_of(file_, name_));
+  });
 }
 
 Hdf5Group Hdf5Reader::root() const {
-  return {Hdf5Handle(H5Gopen2(file_.id(), "/", H5P_DEFAULT), H5Gclose), name_ + ": /"};
+  return process_ ? Hdf5Group(process_, 0, name_ + ": /") : root_of(file_, name_);
 }
 
 }  // namespace condyle

@@ -4,10 +4,13 @@
 /// and never by HDF5 half-way through its own; those that may be larger than memory, on disk.
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "condyle/results/hdf5_group.h"
 #include "condyle/results/hdf5_handle.h"
+#include "condyle/results/hdf5_process.h"
+#include "condyle/results/read_by.h"
 
 namespace condyle {
 
@@ -38,10 +41,12 @@ class Hdf5DiskFile {
 
 class Hdf5Reader {
  public:
-  explicit Hdf5Reader(const std::filesystem::path& file);
+  /// Throws InputError; DamagedFile where the process that reads it does not live to say what is wrong.
+  explicit Hdf5Reader(const std::filesystem::path& file, ReadBy by = ReadBy::kProcessOfItsOwn);
   [[nodiscard]] Hdf5Group root() const;
 
  private:
+  std::shared_ptr<Hdf5Process> process_;
   Hdf5Handle file_;
   std::string name_;
 };

@@ -5,15 +5,19 @@
 /// (hdf5_own_data.h).
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "condyle/results/column_tree.h"
 #include "condyle/results/hdf5_handle.h"
+#include "condyle/results/hdf5_question.h"
 #include "condyle/results/hdf5_shape.h"
 
 namespace condyle {
+
+class Hdf5Process;
 
 struct Hdf5Array {
   std::vector<double> values;  ///< last index fastest
@@ -36,6 +40,7 @@ class Hdf5Rows {
 };
 /// kOther: nothing that condyle writes, as others may add to a file.
 enum class DatasetKind { kNumbers, kIntegers, kTexts, kOther };
+inline constexpr std::uint64_t kDatasetKinds = 4;
 enum class StoredAs { kFloat64, kFloat32, kInt32, kUint8 };
 
 class Hdf5Group {
@@ -43,6 +48,9 @@ class Hdf5Group {
   /// `place` names the group in messages: "run.h5: /sweep".
   Hdf5Group(Hdf5Handle handle, std::string place)
       : handle_(std::move(handle)), place_(std::move(place)) {}
+  /// A group of a file that another process holds open, by its number there; it is read and not written.
+  Hdf5Group(std::shared_ptr<Hdf5Process> process, std::uint64_t number, std::string place)
+      : process_(std::move(process)), number_(number), place_(std::move(place)) {}
   /// A group that is kept in `memory` and written to no file; create, open, has, write and write_attribute know it.
   Hdf5Group(ColumnTree& memory, std::string place) : memory_(&memory), place_(std::move(place)) {}
 
@@ -120,7 +128,17 @@ class Hdf5Group {
   [[nodiscard]] std::string read_attribute_of(const Hdf5Handle& object,
                                               const std::string& name) const;
 
+  [[nodiscard]] Hdf5Answer ask(Hdf5Question::Kind kind,
+                               const std::string& name,
+                               const std::string& attribute = "") const;
+  /// The one text that is answered.
+  [[nodiscard]] std::string ask_text(Hdf5Question::Kind kind,
+                                     const std::string& name,
+                                     const std::string& attribute) const;
+
   Hdf5Handle handle_;
+  std::shared_ptr<Hdf5Process> process_;
+  std::uint64_t number_ = 0;
   ColumnTree* memory_ = nullptr;
   std::string place_;
 };

@@ -14,7 +14,6 @@
 #include "condyle/results/patch_group.h"
 #include "condyle/results/path_group.h"
 #include "condyle/results/points_dataset.h"
-#include "condyle/results/rehearsal.h"
 #include "condyle/results/run_columns.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/run_view.h"
@@ -262,25 +261,9 @@ Poses read_sweep(const Hdf5Group& sweep, const Scene& scene, const Unit& unit) {
   return poses;
 }
 
-Run read_run(const std::filesystem::path& path) {
-  rehearse(path, [&] { (void)read_run_at_once(path); });
-  return read_run_at_once(path);
-}
+namespace {
 
-RunWithColumns read_run_with_columns(const std::filesystem::path& path) {
-  const auto read = [&] {
-    RunWithColumns found{read_run_at_once(path), {}};
-    const Hdf5Reader reader(path);
-    found.columns = read_columns(reader.root());
-    return found;
-  };
-  rehearse(path, [&] { (void)read(); });
-  return read();
-}
-
-Run read_run_at_once(const std::filesystem::path& path) {
-  const Hdf5Reader reader(path);
-  const Hdf5Group root = reader.root();
+Run read_run_in(const Hdf5Group& root) {
   Run run;
   run.scene = read_head(root);
   read_fitted_wraps(root, run.scene);
@@ -308,6 +291,20 @@ Run read_run_at_once(const std::filesystem::path& path) {
   for (const std::string& name : bodies.names())
     run.bodies.push_back(read_body(bodies.open(name), name));
   return run;
+}
+
+}  // namespace
+
+Run read_run(const std::filesystem::path& path, ReadBy by) {
+  const Hdf5Reader reader(path, by);
+  return read_run_in(reader.root());
+}
+
+RunWithColumns read_run_with_columns(const std::filesystem::path& path) {
+  const Hdf5Reader reader(path);
+  RunWithColumns found{read_run_in(reader.root()), {}};
+  found.columns = read_columns(reader.root());
+  return found;
 }
 
 }  // namespace condyle

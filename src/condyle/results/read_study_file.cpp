@@ -6,7 +6,6 @@
 #include "condyle/input_error.h"
 #include "condyle/results/format_number.h"
 #include "condyle/results/hdf5_file.h"
-#include "condyle/results/rehearsal.h"
 #include "condyle/results/study_file.h"
 #include "condyle/results/study_groups.h"
 #include "condyle/scene_file/read_scene.h"
@@ -84,28 +83,24 @@ void read_study_head(const Hdf5Group& root, StudyView& view) {
 bool is_study_file(const std::filesystem::path& path) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(path, unknown)) return false;
-  const auto is_study = [&] {
+  try {
     const Hdf5Reader reader(path);
     const Hdf5Group root = reader.root();
     return root.has_attribute("format") &&
            root.read_attribute("format").starts_with("condyle study ");
-  };
-  rehearse(path, [&] { (void)is_study(); });
-  try {
-    return is_study();
+  } catch (const DamagedFile&) {
+    throw;
   } catch (const InputError&) {
     return false;
   }
 }
 
-StudyView read_study_file(const std::filesystem::path& path) {
-  rehearse(path, [&] { (void)read_study_file_at_once(path); });
-  return read_study_file_at_once(path);
+StudyView read_study_file(const std::filesystem::path& path, ReadBy by) {
+  const Hdf5Reader reader(path, by);
+  return read_study_in(reader.root());
 }
 
-StudyView read_study_file_at_once(const std::filesystem::path& path) {
-  const Hdf5Reader reader(path);
-  const Hdf5Group root = reader.root();
+StudyView read_study_in(const Hdf5Group& root) {
   const std::string format = root.read_attribute("format");
   const std::string later = later_format(format, kStudyFormat);
   if (!later.empty()) root.fail(later);

@@ -11,6 +11,7 @@
 
 #include "condyle/equilibrium/pose_result.h"
 #include "condyle/mesh/triangle_mesh.h"
+#include "condyle/results/read_by.h"
 #include "condyle/scene/fitted_surface.h"
 #include "condyle/scene/scene.h"
 #include "condyle/surface/patch.h"
@@ -93,6 +94,6 @@ struct Run {
 void write_run(const std::filesystem::path& path, const Run& run);
 
 /// Throws InputError for a file that is missing or is not a run.
-[[nodiscard]] Run read_run(const std::filesystem::path& path);
+[[nodiscard]] Run read_run(const std::filesystem::path& path, ReadBy by = ReadBy::kProcessOfItsOwn);
 
 }  // namespace condyle

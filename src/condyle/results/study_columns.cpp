@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "condyle/results/rehearsal.h"
+#include "condyle/results/study_groups.h"
 
 namespace condyle {
 
-StudyColumns::StudyColumns(const std::filesystem::path& path)
-    : view_(read_study_file_at_once(path)),
-      reader_(path),
+StudyColumns::StudyColumns(const std::filesystem::path& path, ReadBy by)
+    : reader_(path, by),
+      view_(read_study_in(reader_.root())),
       outputs_(reader_.root().open("outputs")) {
   const Hdf5Group root = reader_.root();
   for (const std::string& name : root.names()) {
@@ -37,16 +37,8 @@ const ColumnTree& StudyColumns::tree_at(const std::string& place) {
   return columns_;
 }
 
-std::shared_ptr<StudyColumns> open_own_study(const std::filesystem::path& path) {
-  return std::shared_ptr<StudyColumns>(new StudyColumns(path));
-}
-
-std::shared_ptr<StudyColumns> open_study(const std::filesystem::path& path) {
-  rehearse(path, [&] {
-    const auto study = open_own_study(path);
-    (void)study->tree_at("outputs");
-  });
-  return open_own_study(path);
+std::shared_ptr<StudyColumns> open_study(const std::filesystem::path& path, ReadBy by) {
+  return std::shared_ptr<StudyColumns>(new StudyColumns(path, by));
 }
 
 }  // namespace condyle

@@ -8,6 +8,7 @@
 
 #include "condyle/results/column_tree.h"
 #include "condyle/results/hdf5_file.h"
+#include "condyle/results/read_by.h"
 #include "condyle/results/study_file.h"
 
 namespace condyle {
@@ -21,20 +22,18 @@ class StudyColumns {
   [[nodiscard]] const ColumnTree& tree_at(const std::string& place);
 
  private:
-  explicit StudyColumns(const std::filesystem::path& path);
-  friend std::shared_ptr<StudyColumns> open_study(const std::filesystem::path& path);
-  friend std::shared_ptr<StudyColumns> open_own_study(const std::filesystem::path& path);
+  StudyColumns(const std::filesystem::path& path, ReadBy by);
+  friend std::shared_ptr<StudyColumns> open_study(const std::filesystem::path& path, ReadBy by);
   void read_output(const std::string& name);
 
-  StudyView view_;
   Hdf5Reader reader_;
+  StudyView view_;
   Hdf5Group outputs_;
   ColumnTree columns_;
 };
 
-/// Throws InputError for a file that is missing, damaged, or no study.
-[[nodiscard]] std::shared_ptr<StudyColumns> open_study(const std::filesystem::path& path);
-/// One that this process has just written: it is not read in a rehearsal first.
-[[nodiscard]] std::shared_ptr<StudyColumns> open_own_study(const std::filesystem::path& path);
+/// Throws InputError for a file that is missing, damaged, or no study; so does tree_at of it where what it reads is damaged.
+[[nodiscard]] std::shared_ptr<StudyColumns> open_study(const std::filesystem::path& path,
+                                                       ReadBy by = ReadBy::kProcessOfItsOwn);
 
 }  // namespace condyle

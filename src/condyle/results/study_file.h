@@ -10,6 +10,7 @@
 
 #include "condyle/equilibrium/pose_result.h"
 #include "condyle/on_progress.h"
+#include "condyle/results/read_by.h"
 #include "condyle/results/study_journal.h"
 #include "condyle/scene/swept_quantity.h"
 #include "condyle/study/study_plan.h"
@@ -69,10 +70,11 @@ struct StudyView {
   std::vector<StudySummary> by_knee;  ///< of a population; else empty
 };
 
-/// False for a file that is missing or holds something else. Throws InputError for one so damaged that it is not
-/// known (rehearsal.h): whoever asks would wait for that as long again.
+/// False for a file that is missing or holds something else. Throws DamagedFile for one so damaged that it is not
+/// known (hdf5_process.h): whoever asks would wait for that as long again.
 [[nodiscard]] bool is_study_file(const std::filesystem::path& path);
 /// Throws InputError for a file that is missing or is no study.
-[[nodiscard]] StudyView read_study_file(const std::filesystem::path& path);
+[[nodiscard]] StudyView read_study_file(const std::filesystem::path& path,
+                                        ReadBy by = ReadBy::kProcessOfItsOwn);
 
 }  // namespace condyle

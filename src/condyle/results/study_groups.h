@@ -10,7 +10,12 @@
 
 namespace condyle {
 
+struct StudyView;
+
 inline constexpr const char* kStudyFormat = "condyle study 1";
+
+/// Throws InputError for the root of a file that is no study.
+[[nodiscard]] StudyView read_study_in(const Hdf5Group& root);
 
 void write_band(const Hdf5Group& bands,
                 const std::string& output,

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 int cells(double length, double spacing) {
-  return std::clamp(static_cast<int>(std::ceil(length / spacing)), 8, 240);
+  return static_cast<int>(std::clamp(std::ceil(length / spacing), 8.0, 240.0));
 }
 
 /// Cuts a grid over a patch along the edge of what is known.

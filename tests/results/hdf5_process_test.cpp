@@ -1,0 +1,115 @@
+/// A file of a stranger is read by another process: whatever becomes of that, this one goes on.
+
+#include "condyle/results/hdf5_process.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <new>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "condyle/results/hdf5_wire.h"
+
+namespace condyle {
+namespace {
+
+using Kind = Hdf5Question::Kind;
+
+/// Answers with what it was asked; some names do more.
+Hdf5Answer echo(const Hdf5Question& question) {
+  if (question.name == "crash") std::abort();
+  if (question.name == "leave") _exit(0);
+  if (question.name == "no memory") throw std::bad_alloc();
+  if (question.name == "refuse") throw InputError("run.h5: /: nothing of that name");
+  if (question.name == "many")
+    return {.texts = {}, .values = std::vector<double>(200000, 0.5), .shape = {400, 500}};
+  return {.number = question.group,
+          .texts = {question.name, "", question.attribute},
+          .values = {1, -0.0, 3},
+          .shape = {3, 1}};
+}
+
+TEST(Hdf5Process, AnswersAsThisProcessWould) {
+  Hdf5Process process("run.h5", [] { return echo; });
+  const Hdf5Answer answer = process.ask({Kind::kNumbers, 7, "force", "units"});
+  EXPECT_EQ(answer.number, 7u);
+  EXPECT_EQ(answer.texts, (std::vector<std::string>{"force", "", "units"}));
+  EXPECT_EQ(answer.values, (std::vector<double>{1, 0, 3}));
+  EXPECT_TRUE(std::signbit(answer.values[1]));
+  EXPECT_EQ(answer.shape, (Shape{3, 1}));
+  EXPECT_EQ(process.ask({Kind::kNumbers, 0, "many", ""}).values, std::vector<double>(200000, 0.5));
+}
+
+TEST(Hdf5Process, RefusesAsThatDidAndIsAskedOn) {
+  Hdf5Process process("run.h5", [] { return echo; });
+  try {
+    (void)process.ask({Kind::kHas, 0, "refuse", ""});
+    FAIL();
+  } catch (const DamagedFile&) {
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "run.h5: /: nothing of that name");
+  }
+  EXPECT_THROW((void)process.ask({Kind::kHas, 0, "no memory", ""}), std::bad_alloc);
+  EXPECT_EQ(process.ask({Kind::kHas, 5, "", ""}).number, 5u);
+}
+
+TEST(Hdf5Process, ThatDoesNotLiveToAnswerLeavesADamagedFile) {
+  for (const char* end : {"crash", "leave"}) {
+    Hdf5Process process("run.h5", [] { return echo; });
+    EXPECT_THROW((void)process.ask({Kind::kHas, 0, end, ""}), DamagedFile) << end;
+    EXPECT_THROW((void)process.ask({Kind::kHas, 0, "", ""}), DamagedFile) << end;
+  }
+  EXPECT_THROW(Hdf5Process("run.h5", []() -> Hdf5Process::Answering { std::abort(); }),
+               DamagedFile);
+  EXPECT_THROW(
+      Hdf5Process("run.h5", []() -> Hdf5Process::Answering { throw InputError("no run"); }),
+      InputError);
+}
+
+TEST(Hdf5Process, IsAskedByOneThreadAtATime) {
+  Hdf5Process process("run.h5", [] { return echo; });
+  std::vector<std::thread> threads;
+  std::vector<int> wrong(4);
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&process, &wrong, t] {
+      for (std::uint64_t i = 0; i < 100; ++i)
+        wrong[static_cast<std::size_t>(t)] +=
+            process.ask({Kind::kHas, 4 * i + static_cast<std::uint64_t>(t), "", ""}).number !=
+            4 * i + static_cast<std::uint64_t>(t);
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(wrong, std::vector<int>(4, 0));
+}
+
+/// What a process that lost its wits may send.
+bool is_taken(const std::string& bytes) {
+  std::FILE* stream = std::tmpfile();
+  std::fwrite(bytes.data(), 1, bytes.size(), stream);
+  std::rewind(stream);
+  WireReader in(stream, 1e6);
+  std::vector<double> values;
+  in.take(values);
+  std::fclose(stream);
+  return in.ok();
+}
+
+TEST(Hdf5Wire, TakesNoMoreThanItMayAndNothingCutShort) {
+  const auto announcing = [](std::uint64_t count) {
+    return std::string(reinterpret_cast<const char*>(&count), sizeof count);
+  };
+  EXPECT_TRUE(is_taken(announcing(0)));
+  EXPECT_TRUE(is_taken(announcing(2) + std::string(16, 'x')));
+  EXPECT_FALSE(is_taken(announcing(2) + std::string(15, 'x')));
+  EXPECT_FALSE(is_taken(announcing(125001)));
+  EXPECT_FALSE(is_taken(announcing(std::uint64_t{1} << 61)));
+  EXPECT_FALSE(is_taken("short"));
+}
+
+}  // namespace
+}  // namespace condyle
