@@ -78,6 +78,21 @@ std::string ascii_ply(const std::string& properties, const std::string& body) {
          "element face 1\nproperty list uchar int vertex_indices\nend_header\n" + body;
 }
 
+TEST(ObjFile, ANumberBeyondAllDoublesIsRefusedAndOneBelowThemIsNone) {
+  const std::string body = "\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const std::string ones(400, '1'), zeros(400, '0');
+  for (const std::string& x : {ones, "-" + ones + ".5", "1" + zeros + "e-50", std::string("1e400"),
+                               "0.001e+" + ones, std::string("5e309"), ones + "e"})
+    expect_complaint(read_obj, "v " + x + " 0 0" + body, "expected a finite number");
+  for (const std::string& x :
+       {std::string("1e-400"), "0." + zeros + "1", "1" + zeros + "e-800", "-1e-" + ones,
+        "0." + zeros + zeros + "7e+300", std::string("0e999")}) {
+    const TriangleMesh mesh = read(read_obj, "v " + x + " 0 0" + body);
+    EXPECT_EQ(mesh.vertices[0].x(), 0) << x;
+  }
+  expect_complaint(read_obj, "v " + ones + "e", "finite number");  // the file ends there
+}
+
 TEST(PlyFile, SaysWhatIsWrong) {
   const std::string xyz = "property float x\nproperty float y\nproperty float z\n",
                     body = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";

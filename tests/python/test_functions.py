@@ -242,6 +242,12 @@ class Loads(unittest.TestCase):
         self.assertGreater(np.abs(theirs.translation - condyle.Model(condyle.read_scene(knees.PHANTOM), surfaces)
                                   .solve(flexion=25).translation).max(), 0.01)
 
+    def test_derivatives_that_do_not_know_them_are_refused(self):
+        scene = condyle.read_scene(knees.PHANTOM)
+        scene.loads.append(condyle.Load("own", body="tibia", function=lambda a, R: (np.zeros(3), np.zeros(3))))
+        with self.assertRaisesRegex(condyle.InputError, '"own": function: is a function, expected none: derivatives'):
+            condyle.sweep(scene, [0, 1], sensitivities=["aACL.reference_strain"])
+
     def test_wrong_results_are_named(self):
         for result, error in ((None, TypeError), ((1, 2), TypeError), ((np.zeros(3), np.zeros(2)), TypeError),
                               ((np.zeros(3), np.full(3, math.nan)), condyle.InputError)):

@@ -100,6 +100,9 @@ class Columns(unittest.TestCase):
             self.assertEqual(pose.contacts["balls"].area, run.contacts["balls"].area[i])
         self.assertEqual(run.sensitivities.parameters[0], "press.scale")
         self.assertEqual(run.sensitivities["contacts/balls/force"].shape, (3, 4))
+        for pose in run:  # a parameter has no row for each pose
+            self.assertEqual(pose.sensitivities.parameters, run.sensitivities.parameters)
+            self.assertEqual(pose["sensitivities/parameter_units"], run["sweep/sensitivities/parameter_units"])
 
     def test_groups_say_units_and_meanings(self):
         run = condyle.sweep(knees.phantom(), [0, 60])

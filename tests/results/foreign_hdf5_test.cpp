@@ -107,6 +107,16 @@ TEST_F(ForeignHdf5, DatasetsOfOtherFilesAreNotRead) {
             ": /sweep/: dataset value is made of datasets of other files, expected its values");
 }
 
+// Rows of nothing cost whoever keeps a list for each.
+TEST_F(ForeignHdf5, ManyRowsOfNothingAreNotBelieved) {
+  replace("/sweep", "value", [&](hid_t group, const char* name) {
+    make(group, name, H5T_IEEE_F64LE, space({hsize_t{1} << 40, 0}), properties(H5P_DATASET_CREATE));
+  });
+  EXPECT_EQ(
+      message(),
+      ": /sweep/: dataset value declares many rows of nothing, expected rows that hold something");
+}
+
 /// 8 EB that are not there; and 2^32 * 2^32 values, whose number is 0 in 64 bits.
 TEST_F(ForeignHdf5, WhatTheFileCannotHoldIsNotAllocated) {
   for (const std::vector<hsize_t>& sizes :

@@ -1,6 +1,7 @@
 #include "condyle/results/study_file.h"
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include <filesystem>
 #include <fstream>
@@ -154,6 +155,34 @@ TEST_F(StudyFile, IsWholeOrNotThere) {
   EXPECT_TRUE(bytes_but_time() == before);
   for (const auto& entry : fs::directory_iterator(folder_))
     EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
+}
+
+TEST_F(StudyFile, WritesOverNothingThatIsNotItsOwn) {
+  const fs::path beside = result_.string() + ".part", precious = folder_ / "precious";
+  std::ofstream(precious) << "mine";
+  fs::create_symlink(precious, beside);
+  (void)write(made_up_study(), {0, 1, 2});
+  EXPECT_TRUE(fs::is_symlink(beside));
+  std::string said;
+  std::ifstream(precious) >> said;
+  EXPECT_EQ(said, "mine");
+  EXPECT_FALSE(fs::is_symlink(result_));
+  EXPECT_TRUE(is_study_file(result_));
+}
+
+/// A number of a dataset of its root written anew.
+void set_number(const fs::path& file, const char* dataset, double number) {
+  const Hdf5Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+  const Hdf5Handle numbers(H5Dopen2(opened.id(), dataset, H5P_DEFAULT), H5Dclose);
+  ASSERT_GE(H5Dwrite(numbers.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &number), 0);
+}
+
+TEST_F(StudyFile, CountsPosesBeyondAllIntegers) {
+  (void)write(made_up_study(), {0, 1, 2});
+  set_number(result_, "failures/poses", 2.5e9);
+  EXPECT_EQ(read_study_file(result_).all.failures.poses, 2500000000);
+  set_number(result_, "failures/poses", 2.5);
+  EXPECT_THROW((void)read_study_file(result_), InputError);
 }
 
 TEST_F(StudyFile, AsksForRoomBeforeItStarts) {

@@ -181,5 +181,19 @@ TEST(FitPatch, RefusesRegionsTooSmallForTheirControlPoints) {
   EXPECT_THROW((void)fit_patch(region_of(height_sheet(24, 3, ball))), InputError);
 }
 
+// Work and memory grow with the fourth and third power of the side.
+TEST(FitPatch, RefusesRegionsTooLargeForTheirControlPoints) {
+  const auto flat = [](double, double) { return 0.0; };
+  const ArticularRegion region = region_of(height_sheet(300, 20, flat));
+  try {
+    (void)fit_patch(region);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("expected no more than 16000 in all"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace condyle

@@ -41,6 +41,23 @@ std::string complaint(const Scene& scene) {
   return "";
 }
 
+// Some exporters leave points of their own in a file.
+TEST(FitSurfaces, VerticesOfNoTriangleHaveNoSay) {
+  const Scene scene = knee(phantom_files());
+  const MeshReader with_stray = [](const MeshFile& file) {
+    TriangleMesh mesh = load_mesh(file);
+    mesh.vertices.emplace_back(1e18, -1e18, 1e18);
+    return mesh;
+  };
+  const auto plain = fit_surfaces(scene), stray = fit_surfaces(scene, {}, with_stray);
+  ASSERT_EQ(plain.size(), stray.size());
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const auto& a = dynamic_cast<const Patch&>(*plain[i].surface).data().control_points;
+    const auto& b = dynamic_cast<const Patch&>(*stray[i].surface).data().control_points;
+    ASSERT_TRUE(a == b) << scene.surfaces[i].name;
+  }
+}
+
 // The mesh carries 0.2 mm of seeded roughness; away from the edge the patch must lie closer than
 // that to the exact shape, and its normals much closer than those of the mesh (7 degrees).
 TEST(FitSurfaces, FindsTheExactPhantomUnderItsRoughness) {

@@ -112,6 +112,7 @@ void drop_strays(TriangleMesh& mesh,
 CleanMesh clean_mesh(TriangleMesh mesh, const CleaningOptions& options) {
   CleanMesh result;
   CleaningReport& report = result.report;
+  report.unreferenced_vertices = drop_unreferenced_vertices(mesh);  // wherever they lie
   const double tolerance = mesh.triangles.empty()
                                ? 0
                                : options.merge_tolerance * box_of_triangles(mesh).diagonal().norm();
@@ -131,7 +132,7 @@ CleanMesh clean_mesh(TriangleMesh mesh, const CleaningOptions& options) {
     links = std::make_unique<TriangleLinks>(mesh);
     result.component = find_components(mesh, *links);
   }
-  report.unreferenced_vertices = drop_unreferenced_vertices(mesh);
+  report.unreferenced_vertices += drop_unreferenced_vertices(mesh);
 
   report.flipped_triangles = orient_components(mesh, *links, result.component, result.closed);
   report.components = static_cast<int>(result.closed.size());

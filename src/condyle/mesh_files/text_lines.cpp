@@ -14,6 +14,23 @@ using std::string_view;
 
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
+/// Is a number that no double stands for nearer to 0 than any? The place of its first digit that is not 0 tells.
+bool is_tiny(string_view digits) {
+  const std::size_t e = std::min(digits.find_first_of("eE"), digits.size());
+  string_view mantissa = digits.substr(0, e),
+              exponent = digits.substr(std::min(e + 1, digits.size()));
+  if (exponent.starts_with('+')) exponent.remove_prefix(1);
+  const std::size_t first = mantissa.find_first_of("123456789");
+  if (first == string_view::npos) return true;
+  const auto point = static_cast<long>(std::min(mantissa.find('.'), mantissa.size()));
+  const long tens = point - static_cast<long>(first);  // 10 to that is about the mantissa
+  long more = 0;
+  const auto [end, error] =
+      std::from_chars(exponent.data(), exponent.data() + exponent.size(), more);
+  if (error == std::errc::result_out_of_range) return exponent.starts_with('-');
+  return static_cast<double>(tens) + static_cast<double>(more) < 0;
+}
+
 void skip_blanks(string_view& text) {
   std::size_t n = 0;
   while (n < text.size() && is_blank(text[n])) ++n;
@@ -98,8 +115,7 @@ double TextLines::number(string_view what) {
   double value = 0;
   const char* last = digits.data() + digits.size();
   auto [end, error] = std::from_chars(digits.data(), last, value);
-  if (error == std::errc::result_out_of_range && digits.find_first_of("eE") != string_view::npos &&
-      digits[digits.find_first_of("eE") + 1] == '-')
+  if (error == std::errc::result_out_of_range && is_tiny(digits))
     error = {}, value = 0;  // nearer to 0 than any double
   if (error != std::errc{} || end != last || !std::isfinite(value)) {
     if (text.empty()) fail(fmt::format("{} is missing, expected a finite number", what));

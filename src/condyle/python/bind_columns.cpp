@@ -1,5 +1,6 @@
 /// Groups of a result as Python sees them, and columns as numpy arrays that look into them.
 
+#include "condyle/input_error.h"
 #include "condyle/python/arguments.h"
 #include "condyle/python/bindings.h"
 
@@ -11,6 +12,7 @@ struct Group {
   const ColumnTree* tree;
   std::string place;  ///< "sweep/ligaments/aACL"
   long row;           ///< of columns with one for each pose; -1: all of them
+  std::size_t poses;  ///< how many rows those columns have
 };
 
 /// Where the rows of a pose begin and end among those of all: the dataset `first` of a group, with one entry more than
@@ -70,19 +72,34 @@ py::object rows(const std::shared_ptr<const void>& owner,
       column.values);
 }
 
-py::object column_of(const Group& group, const std::string& name, const DataColumn& column) {
-  if (column.shape.empty()) return rows(group.owner, column, 0, 1, false);
-  if (group.row < 0) return rows(group.owner, column, 0, column.shape[0], false);
+py::object whole(const Group& group, const DataColumn& column) {
+  return rows(group.owner, column, 0, column.shape.empty() ? 1 : column.shape[0], false);
+}
+
+/// Of a column that has no row for each pose, all of it.
+py::object row_of(const Group& group, const DataColumn& column) {
   const auto row = static_cast<std::size_t>(group.row);
+  return column.shape[0] == group.poses && row < group.poses
+             ? rows(group.owner, column, row, row + 1, true)
+             : whole(group, column);
+}
+
+py::object column_of(const Group& group, const std::string& name, const DataColumn& column) {
+  const bool of_parameters = name == "parameters" || name == "parameter_units";
+  if (column.shape.empty() || group.row < 0 || of_parameters) return whole(group, column);
   const std::vector<int>* first = first_rows(*group.tree);
-  if (first == nullptr || column.shape[0] == 0)
-    return rows(group.owner, column, row, row + 1, true);
-  if (name == "first") return py::int_((*first)[row]);
+  if (first == nullptr || first->size() != group.poses + 1) return row_of(group, column);
+  const auto row = static_cast<std::size_t>(group.row);
+  if (name == "first") return py::int_(first->at(row));
   // Of a path its corners alone: touches have one row for each pose.
   const bool of_a_path = group.tree->column("touching") != nullptr;
-  if (of_a_path && name != "points") return rows(group.owner, column, row, row + 1, true);
-  return rows(group.owner, column, static_cast<std::size_t>((*first)[row]),
-              static_cast<std::size_t>((*first)[row + 1]), false);
+  if (of_a_path && name != "points") return row_of(group, column);
+  const long begin = first->at(row), end = first->at(row + 1);
+  if (begin < 0 || end < begin || end > static_cast<long>(column.shape[0]))
+    throw InputError(group.place + "/first: " + std::to_string(begin) + " to " +
+                     std::to_string(end) + ", expected rows of " + name);
+  return rows(group.owner, column, static_cast<std::size_t>(begin), static_cast<std::size_t>(end),
+              false);
 }
 
 std::string inside(const std::string& place, const std::string& name) {
@@ -92,8 +109,10 @@ std::string inside(const std::string& place, const std::string& name) {
 /// A null object where there is nothing of that name.
 py::object find(const Group& group, const std::string& name) {
   if (const DataColumn* column = group.tree->column(name)) return column_of(group, name, *column);
-  if (const ColumnTree* tree = group.tree->group(name))
-    return py::cast(Group{group.owner, tree, inside(group.place, name), group.row});
+  if (const ColumnTree* tree = group.tree->group(name)) {
+    const long row = name == "roughness" ? -1 : group.row;  // of surfaces
+    return py::cast(Group{group.owner, tree, inside(group.place, name), row, group.poses});
+  }
   return {};
 }
 
@@ -165,15 +184,17 @@ std::string group_repr(const Group& group) {
 py::object group_of(std::shared_ptr<const void> owner,
                     const ColumnTree& tree,
                     std::string place,
-                    long row) {
-  return py::cast(Group{std::move(owner), &tree, std::move(place), row});
+                    long row,
+                    std::size_t poses) {
+  return py::cast(Group{std::move(owner), &tree, std::move(place), row, poses});
 }
 
 py::object at_place(const std::shared_ptr<const void>& owner,
                     const ColumnTree& tree,
                     const std::string& place,
-                    long row) {
-  return member_at(Group{owner, &tree, "", row}, place);
+                    long row,
+                    std::size_t poses) {
+  return member_at(Group{owner, &tree, "", row, poses}, place);
 }
 
 void bind_columns(py::module_& m) {

@@ -30,7 +30,7 @@ py::object place_in(const RunPointer& run, const std::string& place, long row = 
   const std::string inside = place.substr(std::min(place.find_first_not_of('/'), place.size()));
   const ColumnTree* tree = tree_at(run, inside);
   if (tree == nullptr) throw py::key_error("\"" + inside + "\" is not in the run");
-  return at_place(run, *tree, inside, row);
+  return at_place(run, *tree, inside, row, run->computed().sweep.poses.size());
 }
 
 py::object of_sweep(const RunPointer& run, const char* place) {

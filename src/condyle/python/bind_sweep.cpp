@@ -8,6 +8,7 @@
 #include "condyle/python/bindings.h"
 #include "condyle/python/interrupts.h"
 #include "condyle/python/solver.h"
+#include "condyle/python/study_arguments.h"
 #include "condyle/scene/swept_quantity.h"
 #include "condyle/scene_file/read_scene.h"
 
@@ -40,6 +41,8 @@ std::shared_ptr<RunData> sweep_model(const py::object& scene_or_model,
   const auto knee = model_of(scene_or_model);
   Run run;
   run.scene = scene_to_sweep(knee->scene(), sweep_text, values);
+  if (!run.scene.sweep->sensitivities.empty())
+    check_no_own_loads(*knee, "derivatives ([sweep] sensitivities)");
   const OnProgress tell = progress_of(progress);
   const py::gil_scoped_release unlocked;
   const int total =

@@ -50,15 +50,18 @@ void only_returned(const py::handle& type);
 /// A description (condyle.Scene) as the reader understands it, with its functions. Throws InputError.
 [[nodiscard]] std::shared_ptr<const KneeScene> scene_of(const py::object& scene);
 
-/// A group of a tree as Python sees it; `owner` keeps it alive. At a row of its columns where `row` >= 0.
+/// A group of a tree as Python sees it; `owner` keeps it alive. At a row of its columns where `row` >= 0, those that
+/// have one for each of so many poses.
 [[nodiscard]] py::object group_of(std::shared_ptr<const void> owner,
                                   const ColumnTree& tree,
                                   std::string place,
-                                  long row = -1);
+                                  long row = -1,
+                                  std::size_t poses = 1);
 /// A dataset, or a group, at "ligaments/aACL/force". Throws KeyError with the nearest name.
 [[nodiscard]] py::object at_place(const std::shared_ptr<const void>& owner,
                                   const ColumnTree& tree,
                                   const std::string& place,
-                                  long row = -1);
+                                  long row = -1,
+                                  std::size_t poses = 1);
 
 }  // namespace condyle::python

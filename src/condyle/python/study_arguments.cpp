@@ -40,12 +40,16 @@ int threads_of(const py::handle& threads) {
   return threads.is_none() ? 0 : static_cast<int>(whole_number(threads, "threads", 1, kMost));
 }
 
+void check_no_own_loads(const KneeModel& knee, const std::string& study) {
+  for (const auto& [index, load] : knee.fitted().knee.loads)
+    throw InputError("[[load]] \"" + knee.scene().loads.at(index).name +
+                     "\": function: is a function, expected none: " + study + " cannot follow it");
+}
+
 std::shared_ptr<const KneeModel> model_without_own_loads(const py::object& scene,
                                                          const std::string& study) {
   auto knee = model_of(scene);
-  for (const auto& [index, load] : knee->fitted().knee.loads)
-    throw InputError("[[load]] \"" + knee->scene().loads.at(index).name +
-                     "\": function: is a function, expected none: " + study + " cannot follow it");
+  check_no_own_loads(*knee, study);
   return knee;
 }
 

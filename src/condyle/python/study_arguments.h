@@ -21,6 +21,9 @@ namespace condyle::python {
 /// None: 0, as many as there are cores.
 [[nodiscard]] int threads_of(const pybind11::handle& threads);
 
+/// Throws InputError where a model has loads that are functions, which `study` cannot follow.
+void check_no_own_loads(const KneeModel& knee, const std::string& study);
+
 /// The model that `scene` means (bindings.h). Throws InputError where it has loads that are functions: `study` makes
 /// models of its own, which do not know them.
 [[nodiscard]] std::shared_ptr<const KneeModel> model_without_own_loads(

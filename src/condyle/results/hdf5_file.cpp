@@ -34,7 +34,7 @@ std::string Hdf5Builder::bytes() const {
 Hdf5DiskFile::Hdf5DiskFile(const std::filesystem::path& file) : name_(file.string()) {
   hdf5::silence();
   const Hdf5Handle creation = hdf5::ordered_group_properties(H5P_FILE_CREATE);
-  file_ = Hdf5Handle(H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, creation.id(), H5P_DEFAULT), H5Fclose);
+  file_ = Hdf5Handle(H5Fcreate(name_.c_str(), H5F_ACC_EXCL, creation.id(), H5P_DEFAULT), H5Fclose);
   if (file_.id() < 0) throw InputError(name_ + ": cannot be written");
 }
 

@@ -12,7 +12,8 @@
 namespace condyle {
 namespace {
 
-constexpr double kMostPacking = 1100;  // deflate: 1032, and what stands around it
+constexpr double kMostPacking = 1100;   // deflate: 1032, and what stands around it
+constexpr double kMostOfNothing = 1e6;  // rows: no scene has so many parts
 
 double product(const std::vector<hsize_t>& sizes) {
   double all = 1;
@@ -33,6 +34,18 @@ double declared_bytes(hid_t dataset, const Hdf5Handle& properties) {
       H5Pget_chunk(properties.id(), rank, sizes.data()) == rank)
     most = std::max(most, product(sizes));
   return most * static_cast<double>(H5Tget_size(type.id()));
+}
+
+/// Of a dataset without values how many rows, or columns, it says to have.
+double declared_rows_of_nothing(hid_t dataset) {
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space.id());
+  std::vector<hsize_t> sizes(rank > 0 ? static_cast<std::size_t>(rank) : 0);
+  H5Sget_simple_extent_dims(space.id(), sizes.data(), nullptr);
+  if (product(sizes) > 0) return 0;
+  double most = 0;
+  for (const hsize_t size : sizes) most = std::max(most, static_cast<double>(size));
+  return most;
 }
 
 /// The first filter that is not built in.
@@ -74,6 +87,8 @@ std::string foreign_storage(std::int64_t dataset) {
     return "is made of datasets of other files, expected its values";
   if (H5Pget_external_count(properties.id()) > 0)
     return "lies in another file, expected its values";
+  if (declared_rows_of_nothing(dataset) > kMostOfNothing)
+    return "declares many rows of nothing, expected rows that hold something";
   std::string filter = missing_filter(properties);
   if (!filter.empty()) return filter;
   const double declared = declared_bytes(dataset, properties);

@@ -147,13 +147,16 @@ void OutputFile::append(std::string_view bytes) {
 }
 
 void OutputFile::keep() {
-  if (::fsync(descriptor_) != 0 || ::rename(name_.c_str(), path_.c_str()) != 0) fail(errno);
+  if (const int code = sync_file(descriptor_); code != 0) fail(code);
+  if (::rename(name_.c_str(), path_.c_str()) != 0) fail(errno);
   kept_ = true;
   sync_folder(path_.parent_path());
 }
 
-FileBeside::FileBeside(fs::path path, const std::string& ending)
-    : path_(std::move(path)), name_(path_.string() + ending), unkept_(name_) {}
+FileBeside::FileBeside(fs::path path)
+    : path_(std::move(path)), name_(part_name(path_)), unkept_(name_) {
+  remove_parts_left_behind(path_);
+}
 
 FileBeside::~FileBeside() {
   if (!kept_) ::unlink(name_.c_str());
@@ -161,13 +164,12 @@ FileBeside::~FileBeside() {
 
 void FileBeside::keep() {
   const int descriptor = ::open(name_.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool stored = descriptor >= 0 && ::fsync(descriptor) == 0;
-  const int code = errno;
+  int code = descriptor < 0 ? errno : sync_file(descriptor);
   if (descriptor >= 0) ::close(descriptor);
-  kept_ = stored && ::rename(name_.c_str(), path_.c_str()) == 0;
+  if (code == 0 && ::rename(name_.c_str(), path_.c_str()) != 0) code = errno;
+  kept_ = code == 0;
   if (!kept_)
-    throw InputError(
-        fmt::format("{}: cannot be written: {}", path_.string(), reason(stored ? errno : code)));
+    throw InputError(fmt::format("{}: cannot be written: {}", path_.string(), reason(code)));
   sync_folder(path_.parent_path());  // what the file was made of may be removed now
 }
 

@@ -47,11 +47,11 @@ class OutputFile {
   bool kept_ = false;
 };
 
-/// The same for a file that something else writes by its name, which is that of `path` with an ending.
+/// The same for a file that HDF5 makes by its name, which is nobody else's, and holds the lock of.
 class FileBeside {
  public:
-  /// Where no other process writes `path` at the same time: what a kill leaves is written over next time.
-  FileBeside(std::filesystem::path path, const std::string& ending);
+  /// What a kill left behind is removed.
+  explicit FileBeside(std::filesystem::path path);
   FileBeside(const FileBeside&) = delete;
   FileBeside& operator=(const FileBeside&) = delete;
   ~FileBeside();  ///< removes it where it was not kept

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "condyle/contact/pose_status.h"
 
@@ -60,9 +61,11 @@ std::vector<std::string> meanings_of_status() {
 }
 
 long count_in(const Hdf5Group& group, const char* name) {
-  const int count = group.read_integers(name, {1}).front();
-  if (count < 0) group.fail(fmt::format("dataset {} counts less than none", name));
-  return count;
+  constexpr double kMost = 0x1p53;  // samples of a study (read_study.cpp)
+  const double count = group.read(name, {1}).front();
+  if (!(count >= 0 && count <= kMost && std::trunc(count) == count))
+    group.fail(fmt::format("dataset {} is {}, expected a whole number of poses", name, count));
+  return static_cast<long>(count);
 }
 
 }  // namespace

@@ -15,16 +15,26 @@ void sync_folder(const std::filesystem::path& folder) {
   ::close(names);
 }
 
+namespace {
+
+/// Other codes are those of systems that cannot sync.
+int code_of_disk(int result) {
+  return result != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT) ? errno : 0;
+}
+
+}  // namespace
+
+int sync_file(int descriptor) { return code_of_disk(::fsync(descriptor)); }
+
 int SyncNowAndThen::wrote(int descriptor, const std::filesystem::path& file) {
   constexpr std::chrono::seconds kBetween(1);
   const auto now = std::chrono::steady_clock::now();
   if (now - synced_ < kBetween) return 0;
-  const int code = ::fdatasync(descriptor) == 0 ? 0 : errno;
+  const int code = code_of_disk(::fdatasync(descriptor));
   if (!named_) sync_folder(file.parent_path());
   named_ = true;
   synced_ = now;
-  // Other codes are those of systems that cannot sync.
-  return code == EIO || code == ENOSPC || code == EDQUOT ? code : 0;
+  return code;
 }
 
 }  // namespace condyle

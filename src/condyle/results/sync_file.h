@@ -10,6 +10,9 @@ namespace condyle {
 /// The names in a folder, too: until then a new or renamed file may be lost with the machine.
 void sync_folder(const std::filesystem::path& folder);
 
+/// All of a file. 0, or why the disk has not taken what was written (errno).
+[[nodiscard]] int sync_file(int descriptor);
+
 /// Of a file that grows: at most one sync a second, so that a crash of the machine costs a second or two of work.
 class SyncNowAndThen {
  public:

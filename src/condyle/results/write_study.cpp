@@ -229,7 +229,7 @@ StudySummary write_study(const std::filesystem::path& path,
     throw InputError(fmt::format("{}: {} of {} chunks are missing, expected all of them",
                                  StudyJournals::folder(path).string(),
                                  chunk_count(plan) - journals.count(), chunk_count(plan)));
-  FileBeside file(path, ".part");  // the folder of journals is held by this run alone
+  FileBeside file(path);
   Hdf5DiskFile hdf5(file.name());
   StudySummary summary;
   {

@@ -63,12 +63,17 @@ void suspect_side(const Scene& scene, const TriangleMesh& mesh, PatchSource& sou
                     ratio, scene.joint->side == Side::kRight ? "left" : "right"));
 }
 
-/// In whole millimetres, so that moving there and back costs none of the digits of a usual file.
+/// In whole millimetres, so that moving there and back costs none of the digits of a usual file. A vertex of no triangle
+/// may lie anywhere.
 Eigen::Vector3d middle_of(const TriangleMesh& mesh) {
+  std::vector<char> used(mesh.vertices.size(), 0);
+  for (const auto& triangle : mesh.triangles)
+    for (const int v : triangle) used[static_cast<std::size_t>(v)] = 1;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : mesh.vertices) sum += p;
-  sum /= std::max<double>(1, static_cast<double>(mesh.vertices.size()));
-  return sum.array().round();
+  double count = 0;
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (used[v] != 0) sum += mesh.vertices[v], ++count;
+  return (sum / std::max(1.0, count)).array().round();
 }
 
 }  // namespace

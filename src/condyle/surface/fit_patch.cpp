@@ -19,9 +19,10 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kMargin = 1;      // of the parameter box around the data [mm]
-constexpr double kBeyondBand = 2;  // over which it falls to EdgeSmoothing::least [mm]
-constexpr double kGuess = 2;       // smoothing length of the first guess [mm]
+constexpr double kMargin = 1;       // of the parameter box around the data [mm]
+constexpr double kBeyondBand = 2;   // over which it falls to EdgeSmoothing::least [mm]
+constexpr int kMostPoints = 16000;  // control points: a square of 25 cm, 15 s and 1 GB
+constexpr double kGuess = 2;        // smoothing length of the first guess [mm]
 
 SplineGrid make_grid(const ArticularRegion& region, const FitOptions& options) {
   Eigen::AlignedBox2d box;
@@ -48,6 +49,11 @@ SplineGrid make_grid(const ArticularRegion& region, const FitOptions& options) {
     grid.nu = static_cast<int>(std::lround((grid.u_max - grid.u_min) / h)) + options.degree;
     grid.nv = static_cast<int>(std::lround((grid.v_max - grid.v_min) / h)) + options.degree;
   }
+  if (grid.nu > kMostPoints / std::max(grid.nv, 1))
+    throw InputError(fmt::format(
+        "{} x {} control points of a region of {:.0f} x {:.0f} mm, expected no more than {} "
+        "in all: a smaller region, or fit.control_points",
+        grid.nu, grid.nv, grid.u_max - grid.u_min, grid.v_max - grid.v_min, kMostPoints));
   const int least = options.degree + 1, vertices = static_cast<int>(region.mesh.vertices.size());
   if (grid.nu < least || grid.nv < least)
     throw InputError(fmt::format("{} x {} control points, expected at least {} each way", grid.nu,
