@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 
 constexpr double kMargin = 1;       // of the parameter box around the data [mm]
 constexpr double kBeyondBand = 2;   // over which it falls to EdgeSmoothing::least [mm]
-constexpr int kMostPoints = 16000;  // control points: a square of 25 cm, 15 s and 1 GB
+constexpr int kMostPoints = 16000;  // control points: a square of 25 cm, 12 s and 0.5 GB
 constexpr double kGuess = 2;        // smoothing length of the first guess [mm]
 
 SplineGrid make_grid(const ArticularRegion& region, const FitOptions& options) {

@@ -11,17 +11,20 @@
 namespace condyle::verification {
 namespace {
 
+/// Of a grid, one way, and one for each knot: a damaged patch may be of any size.
+constexpr int kMostLines = 400;
 constexpr double kGrid = 1;         ///< between the points where a closest is looked for first [mm]
 constexpr double kMargin = 1.5;     ///< of those points beyond what is known [mm]
 constexpr double kCurvature = 1.5;  ///< what is measured at points of a cell, for all of it
 
 /// The values that divide the knot spans of [a, b] into steps no longer than `step`.
 std::vector<double> divided(const std::vector<double>& knots, double a, double b, double step) {
+  const double least = (b - a) / kMostLines;
   std::vector<double> values = {a};
   for (const double knot : knots) {
     const double from = values.back(), to = std::min(knot, b);
     if (to <= from) continue;
-    const int parts = parts_of((to - from) / step, 1, 1000);
+    const int parts = parts_of((to - from) / std::max(step, least), 1, kMostLines);
     for (int i = 1; i <= parts; ++i) values.push_back(from + (to - from) * i / parts);
   }
   return values;
