@@ -137,6 +137,27 @@ TEST(RecogniseKnee, RoughSurfacesHaveTheFramesOfSmoothOnes) {
         knee, 1, 1);
 }
 
+// A section of a shaft then has several gaps.
+TEST(RecogniseKnee, MissingTrianglesTurnNoFrame) {
+  const KneeMeshes whole = phantom();
+  const RecognisedKnee of_whole = recognise_knee(whole);
+  for (const std::size_t of_thousand : {3, 10}) {
+    SCOPED_TRACE(of_thousand);
+    const auto torn = [&](const TriangleMesh& mesh) {
+      std::vector<bool> kept;
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        kept.push_back(t * 7919 % 1000 >= of_thousand);
+      return clean_mesh(sub_mesh(mesh, kept).mesh).mesh;
+    };
+    const RecognisedKnee knee =
+        recognise_knee({torn(whole.femur), torn(whole.tibia), std::nullopt, std::nullopt});
+    EXPECT_GT(knee.femur.shaft, 0);
+    EXPECT_GT(knee.tibia.shaft, 0);
+    expect_frame(knee.femur.frame, of_whole.femur.frame, 0.3, 0.3);
+    expect_frame(knee.tibia.frame, of_whole.tibia.frame, 0.3, 0.3);
+  }
+}
+
 TEST(RecogniseKnee, TakesAGivenUnitAndSideAsTheyAre) {
   const RecognisedKnee knee = recognise_knee(phantom(), {.to_mm = 1.0, .side = Side::kLeft});
   EXPECT_EQ(knee.side, Side::kLeft);

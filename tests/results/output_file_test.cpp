@@ -55,6 +55,24 @@ TEST_F(WrittenFile, ReplacesAnOlderOne) {
   EXPECT_EQ(contents(folder_ / "a"), "new");
 }
 
+TEST_F(WrittenFile, ByTheNameOfALinkIsWhatThatNames) {
+  fs::create_directories(folder_ / "elsewhere");
+  std::ofstream(folder_ / "elsewhere" / "real") << "older";
+  fs::create_symlink("elsewhere/real", folder_ / "one");
+  fs::create_symlink(folder_ / "one", folder_ / "two");
+  fs::create_symlink("elsewhere/none yet", folder_ / "dangling");
+  write_output_file(folder_ / "two", "new");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "one") && fs::is_symlink(folder_ / "two"));
+  EXPECT_EQ(contents(folder_ / "elsewhere" / "real"), "new");
+  write_output_file(folder_ / "dangling", "there");
+  EXPECT_EQ(contents(folder_ / "elsewhere" / "none yet"), "there");
+  fs::create_symlink("round", folder_ / "round");
+  EXPECT_NE(message_of(folder_ / "round", "x").find("is a link that leads nowhere"),
+            std::string::npos);
+  fs::create_symlink("missing/a", folder_ / "lost");
+  EXPECT_NE(message_of(folder_ / "lost", "x").find("there is no folder"), std::string::npos);
+}
+
 TEST_F(WrittenFile, IsWrittenByAndBy) {
   {
     OutputFile file(folder_ / "a");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -9,6 +10,7 @@
 #include "condyle/mesh/clean_mesh.h"
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/mesh_files/load_mesh.h"
+#include "condyle/surface/articular_region.h"
 #include "condyle/surface/mesh_distance.h"
 #include "support/mesh_shapes.h"
 
@@ -45,6 +47,45 @@ TEST(BoneCheck, KnowsAFemurByItsCondyles) {
   EXPECT_NE(text.find("looks like a femur, expected a tibia: it has posterior condyles of radius"),
             std::string::npos)
       << text;
+}
+
+// The back of a plateau whose shaft is cut off near it has the shape and the size of posterior condyles.
+TEST(BoneCheck, TakesNoTibiaCutBelowItsTopForAFemur) {
+  for (const double below : {25, 28, 30, 32, 35, 40}) {
+    CleanMesh tibia = clean_bone("tibia.stl");
+    double top = -1e300;
+    for (const Eigen::Vector3d& p : tibia.mesh.vertices) top = std::max(top, p.y());
+    std::vector<bool> kept;
+    for (const auto& triangle : tibia.mesh.triangles)
+      kept.push_back(std::all_of(triangle.begin(), triangle.end(), [&](int v) {
+        return tibia.mesh.vertices[static_cast<std::size_t>(v)].y() > top - below;
+      }));
+    EXPECT_NO_THROW(check_is_no_femur(clean_mesh(sub_mesh(tibia.mesh, kept).mesh), kRight))
+        << below;
+  }
+}
+
+// The sum of what faces up is that of the holes in what is nearly whole.
+TEST(BoneCheck, HolesInATibiaTurnNothing) {
+  for (const double radius : {4, 9, 14}) {
+    const TriangleMesh whole = bone("tibia.stl");
+    Eigen::Vector3d eminence = whole.vertices[0];
+    for (const Eigen::Vector3d& p : whole.vertices)
+      if (p.y() > eminence.y()) eminence = p;
+    for (const bool everywhere : {false, true}) {
+      std::vector<bool> kept;
+      for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+        const Eigen::Vector3d middle = triangle_middle(whole, whole.triangles[t]);
+        kept.push_back(everywhere ? (t * 7919) % 100 >= static_cast<std::size_t>(radius) / 4
+                                  : (middle - eminence).norm() > radius);
+      }
+      CleanMesh tibia = clean_mesh(sub_mesh(whole, kept).mesh);
+      EXPECT_EQ(face_out_of_tibia(tibia, kRight), 0) << radius << " " << everywhere;
+      for (auto& triangle : tibia.mesh.triangles) std::swap(triangle[1], triangle[2]);
+      EXPECT_EQ(face_out_of_tibia(tibia, kRight),
+                std::count(tibia.closed.begin(), tibia.closed.end(), false));
+    }
+  }
 }
 
 // Rims of a plateau bend about one axis too, with a radius of an eighth of the bone's width.

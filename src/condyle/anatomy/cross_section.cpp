@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <tuple>
 #include <unordered_map>
 
 #include "condyle/math/disjoint_sets.h"
@@ -57,6 +58,30 @@ std::vector<Segment> cut_triangles(Cuts& cuts,
   return segments;
 }
 
+/// Where triangles are missing the line has an end, and goes on a little farther.
+std::vector<Segment> bridges(const Cuts& cuts, const std::vector<Segment>& segments) {
+  constexpr double kLongest = 5;  // [mm]
+  std::vector<int> leaves(cuts.points.size(), 0), arrives(cuts.points.size(), 0);
+  for (const Segment& s : segments) ++leaves[s.from], ++arrives[s.to];
+  std::vector<int> ends, starts;
+  for (int i = 0; i < static_cast<int>(cuts.points.size()); ++i) {
+    if (leaves[i] == 0 && arrives[i] > 0) ends.push_back(i);
+    if (arrives[i] == 0 && leaves[i] > 0) starts.push_back(i);
+  }
+  std::vector<std::tuple<double, int, int>> near;
+  for (const int end : ends)
+    for (const int start : starts)
+      if (const double way = (cuts.points[start] - cuts.points[end]).norm(); way < kLongest)
+        near.emplace_back(way, end, start);
+  std::sort(near.begin(), near.end());
+  std::vector<Segment> found;
+  for (const auto& [way, end, start] : near) {
+    if (leaves[end]++ > 0 || arrives[start]++ > 0) continue;
+    found.push_back({end, start});
+  }
+  return found;
+}
+
 }  // namespace
 
 std::vector<SectionLoop> cross_section(const TriangleMesh& mesh,
@@ -65,7 +90,10 @@ std::vector<SectionLoop> cross_section(const TriangleMesh& mesh,
   std::vector<double> height(mesh.vertices.size());
   for (std::size_t i = 0; i < height.size(); ++i) height[i] = along.dot(mesh.vertices[i] - at);
   Cuts cuts;
-  const std::vector<Segment> segments = cut_triangles(cuts, mesh, height);
+  std::vector<Segment> segments = cut_triangles(cuts, mesh, height);
+  const std::vector<Segment> bridged = bridges(cuts, segments);
+  for (const Segment& s : bridged) cuts.loops.join(s.from, s.to);
+  segments.insert(segments.end(), bridged.begin(), bridged.end());
   std::vector<SectionLoop> loops(cuts.points.size(), {.centroid = Vector3d::Zero()});
   std::vector<Vector3d> run(cuts.points.size(), Vector3d::Zero());  // from end to end
   for (const Segment& s : segments) {
@@ -78,11 +106,13 @@ std::vector<SectionLoop> cross_section(const TriangleMesh& mesh,
     loops[loop].length += (b - a).norm();
     run[loop] += b - a;
   }
+  for (const Segment& s : bridged)
+    loops[cuts.loops.root(s.from)].opening += (cuts.points[s.to] - cuts.points[s.from]).norm();
   std::vector<SectionLoop> found;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (loops[i].area == 0) continue;
     loops[i].centroid = cuts.points[i] + loops[i].centroid / loops[i].area;
-    loops[i].opening = run[i].norm();
+    loops[i].opening += run[i].norm();
     found.push_back(loops[i]);
   }
   std::stable_sort(found.begin(), found.end(),

@@ -159,7 +159,8 @@ double tell_unit(const KneeEnds& ends, const std::optional<double>& given) {
       "the files: in {} that is no knee, which is {:.0f} to {:.0f} mm wide; {}",
       ends.femur_width, ends.tibia_width, given ? "the unit of --units" : "mm, cm, inch and m",
       kNarrowest, kWidest,
-      given ? "without --units it is told from the width" : "say the unit by --units"));
+      given ? "without --units it is told from the width, where that is one of mm, cm, inch and m"
+            : "a unit said by --units has to make it one"));
 }
 
 Condyles find_condyles_or_say_why(CleanMesh& femur, const CleanMesh& tibia, const KneeEnds& ends) {

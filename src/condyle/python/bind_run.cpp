@@ -2,6 +2,7 @@
 #include "condyle/python/arguments.h"
 #include "condyle/python/bindings.h"
 #include "condyle/results/make_run.h"
+#include "condyle/results/output_file.h"
 #include "condyle/results/run_view.h"
 #include "condyle/results/sweep_table.h"
 
@@ -77,6 +78,7 @@ py::object run_item(const RunPointer& run, const py::object& key) {
 
 void save(const RunPointer& run, const py::object& file) {
   const std::string name = path(file, "path");
+  check_output_file(name, ".h5");
   if (run->model()) run->model()->fitted().knee.expect_writable("a file");
   Run complete;
   {

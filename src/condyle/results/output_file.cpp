@@ -36,6 +36,20 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+/// What is written by the name of a symbolic link is the file that it names, there or not.
+fs::path target_of(fs::path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(path, error); ++links) {
+    const fs::path to = fs::read_symlink(path, error);
+    if (error || links == kMostLinks)
+      throw InputError(path.string() +
+                       ": is a link that leads nowhere, expected the name of a file");
+    path = path.parent_path() / to;  // `to` alone where it is absolute
+  }
+  return path;
+}
+
 bool is_part_of(const std::string& name, const std::string& of) {
   const std::string prefix = of + ".part";
   return name.starts_with(prefix) && name.size() > prefix.size() &&
@@ -60,8 +74,8 @@ void remove_parts_left_behind(const fs::path& path) {
 
 }  // namespace
 
-void check_output_file(const fs::path& path) {
-  const fs::path folder = folder_of(path);
+void check_output_file(const fs::path& name) {
+  const fs::path path = target_of(name), folder = folder_of(path);
   std::error_code error;
   if (!path.has_filename())
     throw InputError(fmt::format("{}: expected the name of a file", path.string()));
@@ -104,7 +118,7 @@ void write_output_file(const fs::path& path, const std::string& bytes) {
 }
 
 OutputFile::OutputFile(fs::path path)
-    : path_(std::move(path)), name_(part_name(path_)), unkept_(name_) {
+    : path_(target_of(std::move(path))), name_(part_name(path_)), unkept_(name_) {
   check_output_file(path_);
   remove_parts_left_behind(path_);
   open();
@@ -154,7 +168,7 @@ void OutputFile::keep() {
 }
 
 FileBeside::FileBeside(fs::path path)
-    : path_(std::move(path)), name_(part_name(path_)), unkept_(name_) {
+    : path_(target_of(std::move(path))), name_(part_name(path_)), unkept_(name_) {
   remove_parts_left_behind(path_);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Files that are there whole or not at all.
+/// Files that are there whole or not at all. A symbolic link stays: what it names is written.
 
 #include <filesystem>
 #include <string>

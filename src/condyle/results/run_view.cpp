@@ -93,7 +93,7 @@ std::size_t nearest_pose_of(const Run& run, const std::string& file, double valu
     nearest = i;
   }
   const bool rounded = swept.unit.name == "deg" || swept.unit.name == "mm";
-  const double margin = 0.02 * (high - low) + (rounded ? kRounding : 1e-9 * std::abs(high));
+  const double margin = rounded ? kRounding : 0.02 * (high - low) + 1e-9 * std::abs(high);
   if (value >= low - margin && value <= high + margin) return nearest;
   throw InputError(
       fmt::format("--at {:g}: {} holds {:g} to {:g} {}", value, file, low, high, swept.unit.name));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "condyle/scene/start_pose.h"
 #include "condyle/scene_file/read_sections.h"
@@ -96,15 +97,17 @@ ForceLaw read_law(const Section& section,
 
 // The declared length unit, by its name and by what the numbers look like.
 std::string suspicion(const Scene& scene, double start_length) {
-  constexpr double kShort = 5, kLong = 300;  // ligaments of a knee [mm]
+  constexpr double kShort = 5, kUsual = 40, kLong = 300;  // ligaments of a knee [mm]
   const std::string* declared = nullptr;
   const std::string* likely = nullptr;
   const double number = start_length / scene.length_to_mm;
+  double least = std::numeric_limits<double>::infinity();
   for (const auto& [name, to_mm] : length_units()) {
+    const double length = number * to_mm, off = std::abs(std::log(length / kUsual));
     if (to_mm == scene.length_to_mm)
       declared = &name;
-    else if (number * to_mm > kShort && number * to_mm < kLong)
-      likely = &name;
+    else if (length > kShort && length < kLong && off < least)
+      likely = &name, least = off;
   }
   return fmt::format(
       ", expected between 0.5 and 2000 mm; suspect the units: [units] length = \"{}\"{}", *declared,

@@ -24,6 +24,9 @@ constexpr double kGoodAxis = 1.5;  // rms of posterior condyles from their cylin
 // Of the width of the bone: femoral condyles have radii of 0.22 to 0.27, the rims of a plateau 0.13.
 constexpr double kMostRadius = 0.32;  // of condyles, of the width: femurs have 0.22 to 0.28
 constexpr double kLeastRadius = 0.17;
+// Of the radius: a femur goes on above the axis of its condyles; the back of a plateau, which may look like them where the
+// shaft is cut off near it, ends by one radius above.
+constexpr double kLeastRise = 1.6;
 
 std::optional<CondylarAxis> find_axis(CleanMesh mesh, const BoneFrame& frame) {
   face_out_of_femur(mesh, frame);
@@ -32,6 +35,13 @@ std::optional<CondylarAxis> find_axis(CleanMesh mesh, const BoneFrame& frame) {
   } catch (const InputError&) {
     return std::nullopt;
   }
+}
+
+/// Of the mesh above the axis [mm].
+double rise_above(const CondylarAxis& axis, const TriangleMesh& mesh, const BoneFrame& frame) {
+  double top = -1e300;
+  for (const Vector3d& p : mesh.vertices) top = std::max(top, frame.proximal.dot(p));
+  return top - frame.proximal.dot(axis.point);
 }
 
 double width_of(const TriangleMesh& mesh, const BoneFrame& frame) {
@@ -73,6 +83,7 @@ void check_is_no_femur(const CleanMesh& mesh, const BoneFrame& frame) {
   const double radius = std::min(axis->medial_radius, axis->lateral_radius),
                width = width_of(mesh.mesh, frame);
   if (radius < kLeastRadius * width || radius > kMostRadius * width) return;
+  if (rise_above(*axis, mesh.mesh, frame) < kLeastRise * radius) return;
   throw InputError(fmt::format(
       "looks like a femur, expected a tibia: it has posterior condyles of radius {:.1f} "
       "and {:.1f} mm about one axis, {:.2f} mm rms",
