@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 #include "condyle/input_error.h"
 #include "pictures/bare_picture.h"
@@ -41,6 +42,24 @@ TEST(KneePicture, HasTheSizeAskedForAndMostlyWhitePaper) {
   EXPECT_EQ(image.height, 900);
   EXPECT_GT(white_fraction(image), 0.4);
   EXPECT_LT(white_fraction(image), 0.9);
+}
+
+// Names may have a hundred letters.
+TEST(KneePicture, LongNamesStayOnThePageAndOffTheScales) {
+  auto run = block_run();
+  const PictureOptions small = {.width = 700, .height = 520};
+  for (const View view : {View::kAnterior, View::kMedial, View::kLateral}) {
+    const Image with_short = draw_knee(run, view, 0, small);
+    auto named = run;
+    for (LigamentDescription& ligament : named.scene.ligaments)
+      ligament.name = "WW" + std::string(90, 'W') + ligament.name;
+    const Image with_long = draw_knee(named, view, 0, small);
+    for (int y = 0; y < small.height; ++y) {
+      for (int x = 0; x < 5; ++x) ASSERT_TRUE(is_white(with_long.at(x, y))) << x << " " << y;
+      for (int x = small.width - 60; x < small.width; ++x)
+        ASSERT_EQ(with_long.at(x, y), with_short.at(x, y)) << x << " " << y;
+    }
+  }
 }
 
 TEST(KneePicture, ATautLigamentIsColouredAtItsMiddleAndASlackOneIsGrey) {

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 namespace condyle {
 namespace {
 
 TEST(Html, EscapesWhatCouldEndATextOrAnAttribute) {
+  EXPECT_EQ(escaped(std::string("a\0b\x1b[2J\x7f\n\té", 12)), "a\\u0000b\\u001b[2J\\u007f\n\té");
   EXPECT_EQ(escaped("a < b & \"c\" > 'd'"), "a &lt; b &amp; &quot;c&quot; &gt; &#39;d&#39;");
 }
 

@@ -27,6 +27,42 @@ Vector2d on_page(const Scenery& scenery, const Vector3d& p) {
   return scenery.camera.project(p).head<2>();
 }
 
+/// The text, cut with an ellipsis where it would be wider than `width`.
+std::string cut(const Pen& pen, std::string text, double width, const TextStyle& style) {
+  if (pen.canvas.text_width(text, style) <= width) return text;
+  while (!text.empty() && pen.canvas.text_width(text + "…", style) > width) {
+    do text.pop_back();
+    while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U);
+    if (!text.empty() && (static_cast<unsigned char>(text.back()) & 0x80U) != 0) text.pop_back();
+  }
+  return text + "…";
+}
+
+/// A label as wide as it is: one that its column has no room for begins farther in, over the drawing, and one that would reach
+/// farther is cut.
+struct FittedLabel {
+  Vector2d at;
+  std::string name;
+  TextStyle style;
+};
+FittedLabel fitted(const Pen& pen,
+                   const PageLayout& page,
+                   const PlacedLabel& placed,
+                   const std::string& name) {
+  const double farthest_in = 130 * pen.s, gap = 6 * pen.s, edge = 12 * pen.s, bars = 108 * pen.s;
+  FittedLabel label{placed.at, name,
+                    pen.style(15, kInk, placed.left ? Align::kRight : Align::kLeft)};
+  label.style.bold = true;
+  const double room =
+      placed.left ? placed.at.x() - gap - edge : page.width - bars - placed.at.x() - gap;
+  label.name = cut(pen, name, room + farthest_in, label.style);
+  const double wanted = pen.canvas.text_width(label.name, label.style) - room;
+  if (wanted <= 0) return label;
+  label.at.x() += placed.left ? wanted : -wanted;
+  label.style.halo = static_cast<int>(std::lround(2 * pen.s));
+  return label;
+}
+
 void draw_ligament_labels(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
   const Frame& d = page.drawing;
   const std::vector<LigamentLabel> labels = ligament_labels(scenery, d);
@@ -37,15 +73,14 @@ void draw_ligament_labels(const Pen& pen, const PageLayout& page, const Scenery&
   for (const PlacedLabel& placed : place_labels(anchors, columns, 38 * pen.s)) {
     const LigamentLabel& label = labels[placed.index];
     const double away = placed.left ? -1 : 1;
-    const Align align = placed.left ? Align::kRight : Align::kLeft;
-    pen.canvas.line(placed.at, anchors[placed.index], 1.1 * pen.s, kLeader, 0.9);
+    const FittedLabel words = fitted(pen, page, placed, label.name);
+    pen.canvas.line(words.at, anchors[placed.index], 1.1 * pen.s, kLeader, 0.9);
     pen.canvas.disc(anchors[placed.index], 2.4 * pen.s, kInk);
-    TextStyle bold = pen.style(15, kInk, align);
-    bold.bold = true;
-    pen.canvas.text(placed.at + Vector2d(away * 6 * pen.s, 1 * pen.s), label.name, bold);
-    pen.canvas.text(placed.at + Vector2d(away * 6 * pen.s, 17 * pen.s),
-                    label.force != 0 ? newtons(label.force) : "slack",
-                    pen.style(13, kQuiet, align));
+    pen.canvas.text(words.at + Vector2d(away * 6 * pen.s, 1 * pen.s), words.name, words.style);
+    TextStyle quiet = pen.style(13, kQuiet, words.style.align);
+    quiet.halo = words.style.halo;
+    pen.canvas.text(words.at + Vector2d(away * 6 * pen.s, 17 * pen.s),
+                    label.force != 0 ? newtons(label.force) : "slack", quiet);
   }
 }
 
@@ -76,17 +111,6 @@ Vector2d free_place(const Pen& pen,
     }
   }
   return {place.left, place.bottom};
-}
-
-/// The text, cut with an ellipsis where it would be wider than `width`.
-std::string cut(const Pen& pen, std::string text, double width, const TextStyle& style) {
-  if (pen.canvas.text_width(text, style) <= width) return text;
-  while (!text.empty() && pen.canvas.text_width(text + "…", style) > width) {
-    do text.pop_back();
-    while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U);
-    if (!text.empty() && (static_cast<unsigned char>(text.back()) & 0x80U) != 0) text.pop_back();
-  }
-  return text + "…";
 }
 
 std::string view_words(const Scenery& scenery) {

@@ -28,8 +28,15 @@ std::string escaped(std::string_view text) {
       case '\'':
         out += "&#39;";
         break;
-      default:
+      case '\n':
+      case '\t':
         out += c;
+        break;
+      default:  // a page may hold no other control characters
+        if (const auto byte = static_cast<unsigned char>(c); byte < 0x20 || byte == 0x7f)
+          out += fmt::format("\\u{:04x}", static_cast<unsigned>(byte));
+        else
+          out += c;
     }
   }
   return out;
