@@ -218,7 +218,7 @@ TEST(StlOfARun, MovesABoneAndKeepsItsVolume) {
 
 TEST(ShownPoses, TakesThoseNearestToWhatIsAskedFor) {
   const condyle::Run& run = phantom_run();
-  const std::vector<ShownPose> shown = shown_poses_at(run, "run.h5", {58, 2, 61});
+  const std::vector<ShownPose> shown = shown_poses_at(run, "run.h5", {58, 2, 60.4});
   ASSERT_EQ(shown.size(), 2U);
   EXPECT_EQ(shown[0].index, 0U);
   EXPECT_EQ(shown[1].index, 2U);

@@ -1,6 +1,7 @@
 #include "condyle/results/hdf5_file.h"
 
 #include <new>
+#include <utility>
 
 #include "condyle/input_error.h"
 #include "condyle/results/hdf5_answers.h"
@@ -31,10 +32,11 @@ std::string Hdf5Builder::bytes() const {
   return image;
 }
 
-Hdf5DiskFile::Hdf5DiskFile(const std::filesystem::path& file) : name_(file.string()) {
+Hdf5DiskFile::Hdf5DiskFile(const std::filesystem::path& file, std::string named)
+    : name_(std::move(named)) {
   hdf5::silence();
   const Hdf5Handle creation = hdf5::ordered_group_properties(H5P_FILE_CREATE);
-  file_ = Hdf5Handle(H5Fcreate(name_.c_str(), H5F_ACC_EXCL, creation.id(), H5P_DEFAULT), H5Fclose);
+  file_ = Hdf5Handle(H5Fcreate(file.c_str(), H5F_ACC_EXCL, creation.id(), H5P_DEFAULT), H5Fclose);
   if (file_.id() < 0) throw InputError(name_ + ": cannot be written");
 }
 

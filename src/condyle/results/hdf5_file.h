@@ -30,7 +30,8 @@ class Hdf5Builder {
 /// not all of it could be written.
 class Hdf5DiskFile {
  public:
-  explicit Hdf5DiskFile(const std::filesystem::path& file);
+  /// `named`: what errors call it, the file that it becomes.
+  Hdf5DiskFile(const std::filesystem::path& file, std::string named);
   [[nodiscard]] Hdf5Group root() const;
   void close();
 

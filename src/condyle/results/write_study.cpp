@@ -230,7 +230,7 @@ StudySummary write_study(const std::filesystem::path& path,
                                  StudyJournals::folder(path).string(),
                                  chunk_count(plan) - journals.count(), chunk_count(plan)));
   FileBeside file(path);
-  Hdf5DiskFile hdf5(file.name());
+  Hdf5DiskFile hdf5(file.name(), path.string());
   StudySummary summary;
   {
     const Hdf5Group root = hdf5.root();
