@@ -7,7 +7,6 @@
 namespace condyle {
 namespace {
 
-using Kind = Hdf5Question::Kind;
 using Groups = std::vector<Hdf5Group>;
 
 Hdf5Answer number(std::uint64_t number) {
@@ -21,32 +20,32 @@ Hdf5Answer texts(std::vector<std::string> texts) {
 Hdf5Answer answer(const Hdf5Question& of, Groups& groups) {
   const Hdf5Group& group = groups.at(of.group);
   switch (of.kind) {
-    case Kind::kOpen: {
+    case Hdf5Asked::kOpen: {
       Hdf5Group opened = group.open(of.name);
       groups.push_back(std::move(opened));
       return number(groups.size() - 1);
     }
-    case Kind::kHas:
+    case Hdf5Asked::kHas:
       return number(group.has(of.name) ? 1 : 0);
-    case Kind::kHasAttribute:
+    case Hdf5Asked::kHasAttribute:
       return number(group.has_attribute(of.attribute) ? 1 : 0);
-    case Kind::kIsGroup:
+    case Hdf5Asked::kIsGroup:
       return number(group.is_group(of.name) ? 1 : 0);
-    case Kind::kNames:
+    case Hdf5Asked::kNames:
       return texts(group.names());
-    case Kind::kKind:
+    case Hdf5Asked::kKind:
       return number(static_cast<std::uint64_t>(group.kind(of.name)));
-    case Kind::kNumbers: {
+    case Hdf5Asked::kNumbers: {
       Hdf5Array array = group.read(of.name);
       return {.texts = {}, .values = std::move(array.values), .shape = std::move(array.shape)};
     }
-    case Kind::kTexts:
+    case Hdf5Asked::kTexts:
       return texts(group.read_texts(of.name));
-    case Kind::kAttribute:
+    case Hdf5Asked::kAttribute:
       return texts({group.read_attribute(of.attribute)});
-    case Kind::kAttributeOf:
+    case Hdf5Asked::kAttributeOf:
       return texts({group.read_attribute(of.name, of.attribute)});
-    case Kind::kAttributeTexts:
+    case Hdf5Asked::kAttributeTexts:
       return texts(group.read_attribute_texts(of.name, of.attribute));
   }
   return {};

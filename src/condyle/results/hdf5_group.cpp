@@ -12,13 +12,13 @@
 
 namespace condyle {
 
-using Kind = Hdf5Question::Kind;
-
-Hdf5Answer Hdf5Group::ask(Kind kind, const std::string& name, const std::string& attribute) const {
+Hdf5Answer Hdf5Group::ask(Hdf5Asked kind,
+                          const std::string& name,
+                          const std::string& attribute) const {
   return process_->ask({kind, number_, name, attribute});
 }
 
-std::string Hdf5Group::ask_text(Kind kind,
+std::string Hdf5Group::ask_text(Hdf5Asked kind,
                                 const std::string& name,
                                 const std::string& attribute) const {
   Hdf5Answer answer = ask(kind, name, attribute);
@@ -42,14 +42,14 @@ void Hdf5Group::check(int status, const std::string& what) const {
 }
 
 bool Hdf5Group::has(const std::string& name) const {
-  if (process_) return ask(Kind::kHas, name).number != 0;
+  if (process_) return ask(Hdf5Asked::kHas, name).number != 0;
   if (memory_ != nullptr)
     return memory_->group(name) != nullptr || memory_->column(name) != nullptr;
   return H5Lexists(handle_.id(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
 bool Hdf5Group::has_attribute(const std::string& name) const {
-  if (process_) return ask(Kind::kHasAttribute, "", name).number != 0;
+  if (process_) return ask(Hdf5Asked::kHasAttribute, "", name).number != 0;
   return H5Aexists(handle_.id(), name.c_str()) > 0;
 }
 
@@ -60,14 +60,14 @@ void Hdf5Group::check_link(const char* what, const std::string& name) const {
 }
 
 bool Hdf5Group::is_group(const std::string& name) const {
-  if (process_) return ask(Kind::kIsGroup, name).number != 0;
+  if (process_) return ask(Hdf5Asked::kIsGroup, name).number != 0;
   check_link("group", name);
   const Hdf5Handle object(H5Oopen(handle_.id(), name.c_str(), H5P_DEFAULT), H5Oclose);
   return H5Iget_type(object.id()) == H5I_GROUP;
 }
 
 std::vector<std::string> Hdf5Group::names() const {
-  if (process_) return ask(Kind::kNames, "").texts;
+  if (process_) return ask(Hdf5Asked::kNames, "").texts;
   std::vector<std::string> out;
   const auto add = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
@@ -91,7 +91,7 @@ Hdf5Group Hdf5Group::create(const std::string& name) const {
 
 Hdf5Group Hdf5Group::open(const std::string& name) const {
   if (memory_ != nullptr) return {memory_->make_group(name), place_ + name + "/"};
-  if (process_) return {process_, ask(Kind::kOpen, name).number, place_ + name + "/"};
+  if (process_) return {process_, ask(Hdf5Asked::kOpen, name).number, place_ + name + "/"};
   check_link("group", name);
   const hid_t id = H5Gopen2(handle_.id(), name.c_str(), H5P_DEFAULT);
   return {checked(id, H5Gclose, fmt::format("{} is no group", name)), place_ + name + "/"};

@@ -128,11 +128,11 @@ class Hdf5Group {
   [[nodiscard]] std::string read_attribute_of(const Hdf5Handle& object,
                                               const std::string& name) const;
 
-  [[nodiscard]] Hdf5Answer ask(Hdf5Question::Kind kind,
+  [[nodiscard]] Hdf5Answer ask(Hdf5Asked kind,
                                const std::string& name,
                                const std::string& attribute = "") const;
   /// The one text that is answered.
-  [[nodiscard]] std::string ask_text(Hdf5Question::Kind kind,
+  [[nodiscard]] std::string ask_text(Hdf5Asked kind,
                                      const std::string& name,
                                      const std::string& attribute) const;
 

@@ -31,6 +31,8 @@ struct Hdf5Question {
   std::string name, attribute;
 };
 
+using Hdf5Asked = Hdf5Question::Kind;
+
 struct Hdf5Answer {
   std::uint64_t number = 0;
   std::vector<std::string> texts;

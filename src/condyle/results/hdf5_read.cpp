@@ -15,8 +15,6 @@ using hdf5::property_list;
 using hdf5::text_type;
 using hdf5::written;
 
-using Kind = Hdf5Question::Kind;
-
 namespace {
 
 Shape shape_of(const Hdf5Handle& space) {
@@ -39,7 +37,7 @@ Hdf5Handle Hdf5Group::open_dataset(const std::string& name) const {
 
 DatasetKind Hdf5Group::kind(const std::string& name) const {
   if (process_) {
-    const std::uint64_t kind = ask(Kind::kKind, name).number;
+    const std::uint64_t kind = ask(Hdf5Asked::kKind, name).number;
     return kind < kDatasetKinds ? static_cast<DatasetKind>(kind) : DatasetKind::kOther;
   }
   const Hdf5Handle dataset = open_dataset(name);
@@ -54,7 +52,7 @@ DatasetKind Hdf5Group::kind(const std::string& name) const {
 
 Hdf5Array Hdf5Group::read(const std::string& name) const {
   if (process_) {
-    Hdf5Answer answer = ask(Kind::kNumbers, name);
+    Hdf5Answer answer = ask(Hdf5Asked::kNumbers, name);
     if (count(answer.shape) != answer.values.size())
       fail(fmt::format("dataset {} cannot be read as numbers", name));
     return {std::move(answer.values), std::move(answer.shape)};
@@ -90,7 +88,7 @@ std::vector<int> Hdf5Group::read_integers(const std::string& name, const Shape& 
 }
 
 std::vector<std::string> Hdf5Group::read_texts(const std::string& name) const {
-  if (process_) return ask(Kind::kTexts, name).texts;
+  if (process_) return ask(Hdf5Asked::kTexts, name).texts;
   const Hdf5Handle dataset = open_dataset(name);
   const Hdf5Handle space(H5Dget_space(dataset.id()), H5Sclose);
   const Hdf5Handle type = text_type();
@@ -107,18 +105,18 @@ std::vector<std::string> Hdf5Group::read_texts(const std::string& name) const {
 }
 
 std::string Hdf5Group::read_attribute(const std::string& name) const {
-  if (process_) return ask_text(Kind::kAttribute, "", name);
+  if (process_) return ask_text(Hdf5Asked::kAttribute, "", name);
   return read_attribute_of(handle_, name);
 }
 
 std::string Hdf5Group::read_attribute(const std::string& dataset, const std::string& name) const {
-  if (process_) return ask_text(Kind::kAttributeOf, dataset, name);
+  if (process_) return ask_text(Hdf5Asked::kAttributeOf, dataset, name);
   return read_attribute_of(open_dataset(dataset), name);
 }
 
 std::vector<std::string> Hdf5Group::read_attribute_texts(const std::string& dataset,
                                                          const std::string& name) const {
-  if (process_) return ask(Kind::kAttributeTexts, dataset, name).texts;
+  if (process_) return ask(Hdf5Asked::kAttributeTexts, dataset, name).texts;
   const Hdf5Handle object = open_dataset(dataset);
   if (H5Aexists(object.id(), name.c_str()) <= 0) return {};
   const Hdf5Handle attribute =
