@@ -10,7 +10,7 @@
 #include "condyle/mesh/clean_mesh.h"
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/mesh_files/load_mesh.h"
-#include "condyle/surface/articular_region.h"
+#include "condyle/surface/face_out.h"
 #include "condyle/surface/mesh_distance.h"
 #include "support/mesh_shapes.h"
 

@@ -6,7 +6,7 @@
 
 #include "condyle/anatomy/shaft_line.h"
 #include "condyle/mesh/mesh_measures.h"
-#include "condyle/surface/articular_region.h"
+#include "condyle/surface/face_out.h"
 
 namespace condyle {
 namespace {

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <numeric>
-
-#include "condyle/results/hdf5_own_data.h"
 
 namespace condyle::hdf5 {
 
@@ -15,7 +14,7 @@ void silence() {
   static const bool once = H5dont_atexit() >= 0;
   static_cast<void>(once);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  load_no_plugins();
+  H5PLset_loading_state(0);  // no filter is loaded from a file of code
 }
 
 bool lacked_memory() {
@@ -44,6 +43,13 @@ Hdf5Handle text_type() {
   H5Tset_size(type.id(), H5T_VARIABLE);
   H5Tset_cset(type.id(), H5T_CSET_UTF8);
   return type;
+}
+
+Shape shape_of(const Hdf5Handle& space) {
+  std::vector<hsize_t> sizes(
+      static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.id()))));
+  H5Sget_simple_extent_dims(space.id(), sizes.data(), nullptr);
+  return {sizes.begin(), sizes.end()};
 }
 
 std::size_t count(const Shape& shape) {

@@ -27,6 +27,7 @@ void silence();
 /// Of texts of any length in UTF-8.
 [[nodiscard]] Hdf5Handle text_type();
 
+[[nodiscard]] Shape shape_of(const Hdf5Handle& space);
 /// How many values a shape holds, and "[3, 4]".
 [[nodiscard]] std::size_t count(const Shape& shape);
 [[nodiscard]] std::string written(const Shape& shape);

@@ -7,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include "condyle/results/hdf5_calls.h"
 #include "condyle/results/hdf5_handle.h"
 
 namespace condyle {
@@ -38,14 +39,9 @@ double declared_bytes(hid_t dataset, const Hdf5Handle& properties) {
 
 /// Of a dataset without values how many rows, or columns, it says to have.
 double declared_rows_of_nothing(hid_t dataset) {
-  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
-  const int rank = H5Sget_simple_extent_ndims(space.id());
-  std::vector<hsize_t> sizes(rank > 0 ? static_cast<std::size_t>(rank) : 0);
-  H5Sget_simple_extent_dims(space.id(), sizes.data(), nullptr);
-  if (product(sizes) > 0) return 0;
-  double most = 0;
-  for (const hsize_t size : sizes) most = std::max(most, static_cast<double>(size));
-  return most;
+  const Shape sizes = hdf5::shape_of(Hdf5Handle(H5Dget_space(dataset), H5Sclose));
+  const bool is_empty = std::find(sizes.begin(), sizes.end(), 0U) != sizes.end();
+  return is_empty ? static_cast<double>(*std::max_element(sizes.begin(), sizes.end())) : 0;
 }
 
 /// The first filter that is not built in.
@@ -63,8 +59,6 @@ std::string missing_filter(const Hdf5Handle& properties) {
 }
 
 }  // namespace
-
-void load_no_plugins() { H5PLset_loading_state(0); }
 
 std::string foreign_link(std::int64_t group, const std::string& name) {
   H5L_info_t info;

@@ -11,9 +11,6 @@
 
 namespace condyle {
 
-/// For the whole process: no filter is loaded from a file of code.
-void load_no_plugins();
-
 /// What a link of a group is where it is no plain one; else empty.
 [[nodiscard]] std::string foreign_link(std::int64_t group, const std::string& name);
 

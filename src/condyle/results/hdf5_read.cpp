@@ -12,19 +12,9 @@ namespace condyle {
 
 using hdf5::count;
 using hdf5::property_list;
+using hdf5::shape_of;
 using hdf5::text_type;
 using hdf5::written;
-
-namespace {
-
-Shape shape_of(const Hdf5Handle& space) {
-  std::vector<hsize_t> sizes(
-      static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.id()))));
-  H5Sget_simple_extent_dims(space.id(), sizes.data(), nullptr);
-  return {sizes.begin(), sizes.end()};
-}
-
-}  // namespace
 
 Hdf5Handle Hdf5Group::open_dataset(const std::string& name) const {
   check_link("dataset", name);

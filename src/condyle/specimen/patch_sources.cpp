@@ -10,6 +10,7 @@
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/scene/scene_place.h"
 #include "condyle/surface/bone_check.h"
+#include "condyle/surface/face_out.h"
 
 namespace condyle {
 namespace {

@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "condyle/mesh/clean_mesh.h"
 #include "condyle/mesh/triangle_mesh.h"
 #include "condyle/surface/condylar_axis.h"
 
@@ -46,11 +45,6 @@ struct RegionOptions {
   double normal_smoothing =
       1.5;  ///< normals are averaged over this distance before they decide [mm]
 };
-
-/// Turns open components so that they face out of the bone (closed ones do already); returns how
-/// many.
-int face_out_of_femur(CleanMesh& mesh, const BoneFrame& frame);
-int face_out_of_tibia(CleanMesh& mesh, const BoneFrame& frame);
 
 /// Region of one compartment. Throws InputError (without the name of the surface) where nothing can
 /// be found.

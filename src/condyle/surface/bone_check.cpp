@@ -12,7 +12,7 @@
 #include "condyle/input_error.h"
 #include "condyle/mesh/clean_mesh.h"
 #include "condyle/mesh/mesh_measures.h"
-#include "condyle/surface/articular_region.h"
+#include "condyle/surface/face_out.h"
 
 namespace condyle {
 namespace {
