@@ -33,6 +33,31 @@ TEST_F(CommandLine, ChecksAScene) {
   EXPECT_EQ(outcome.err, "");
 }
 
+// Both bones in one file: what a sweep refuses, check refuses in the same line.
+TEST_F(CommandLine, ChecksTheFitsOfASceneAsASweepMakesThem) {
+  const std::filesystem::path root = CONDYLE_SOURCE_DIR;
+  std::string scene = contents(root / "data/phantom/knee.toml");
+  const std::string femur = (root / "meshes/femur.stl").string();
+  for (const char* bone : {"femur", "tibia"})
+    scene = with(scene, std::string("../../meshes/") + bone + ".stl", femur);
+  write("one.toml", scene);
+  const Outcome check = run("check one.toml");
+  EXPECT_EQ(check.code, 1);
+  EXPECT_NE(check.err.find("one.toml:17: [[body]] \"tibia\""), std::string::npos) << check.err;
+  EXPECT_EQ(check.err, run("sweep one.toml -o one.h5").err);
+}
+
+TEST_F(CommandLine, SaysSoWhereNobodyTakesItsHelp) {
+  for (const char* asked : {"--help", "--version", "sweep --help"}) {
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" CONDYLE_PROGRAM "' " + asked + " >/dev/full 2>err";
+    const int status = std::system(command.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1) << asked;
+    EXPECT_EQ(contents(folder_ / "err"),
+              "condyle: the standard output cannot be written, expected room for it\n");
+  }
+}
+
 TEST_F(CommandLine, NamesACommandThatItDoesNotKnow) {
   const Outcome outcome = run("swep knee.toml -o run.h5");
   EXPECT_EQ(outcome.code, 1);

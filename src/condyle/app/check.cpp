@@ -20,7 +20,6 @@
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/specimen/fit_wraps.h"
 #include "condyle/specimen/start_warnings.h"
-#include "condyle/specimen/strands_in_bone.h"
 
 namespace condyle {
 namespace {
@@ -44,7 +43,6 @@ void print_mesh(const MeshFile& file, const TriangleMesh& mesh) {
        mesh.triangles.size(), size.x(), size.y(), size.z());
 }
 
-// Loading is the check: a mesh that cannot be used throws.
 void print_meshes(const Scene& scene, const std::vector<TriangleMesh>& bones) {
   std::set<std::filesystem::path> seen;
   for (std::size_t b = 0; b < bones.size(); ++b) {
@@ -81,22 +79,20 @@ int run_check(const CheckOptions& options) {
     refuse_to_overwrite_inputs(options.report, scene);
   }
 #endif
-  std::vector<TriangleMesh> bones;
-  for (const BodyDescription& body : scene.bodies) bones.push_back(load_body_mesh(body));
+  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
+  const std::vector<TriangleMesh> bones = body_meshes(scene, surfaces);
   fit_wraps(scene, bones);
   tell("{}", describe(scene));
   print_meshes(scene, bones);
   for (const std::string& line : describe_wrap_fits(scene)) tell("{}\n", line);
-  std::vector<std::string> warnings = size_warnings(scene);
-  for (std::string& line : wrap_warnings(scene, bones)) warnings.push_back(std::move(line));
-  for (const std::string& line : warnings) tell("{}\n", line);
+  const std::vector<std::string> remarks = start_warnings(scene, surfaces, bones);
+  for (const std::string& line : remarks) tell("{}\n", line);
   if (scene.simulation) print_mass(scene);
 #ifdef CONDYLE_PICTURES
   if (!options.report.empty()) {
-    const Run run = start_run(scene);
-    std::vector<std::string> remarks;
-    std::copy_if(run.start.begin(), run.start.end(), std::back_inserter(remarks), is_warning);
-    write_scene_page(options.report, run, remarks);
+    std::vector<std::string> warnings;
+    std::copy_if(remarks.begin(), remarks.end(), std::back_inserter(warnings), is_warning);
+    write_scene_page(options.report, start_run(scene, surfaces), warnings);
     tell("wrote {}\n", options.report);
   }
 #endif

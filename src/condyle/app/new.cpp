@@ -116,7 +116,8 @@ int run_new(const NewCommand& command) {
   const std::string text = new_scene_text(knee, command.output);
   const Scene scene = parse_scene(text, command.output);  // what is written can be read
 #ifdef CONDYLE_PICTURES
-  if (!command.report.empty()) write_scene_page(command.report, start_run(scene), knee.doubts);
+  if (!command.report.empty())
+    write_scene_page(command.report, start_run(scene, fit_surfaces(scene)), knee.doubts);
 #endif
   write_output_file(command.output, text);
   print_shape(knee);

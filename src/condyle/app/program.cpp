@@ -8,11 +8,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "condyle/app/command_tree.h"
 #include "condyle/app/standard_streams.h"
+#include "condyle/app/tell.h"
 #include "condyle/build_info.h"
 #include "condyle/input_error.h"
 #include "condyle/scene_file/section.h"
@@ -111,7 +113,9 @@ int run_program(const std::string& name,
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
-    return program.exit(asked);
+    std::ostringstream text;
+    (void)program.exit(asked, text, text);
+    tell("{}", text.str());
   } catch (const CLI::ParseError& error) {
     throw InputError(words_of(error, program) + help);
   }

@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "condyle/results/run_file.h"
+#include "condyle/scene/fitted_surface.h"
 
 namespace condyle {
 
 /// The scene's meshes and patches with one pose, the start pose: joint coordinates, and lengths, strains and
-/// forces of the ligaments along their paths. Wraps that are fitted to bone are fitted. Nothing is solved.
-[[nodiscard]] Run start_run(Scene scene);
+/// forces of the ligaments along their paths. `surfaces`: those of the scene, fitted. Wraps that are fitted to bone are fitted. Nothing is solved.
+[[nodiscard]] Run start_run(Scene scene, const std::vector<FittedSurface>& surfaces);
 
 /// Throws InputError where a picture cannot become that file, or would be under the name of another format.
 void check_scene_page(const std::string& file);

@@ -12,8 +12,8 @@ namespace {
 using Eigen::Vector3d;
 using Cell = Eigen::Matrix<std::int64_t, 3, 1>;
 
-/// Points in a grid of cells much larger than the tolerance, so that nearly every look-up visits
-/// one cell. Cells are hashed to lists of the points in them; the distance sorts out what shares a
+/// Points in a grid of cells of 16 tolerances: three look-ups of four visit one cell, and of points that lie apart by
+/// more than the tolerance few fit into it, however crowded a mesh is. Cells are hashed to lists of the points in them; the distance sorts out what shares a
 /// list by chance.
 class PointGrid {
  public:
@@ -22,7 +22,7 @@ class PointGrid {
       : points_(points),
         origin_(origin),
         tolerance_(tolerance),
-        per_cell_(1 / (64 * tolerance)),
+        per_cell_(1 / (16 * tolerance)),
         first_(std::bit_ceil(points.size()), -1),
         next_(points.size()) {}
 

@@ -103,9 +103,10 @@ void read_field(const Hdf5Group& group, Poses& poses, std::size_t index, bool on
   const auto count = at(std::max(0, first.back()));
   if (first.front() != 0 || !std::is_sorted(first.begin(), first.end()))
     group.fail("dataset first does not rise from 0");
-  std::vector<PressurePoint> points(count);
+  std::vector<PressurePoint> points;
   for (const FieldColumn& column : kFieldColumns) {
     const std::vector<double> values = group.read(column.name, with_width({count}, column.width));
+    points.resize(count);  // so many are there
     for (std::size_t k = 0; k < count; ++k)
       std::copy_n(&values[k * column.width], column.width, column.data(points[k]));
   }

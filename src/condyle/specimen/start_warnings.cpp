@@ -139,8 +139,7 @@ double size_of(const SurfaceDescription& surface) {
   return 0;
 }
 
-}  // namespace
-
+/// Of exact surfaces far larger than a knee, one line each.
 std::vector<std::string> size_warnings(const Scene& scene) {
   constexpr double kLargest = 2000, kSmallest = 0.5;  // as of ligaments [mm]
   std::vector<std::string> lines;
@@ -152,6 +151,8 @@ std::vector<std::string> size_warnings(const Scene& scene) {
                       surface.name, size, kSmallest, kLargest));
   return lines;
 }
+
+}  // namespace
 
 std::vector<std::string> start_warnings(const Scene& scene,
                                         const std::vector<FittedSurface>& surfaces,

@@ -20,9 +20,6 @@ struct StartLimits {
   double inside = 1;     ///< of a straight ligament in bone, of an insertion in its own wrap [mm]
 };
 
-/// Of exact surfaces far larger than a knee, one line each.
-[[nodiscard]] std::vector<std::string> size_warnings(const Scene& scene);
-
 /// One line each; those beyond the limits begin with "warning: ". `bones`: the mesh of each body of
 /// the scene, empty where it has none.
 [[nodiscard]] std::vector<std::string> start_warnings(const Scene& scene,

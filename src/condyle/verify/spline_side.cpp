@@ -12,7 +12,7 @@ namespace condyle::verification {
 namespace {
 
 /// Of a grid, one way, and one for each knot: a damaged patch may be of any size.
-constexpr int kMostLines = 400;
+constexpr int kMostLines = 200;
 constexpr double kGrid = 1;         ///< between the points where a closest is looked for first [mm]
 constexpr double kMargin = 1.5;     ///< of those points beyond what is known [mm]
 constexpr double kCurvature = 1.5;  ///< what is measured at points of a cell, for all of it
