@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <map>
+#include <regex>
 #include <set>
+#include <sstream>
 
 #include "app/include_graph.h"
 #include "app/run_program.h"
@@ -224,6 +226,28 @@ TEST(Architecture, WhoShowsARunIncludesNothingOfTheNetworkOverHoweverManyFiles) 
         if (seen.insert(other).second) open.push_back(other);
     }
   }
+}
+
+/// Two types of one name in one namespace are one type to the linker, which keeps one of the functions that are made of them
+/// (of std::vector, say) for both.
+TEST(Architecture, NoTwoHeadersOfOneNamespaceDefineATypeOfOneName) {
+  const std::regex space("^namespace ([a-z0-9_:]+) \\{"),
+      type("^(?:struct|class|enum class) ([A-Z][A-Za-z0-9]*)[^;]*\\{");
+  std::map<std::string, std::string> defined_in;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kProject / kSources)) {
+    if (entry.path().extension() != ".h") continue;
+    const std::string file = entry.path().lexically_relative(kProject).string();
+    std::istringstream lines(contents(entry.path()));
+    std::string inside;
+    std::smatch found;
+    for (std::string line; std::getline(lines, line);) {
+      if (std::regex_search(line, found, space)) inside = found[1];
+      if (!std::regex_search(line, found, type)) continue;
+      const auto [other, is_new] = defined_in.emplace(inside + "::" + found[1].str(), file);
+      EXPECT_TRUE(is_new) << other->first << " of " << file << " and of " << other->second;
+    }
+  }
+  EXPECT_GT(defined_in.size(), 300U);
 }
 
 }  // namespace

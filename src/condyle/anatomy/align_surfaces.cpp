@@ -42,11 +42,11 @@ void add_expected(const Alignment& now, double proportion, Matrix9d& A, Vector9d
 
 /// One step of Gauss and Newton. With y on the plane of normal n, the gap n·(x' - y) changes by
 /// n·dt + (turned x' × n)·dω + n·(R (s x)_k) d log s_k.
-void step(const std::vector<SurfacePair>& pairs, double rms, double proportion, Alignment& now) {
+void step(const std::vector<PointPair>& pairs, double rms, double proportion, Alignment& now) {
   Matrix9d A = Matrix9d::Zero();
   Vector9d b = Vector9d::Zero();
   double sum = 0;
-  for (const SurfacePair& pair : pairs) {
+  for (const PointPair& pair : pairs) {
     const Vector3d sized = now.size.cwiseProduct(pair.from), arm = now.turn * sized;
     const Vector3d local = now.turn.transpose() * pair.normal;
     Vector9d J;

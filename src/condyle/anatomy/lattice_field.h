@@ -32,7 +32,7 @@ class LatticeField {
   /// Derivatives of the displacement: column k by coordinate k [-].
   [[nodiscard]] Eigen::Matrix3d gradient(const Eigen::Vector3d& p) const;
   /// The field that takes `from` of each pair best onto the plane of the other surface.
-  void fit(const std::vector<SurfacePair>& pairs, const FieldStiffness& stiffness);
+  void fit(const std::vector<PointPair>& pairs, const FieldStiffness& stiffness);
 
  private:
   struct Place {

@@ -48,9 +48,9 @@ std::optional<Opposite> SampledSurface::under(const Vector3d& p,
 
 namespace {
 
-double robust_deviation(const std::vector<SurfacePair>& pairs) {
+double robust_deviation(const std::vector<PointPair>& pairs) {
   std::vector<double> sizes;
-  for (const SurfacePair& pair : pairs) sizes.push_back(std::abs(pair.gap));
+  for (const PointPair& pair : pairs) sizes.push_back(std::abs(pair.gap));
   if (sizes.empty()) return 0;
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
@@ -87,7 +87,7 @@ SurfacePairs pair_surfaces(const MovedSurface& coarse,
   constexpr double kDeviations = 4, kLeast = 1;  // [-], [mm]
   const double limit = std::max(kDeviations * robust_deviation(out.pairs), kLeast);
   double sum = 0, squares = 0;
-  for (SurfacePair& pair : out.pairs) {
+  for (PointPair& pair : out.pairs) {
     const double share = std::max(0.0, 1 - pair.gap * pair.gap / (limit * limit));
     pair.weight *= share * share;
     sum += pair.weight;
@@ -95,7 +95,7 @@ SurfacePairs pair_surfaces(const MovedSurface& coarse,
   }
   out.rms = sum > 0 ? std::sqrt(squares / sum) : 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const SurfacePair* pair = pair_of[i] < 0 ? nullptr : &out.pairs[pair_of[i]];
+    const PointPair* pair = pair_of[i] < 0 ? nullptr : &out.pairs[pair_of[i]];
     out.trust.push_back(pair ? pair->weight / coarse.before.areas[i] : 0);
     out.gaps.push_back(pair ? pair->gap : 0);
   }

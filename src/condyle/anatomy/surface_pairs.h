@@ -36,7 +36,7 @@ class SampledSurface {
 };
 
 /// A point of the one surface and the plane of the other that it belongs on.
-struct SurfacePair {
+struct PointPair {
   Eigen::Vector3d from;        ///< before the field moves it [mm]
   Eigen::Vector3d to, normal;  ///< on the other surface [mm], unit
   double gap = 0;              ///< along the normal, now [mm]
@@ -50,7 +50,7 @@ struct MovedSurface {
 };
 
 struct SurfacePairs {
-  std::vector<SurfacePair> pairs;
+  std::vector<PointPair> pairs;
   std::vector<double> trust;  ///< of each sample of `from`: 0 none facing it, to 1
   std::vector<double> gaps;   ///< of each sample of `from` [mm]; 0 where none
   double rms = 0;             ///< gap of what is trusted [mm]
