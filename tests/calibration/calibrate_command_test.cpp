@@ -114,7 +114,7 @@ TEST_F(CalibrateCommand, SaysItAllAsJson) {
 
 TEST_F(CalibrateCommand, AnInterruptKeepsTheBestSoFarAndResumeGoesOn) {
   const Outcome stopped = run("calibrate knee.toml -o fit.h5 --samples 1000000 --quiet",
-                              "timeout --preserve-status -s INT 3 ");
+                              "timeout --foreground --preserve-status -s INT 3 ");
   EXPECT_EQ(stopped.code, 2);
   EXPECT_EQ(stopped.err,
             "condyle: stopped: fit.h5 holds the best so far, --resume goes on from it\n");
@@ -133,7 +133,7 @@ TEST_F(CalibrateCommand, AnInterruptKeepsTheBestSoFarAndResumeGoesOn) {
 TEST_F(CalibrateCommand, ResumesWithTheSameSceneAndTableOnly) {
   const std::string scene = contents(folder_ / "knee.toml");
   (void)run("calibrate knee.toml -o fit.h5 --samples 1000000 --quiet",
-            "timeout --preserve-status -s INT 3 ");
+            "timeout --foreground --preserve-status -s INT 3 ");
   const std::string resume = "calibrate knee.toml -o fit.h5 --resume --quiet";
   write("knee.toml", scene + "# another\n");
   expect_bad_input(

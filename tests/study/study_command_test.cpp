@@ -94,12 +94,15 @@ TEST_F(StudyCommandLine, AnInterruptKeepsTheChunksAndResumeGoesOn) {
   const std::string many = "-o s.h5 --samples 400000 --threads 2 ";
   write("study.toml",
         std::string("precision = \"float32\"\noutputs = [\"contact.force\"]\n") + kStudy);
-  const Outcome stopped = study(many + "--quiet", "timeout --preserve-status -s INT 3 ");
+  // --foreground: else the program gets the signal twice, once with its group, and the second one ends it.
+  const Outcome stopped =
+      study(many + "--quiet", "timeout --foreground --preserve-status -s INT 3 ");
   EXPECT_EQ(stopped.code, 2) << stopped.err;
   EXPECT_EQ(stopped.err.find("condyle: stopped: s.h5.journal holds "), 0U) << stopped.err;
   EXPECT_NE(stopped.err.find(" of 6250 chunks, --resume goes on from there\n"), std::string::npos);
   EXPECT_FALSE(there("s.h5"));
-  const Outcome again = study(many + "--resume", "timeout --preserve-status -s INT 2 ");
+  const Outcome again =
+      study(many + "--resume", "timeout --foreground --preserve-status -s INT 2 ");
   EXPECT_EQ(again.code, 2) << again.err;
   EXPECT_NE(again.out.find("going on with "), std::string::npos) << again.out;
 
