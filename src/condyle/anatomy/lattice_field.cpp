@@ -1,12 +1,11 @@
 #include "condyle/anatomy/lattice_field.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "condyle/input_error.h"
+#include "condyle/surface/banded_cholesky.h"
 
 namespace condyle {
 namespace {
@@ -51,21 +50,6 @@ MatrixXd integrals(int n, Vector4d (*f)(double)) {
       sum.block<4, 4>(cell, cell) += kWeight[q] * v * v.transpose();
     }
   return sum;
-}
-
-/// The Cholesky factor of a symmetric matrix of square blocks in the place of its lower half, where blocks more than `band` from
-/// the diagonal are zero: a few times less work than for a full one. False where it is not positive definite.
-bool factor_in_place(MatrixXd& A, int block, int band) {
-  const int rows = static_cast<int>(A.rows());
-  for (int at = 0; at < rows; at += block) {
-    const int next = at + block, below = std::min(band * block, rows - next);
-    auto diagonal = A.block(at, at, block, block);
-    if (Eigen::LLT<Eigen::Ref<MatrixXd>>(diagonal).info() != Eigen::Success) return false;
-    auto panel = A.block(next, at, below, block);
-    diagonal.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(panel);
-    A.block(next, next, below, below).selfadjointView<Eigen::Lower>().rankUpdate(panel, -1);
-  }
-  return true;
 }
 
 }  // namespace
@@ -162,13 +146,14 @@ void LatticeField::fit(const std::vector<PointPair>& pairs, const FieldStiffness
   }
   const int n = static_cast<int>(c_.cols());
   if (!(sum > 0)) return c_.setZero(), void();
-  MatrixXd A = MatrixXd::Zero(3 * n, 3 * n);
+  // A cubic B-spline meets those of three nodes on either side, along each axis.
+  BandedMatrix A(3 * n, 3 * node(3, 3, 3) + 2);
   const MatrixXd E = bending_matrix(stiffness);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j <= i; ++j)
       if (E(i, j) != 0)
-        for (int k = 0; k < 3; ++k) A(3 * i + k, 3 * j + k) = E(i, j);
-  Eigen::VectorXd b = Eigen::VectorXd::Zero(3 * n);
+        for (int k = 0; k < 3; ++k) A.at(3 * i + k, 3 * j + k) = E(i, j);
+  MatrixXd b = MatrixXd::Zero(3 * n, 1);
   for (const auto& [cell, members] : by_cell) {
     const int m = static_cast<int>(members.size());
     std::array<int, 64> nodes{};
@@ -183,7 +168,7 @@ void LatticeField::fit(const std::vector<PointPair>& pairs, const FieldStiffness
       const Matrix3d across = pair.normal * pair.normal.transpose();
       metric[q] = pair.weight / sum * (across + stiffness.along * (Matrix3d::Identity() - across));
       const Vector3d pull = metric[q] * (pair.to - pair.from);
-      for (int a = 0; a < 64; ++a) b.segment<3>(3 * nodes[a]) += W(a, q) * pull;
+      for (int a = 0; a < 64; ++a) b.middleRows<3>(3 * nodes[a]) += W(a, q) * pull;
     }
     Eigen::Matrix<double, 64, Eigen::Dynamic> scaled(64, m);
     Eigen::Matrix<double, 64, 64> G;
@@ -193,16 +178,13 @@ void LatticeField::fit(const std::vector<PointPair>& pairs, const FieldStiffness
         G.triangularView<Eigen::Lower>() = scaled * W.transpose();
         for (int e = 0; e < 64; ++e)
           for (int a = e; a < 64; ++a) {
-            A(3 * nodes[a] + r, 3 * nodes[e] + s) += G(a, e);
-            if (r != s && a != e) A(3 * nodes[a] + s, 3 * nodes[e] + r) += G(a, e);
+            A.at(3 * nodes[a] + r, 3 * nodes[e] + s) += G(a, e);
+            if (r != s && a != e) A.at(3 * nodes[a] + s, 3 * nodes[e] + r) += G(a, e);
           }
       }
   }
-  constexpr int kBand = 3;  // planes of nodes that a B-spline has in common with others, each way
-  if (!factor_in_place(A, 3 * n_[1] * n_[2], kBand))
-    throw InputError("the template's bone cannot be laid over this one");
-  A.triangularView<Eigen::Lower>().solveInPlace(b);
-  A.triangularView<Eigen::Lower>().transpose().solveInPlace(b);
+  if (!A.factorize()) throw InputError("the template's bone cannot be laid over this one");
+  A.solve(b);
   c_ = Eigen::Map<const MatrixXd>(b.data(), 3, n);
 }
 

@@ -23,6 +23,8 @@
 #include "condyle/results/output_file.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/scene_file/scene_words.h"
+#include "condyle/specimen/fit_surfaces.h"
+#include "condyle/specimen/fit_wraps.h"
 
 namespace condyle {
 namespace {
@@ -114,10 +116,13 @@ int run_new(const NewCommand& command) {
   const NewKnee knee = knee_from_meshes(
       files, {.to_mm = units_option(command.units), .side = side_option(command.side)});
   const std::string text = new_scene_text(knee, command.output);
-  const Scene scene = parse_scene(text, command.output);  // what is written can be read
+  Scene scene = parse_scene(text, command.output);  // what is written can be read
 #ifdef CONDYLE_PICTURES
-  if (!command.report.empty())
-    write_scene_page(command.report, start_run(scene, fit_surfaces(scene)), knee.doubts);
+  if (!command.report.empty()) {
+    const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
+    fit_wraps(scene, surfaces);
+    write_scene_page(command.report, start_run(scene, surfaces), knee.doubts);
+  }
 #endif
   write_output_file(command.output, text);
   print_shape(knee);

@@ -6,12 +6,10 @@
 #include "condyle/pictures/scene_page.h"
 #include "condyle/results/make_run.h"
 #include "condyle/results/output_file.h"
-#include "condyle/specimen/fit_wraps.h"
 
 namespace condyle {
 
-Run start_run(Scene scene, const std::vector<FittedSurface>& surfaces) {
-  fit_wraps(scene, surfaces);
+Run start_run(const Scene& scene, const std::vector<FittedSurface>& surfaces) {
   Run run = make_run(scene, surfaces);
   const Model model = build_model(scene, surfaces);
   PoseResult pose;

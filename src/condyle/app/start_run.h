@@ -11,8 +11,9 @@
 namespace condyle {
 
 /// The scene's meshes and patches with one pose, the start pose: joint coordinates, and lengths, strains and
-/// forces of the ligaments along their paths. `surfaces`: those of the scene, fitted. Wraps that are fitted to bone are fitted. Nothing is solved.
-[[nodiscard]] Run start_run(Scene scene, const std::vector<FittedSurface>& surfaces);
+/// forces of the ligaments along their paths. Nothing is solved. `scene`: its wraps are fitted; `surfaces`: so
+/// are its patches.
+[[nodiscard]] Run start_run(const Scene& scene, const std::vector<FittedSurface>& surfaces);
 
 /// Throws InputError where a picture cannot become that file, or would be under the name of another format.
 void check_scene_page(const std::string& file);

@@ -12,9 +12,10 @@ namespace {
 using Eigen::Vector3d;
 using Cell = Eigen::Matrix<std::int64_t, 3, 1>;
 
-/// Points in a grid of cells of 16 tolerances: three look-ups of four visit one cell, and of points that lie apart by
-/// more than the tolerance few fit into it, however crowded a mesh is. Cells are hashed to lists of the points in them; the distance sorts out what shares a
-/// list by chance.
+/// Points in a grid of cells of 16 tolerances: two look-ups of three visit one cell, and of points
+/// farther apart than the tolerance a few thousand fit into it at most, however crowded a mesh is.
+/// Cells are hashed to lists of the points in them; the distance sorts out what shares a list by
+/// chance.
 class PointGrid {
  public:
   /// Over those of `points` that are added; what is added must stay as it is.
