@@ -7,7 +7,7 @@
 #
 # says that COMMAND, run by bash at the top of the project, prints what stands between. Words have to be the same, numbers as
 # well, or within what "made within 5 % by:" allows; a number before µs, us, ms or s is a time and only has to be there. What takes minutes is "made when asked by:",
-# that is where its page is named. A command that cannot run here (no specimens beside the project) ends with 77 and is passed over.
+# that is where its page is named; the same with "made when asked within 5 % by:". A command that cannot run here (no specimens beside the project) ends with 77 and is passed over.
 #
 #     tools/figures.sh [--write] [--only WORD] [PAGE...]
 #
@@ -49,12 +49,12 @@ replace() {
 # check PAGE LINE MARKER: one block.
 check() {
   local page=$1 line=$2 command within status=0
-  if { [ "$asked" -eq 0 ] && [[ $3 == '<!-- made when asked by:'* ]]; } || [[ $3 != *"$only"* ]]; then
+  if { [ "$asked" -eq 0 ] && [[ $3 == '<!-- made when asked '* ]]; } || [[ $3 != *"$only"* ]]; then
     passed_over=$((passed_over + 1))
     return
   fi
   command=$(sed -E 's/^<!-- made [^:]*by: (.*) -->$/\1/' <<<"$3")
-  within=$(sed -nE 's/^<!-- made within ([0-9.]+) % by: .*/\1/p' <<<"$3")
+  within=$(sed -nE 's/^<!-- made (when asked )?within ([0-9.]+) % by: .*/\2/p' <<<"$3")
   awk -v start="$line" 'NR > start && /^<!-- end -->/ { exit } NR > start' "$page" >"$work/old"
   bash -c "set -o pipefail; $command" >"$work/new" 2>"$work/err" || status=$?
   if [ "$status" -eq 77 ]; then

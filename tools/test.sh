@@ -71,10 +71,10 @@ case "$way" in
     run_tests build "$@"
     ;;&
   all | selection)
-    TARGET=condyle_selected_tests sanitized build-sanitize address -DCONDYLE_PICTURES=OFF
+    TARGET=condyle_selected_tests sanitized build-selection address -DCONDYLE_PICTURES=OFF -DCONDYLE_COMPILE_SOON=ON
     # Each program at one go: to start a sanitized process takes longer than most tests.
     printf '%s\n' "${selection[@]}" | xargs -P "$(nproc)" -I ROOM timeout 900 \
-      build-sanitize/condyle_ROOM_tests --gtest_brief=1 "--gtest_filter=-$starting_condyle" "$@"
+      build-selection/condyle_ROOM_tests --gtest_brief=1 "--gtest_filter=-$starting_condyle" "$@"
     told "AddressSanitizer and UndefinedBehaviorSanitizer, rooms ${selection[*]}"
     ;;
   sanitize)

@@ -32,12 +32,12 @@ using Reframe = std::function<void(Knee&)>;
 
 /// One of the statistical model's knees has the vertices of its mean, and the insertions with them;
 /// fibular ends go by another rule.
-void carry_to_population(const Reframe& reframe) {
+void carry_to_population(const std::vector<const char*>& names, const Reframe& reframe) {
   if (!fs::exists(kMean)) GTEST_SKIP() << "no specimens here";
   Knee mean = test::knee_bones(kMean);
   reframe(mean);
   test::CarriedErrors on_bone, fibula, all;
-  for (const char* name : {"S001", "S010", "S020", "S030", "S040", "S060", "S080", "S100"}) {
+  for (const char* name : names) {
     Knee knee =
         test::knee_bones(kMean.parent_path() / "population" / (std::string(name) + ".toml"));
     reframe(knee);
@@ -69,11 +69,15 @@ void by_rule(Knee& knee) {
   knee[1].frame = recognised.tibia.frame;
 }
 
-TEST(CarriedSpecimens, FromTheMeanToEightKnees) { carry_to_population(as_given); }
-TEST(CarriedSpecimens, FromTheMeanToEightKneesByTheirOwnFrames) { carry_to_population(by_rule); }
-TEST(CarriedSpecimens, FromTheMeanToEightKneesByScatteredFrames) {
+TEST(CarriedSpecimens, FromTheMeanToEightKneesByTheirOwnFrames) {
+  carry_to_population({"S001", "S010", "S020", "S030", "S040", "S060", "S080", "S100"}, by_rule);
+}
+TEST(CarriedSpecimens, FromTheMeanToFourKnees) {
+  carry_to_population({"S001", "S020", "S040", "S080"}, as_given);
+}
+TEST(CarriedSpecimens, FromTheMeanToFourKneesByScatteredFrames) {
   test::Random random(7);
-  carry_to_population([&](Knee& knee) {
+  carry_to_population({"S010", "S030", "S060", "S100"}, [&](Knee& knee) {
     for (test::KneeBone& bone : knee)
       bone.frame = test::disturbed(bone.frame, 3 * M_PI / 180, 4, random);
   });
