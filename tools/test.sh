@@ -49,7 +49,8 @@ sanitized() {
 run_tests() {
   local folder=$1
   shift
-  ctest --test-dir "$folder" --output-on-failure --parallel "$(nproc)" "$@"
+  # One more than processors: some tests wait for clocks.
+  ctest --test-dir "$folder" --output-on-failure --parallel "$(($(nproc) + 1))" "$@"
 }
 
 # told SANITIZERS: the line of docs/reliability.md.
