@@ -19,8 +19,8 @@
 namespace condyle {
 namespace {
 
-constexpr double kRadius = 30, kMass = 1e-3;  // [mm], [t]
-const double kSpring = M_PI * 6.321839080459770 * kRadius;
+constexpr double kBallRadius = 30, kBallMass = 1e-3;  // [mm], [t]
+const double kSpring = M_PI * 6.321839080459770 * kBallRadius;
 
 /// A ball over an endless plane, its centre `height` above where it touches.
 struct LayeredBall {
@@ -29,12 +29,12 @@ struct LayeredBall {
 
   explicit LayeredBall(double height) {
     MassProperties mass;
-    mass.mass = kMass;
-    mass.inertia = 0.4 * kMass * kRadius * kRadius * Eigen::Matrix3d::Identity();
+    mass.mass = kBallMass;
+    mass.inertia = 0.4 * kBallMass * kBallRadius * kBallRadius * Eigen::Matrix3d::Identity();
     ContactPair pair;
     pair.name = "pad";
     pair.on_B = make_plane({0, 0, 0}, {0, 0, 1});
-    pair.on_A = make_sphere({0, 0, 0}, kRadius, true);
+    pair.on_A = make_sphere({0, 0, 0}, kBallRadius, true);
     pair.elastic_B = pair.elastic_A = ElasticSurface{10, 0.45, 3};
     pair.mode = ContactMode::kOpen;
     LayerOptions options;
@@ -42,7 +42,7 @@ struct LayeredBall {
     network.bodies = {{"ball", mass, {0, 0, 0}, false}};
     network.potentials = {{"pad", 0, layer_contact(options)(pair)}};
     state.bodies = {
-        {{Eigen::Matrix3d::Identity(), {0, 0, kRadius + height}}, {0, 0, 0}, {0, 0, 0}}};
+        {{Eigen::Matrix3d::Identity(), {0, 0, kBallRadius + height}}, {0, 0, 0}, {0, 0, 0}}};
   }
 
   Motion move(const IntegrationOptions& options) {
@@ -57,7 +57,7 @@ struct LayeredBall {
 // Thrown at the plane it comes back as fast: it is deepest at d³ = 3 m v²/(2 π k R), and has left
 // after 2 d/v ∫ dx/√(1 - x³) = 2 √π Γ(4/3)/Γ(5/6) d/v.
 TEST(LayerMotion, BallComesBackAfterTheTimeOfTheClosedForm) {
-  const double speed = 300, deepest = std::cbrt(1.5 * kMass * speed * speed / kSpring);
+  const double speed = 300, deepest = std::cbrt(1.5 * kBallMass * speed * speed / kSpring);
   const double time =
       2 * std::sqrt(M_PI) * std::tgamma(4.0 / 3) / std::tgamma(5.0 / 6) * deepest / speed;
   LayeredBall ball(0);
@@ -66,7 +66,7 @@ TEST(LayerMotion, BallComesBackAfterTheTimeOfTheClosedForm) {
   ASSERT_TRUE(motion.completed) << motion.reason;
   ASSERT_EQ(motion.frames.size(), 5U);
   const auto depth = [&](std::size_t frame) {
-    return kRadius - motion.frames[frame].state.bodies[0].X.p.z();
+    return kBallRadius - motion.frames[frame].state.bodies[0].X.p.z();
   };
   EXPECT_NEAR(depth(1), deepest, 1e-4 * deepest);
   EXPECT_NEAR(depth(2), 0, 1e-3 * deepest);
@@ -82,7 +82,7 @@ TEST(LayerMotion, BallComesBackAfterTheTimeOfTheClosedForm) {
 // Laid down without speed, a ball of weight w = π k R d² falls to √3 d and comes back after
 // 2 √(√3 d/2g) ∫ dx/√(x (1 - x²)), the integral being B(1/4, 1/2)/2.
 TEST(LayerMotion, BallThatIsLaidDownOscillates) {
-  const double g = 9810, deepest = std::sqrt(3 * g * kMass / kSpring);
+  const double g = 9810, deepest = std::sqrt(3 * g * kBallMass / kSpring);
   const double beta = std::tgamma(0.25) * std::sqrt(M_PI) / std::tgamma(0.75);
   const double period = std::sqrt(deepest / (2 * g)) * beta;
   LayeredBall ball(0);
@@ -91,7 +91,7 @@ TEST(LayerMotion, BallThatIsLaidDownOscillates) {
   ASSERT_TRUE(motion.completed) << motion.reason;
   ASSERT_EQ(motion.frames.size(), 11U);
   for (std::size_t i = 0; i < motion.frames.size(); ++i) {
-    const double depth = kRadius - motion.frames[i].state.bodies[0].X.p.z();
+    const double depth = kBallRadius - motion.frames[i].state.bodies[0].X.p.z();
     EXPECT_NEAR(depth / deepest, i % 2 == 0 ? 0 : 1, 1e-3) << i;
   }
   EXPECT_LT(motion.largest_imbalance, 1e-7 * motion.energy_scale);
@@ -99,7 +99,7 @@ TEST(LayerMotion, BallThatIsLaidDownOscillates) {
 
 // With a damper beside the layer it comes to rest at its depth; what it loses is what was damped.
 TEST(LayerMotion, DampedBallComesToRest) {
-  const double depth = std::sqrt(9810 * kMass / kSpring);
+  const double depth = std::sqrt(9810 * kBallMass / kSpring);
   LayeredBall ball(5);
   ball.network.gravity = {0, 0, -9810};
   LineComponent damper;
@@ -112,8 +112,8 @@ TEST(LayerMotion, DampedBallComesToRest) {
   ASSERT_TRUE(motion.completed) << motion.reason;
   const MotionFrame& end = motion.frames.back();
   EXPECT_NEAR(end.state.bodies[0].v.norm(), 0, 1e-4);
-  EXPECT_NEAR(kRadius - end.state.bodies[0].X.p.z(), depth, 1e-3 * depth);
-  EXPECT_NEAR(end.dissipated, 9810 * kMass * (5 + depth) - end.energy.layers,
+  EXPECT_NEAR(kBallRadius - end.state.bodies[0].X.p.z(), depth, 1e-3 * depth);
+  EXPECT_NEAR(end.dissipated, 9810 * kBallMass * (5 + depth) - end.energy.layers,
               2e-6 * motion.energy_scale);
   EXPECT_LT(motion.largest_imbalance, 1e-6 * motion.energy_scale);
 }

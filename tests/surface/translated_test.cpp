@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::vector<std::unique_ptr<Surface>> bounded_surfaces() {
+std::vector<std::unique_ptr<Surface>> one_of_each() {
   std::vector<std::unique_ptr<Surface>> all;
   all.push_back(make_plane({1, 2, 3}, {1, -2, 2}, 12));
   all.push_back(make_sphere({-4, 0, 2}, 20, true));
@@ -38,7 +38,7 @@ std::vector<std::unique_ptr<Surface>> bounded_surfaces() {
 
 TEST(Translated, SurfacesKeepTheirShapeNormalsAndEdges) {
   const Vector3d d(900, -2500, 300);
-  for (const auto& surface : bounded_surfaces()) {
+  for (const auto& surface : one_of_each()) {
     const std::unique_ptr<Surface> moved = surface->translated(d);
     const std::vector<Place> places = surface->samples(4), there = moved->samples(4);
     ASSERT_GT(places.size(), 10u);
@@ -62,7 +62,7 @@ TEST(Translated, SurfacesKeepTheirShapeNormalsAndEdges) {
 
 TEST(Translated, ExtentsMoveAlongAndHoldTheKnownPart) {
   const Vector3d d(900, -2500, 300);
-  for (const auto& surface : bounded_surfaces()) {
+  for (const auto& surface : one_of_each()) {
     const Extent here = surface->extent(), there = surface->translated(d)->extent();
     EXPECT_LT((here.center + d - there.center).norm(), 1e-10);
     EXPECT_NEAR(here.radius, there.radius, 1e-10);
