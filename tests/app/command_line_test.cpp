@@ -71,6 +71,9 @@ TEST_F(CommandLine, SaysWhichCommandOrOptionWasMeant) {
   const std::string commands = run("swep knee.toml -o run.h5").err;
   EXPECT_NE(commands.find("; did you mean \"sweep\"?"), std::string::npos) << commands;
   EXPECT_EQ(run("").err.rfind("condyle: no command, expected one of check, fit, ", 0), 0U);
+  expect_bad_input(
+      run("-v"),
+      "unknown option -v, expected --help, --version or a command (condyle --help says more)");
   const std::string help = " (condyle sweep --help says more)";
   expect_bad_input(run("sweep knee.toml -o run.h5 --form 0"),
                    "unknown option --form, did you mean --from?" + help);

@@ -25,7 +25,12 @@ namespace {
 
 /// CLI11 would only say that a subcommand is missing. None before options of the program.
 const CLI::App* find_command(const CLI::App& program, int argc, char** argv) {
-  if (argc >= 2 && argv[1][0] == '-') return nullptr;
+  if (argc >= 2 && argv[1][0] == '-') {
+    if (program.get_option_no_throw(argv[1]) != nullptr) return nullptr;
+    throw InputError(fmt::format(
+        "unknown option {}, expected --help, --version or a command ({} --help says more)", argv[1],
+        program.get_name()));
+  }
   std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands(nullptr)) {
     if (argc >= 2 && command->check_name(argv[1])) return command;
