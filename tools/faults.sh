@@ -19,7 +19,7 @@ if [ "${1:-}" = --quick ]; then
   shift
   disks=(0 16) memories=(80000 110000) commands=(sweep study export import)
   cases=(full_disk read_only_folder quota memory closed_streams full_streams strange_outputs two_runs signals)
-  SAMPLES=300 STEP=10
+  SAMPLES=300 SWEPT=wismans.toml STEP=0.1  # no meshes, to which the patches of the other are fitted each time
 fi
 [ $# -eq 0 ] || cases=("$@")
 

@@ -24,7 +24,7 @@ job() {
   local out=$2
   output=$out/result.h5
   case $1 in
-    sweep) words=(sweep knee.toml -o "$output" --step "${STEP:-1}") ;;
+    sweep) words=(sweep "${SWEPT:-knee.toml}" -o "$output" --step "${STEP:-1}") ;;
     simulate) words=(simulate motion.toml -o "$output") ;;
     laxity) words=(laxity drawer.toml -o "$output") ;;
     compare) words=(compare wismans.toml -o "$output" --step "${COMPARED_STEP:-0.5}") ;;
