@@ -6,7 +6,7 @@
 #     <!-- end -->
 #
 # says that COMMAND, run by bash at the top of the project, prints what stands between. Words have to be the same, numbers as
-# well, or within what "made within 5 % by:" allows; a number before µs, us, ms or s is a time and only has to be there. What takes minutes is "made when asked by:",
+# well, or within what "made within 5 % by:" allows; a number before µs, us, ms or s is a time and only has to be there. What takes long is "made when asked by:",
 # that is where its page is named; the same with "made when asked within 5 % by:". A command that cannot run here (no specimens beside the project) ends with 77 and is passed over.
 #
 #     tools/figures.sh [--write] [--only WORD] [PAGE...]

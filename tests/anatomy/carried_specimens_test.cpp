@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <vector>
 
 #include "anatomy/carried_errors.h"
 #include "condyle/anatomy/recognise_knee.h"
