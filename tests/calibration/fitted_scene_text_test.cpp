@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "condyle/calibration/calibration_words.h"
-#include "condyle/calibration/text_edit.h"
+#include "condyle/scene_file/text_edit.h"
 #include "condyle/input_error.h"
 #include "condyle/scene_file/read_scene.h"
 #include "scene/small_scene.h"

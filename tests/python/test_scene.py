@@ -1,6 +1,7 @@
 """Scenes: built in Python, from text and from files; the reader of scene files is the only judge of both."""
 
 import copy
+import os
 import pathlib
 import pickle
 import re
@@ -200,6 +201,24 @@ class Changing(unittest.TestCase):
             knees.spring().save(path)
             self.assertEqual(condyle.read_scene(path), knees.spring())
             subprocess.run([knees.PROGRAM, "check", path], check=True, capture_output=True)
+
+    def test_save_into_another_folder_finds_its_meshes(self):
+        read, changed = condyle.read_scene(knees.PHANTOM), condyle.read_scene(knees.PHANTOM)
+        changed.ligaments["aACL"].stiffness = 4000
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "phantom.toml"
+            for scene in (read, changed):
+                scene.save(path)
+                saved = condyle.read_scene(path)
+                for body, was in zip(saved.bodies, scene.bodies):
+                    self.assertTrue(os.path.samefile(os.path.join(folder, body.mesh),
+                                                     os.path.join(os.path.dirname(knees.PHANTOM), was.mesh)))
+                saved.check()
+            self.assertEqual(os.listdir(folder), ["phantom.toml"])
+            with self.assertRaisesRegex(condyle.InputError, "missing"):
+                read.save(pathlib.Path(folder) / "missing" / "phantom.toml")
+            with self.assertRaisesRegex(condyle.InputError, "phantom.h5"):
+                read.save(pathlib.Path(folder) / "phantom.h5")
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -25,12 +26,7 @@ namespace {
 
 /// CLI11 would only say that a subcommand is missing. None before options of the program.
 const CLI::App* find_command(const CLI::App& program, int argc, char** argv) {
-  if (argc >= 2 && argv[1][0] == '-') {
-    if (program.get_option_no_throw(argv[1]) != nullptr) return nullptr;
-    throw InputError(fmt::format(
-        "unknown option {}, expected --help, --version or a command ({} --help says more)", argv[1],
-        program.get_name()));
-  }
+  if (argc >= 2 && argv[1][0] == '-') return nullptr;
   std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands(nullptr)) {
     if (argc >= 2 && command->check_name(argv[1])) return command;
@@ -58,29 +54,45 @@ void keep_memory() {
 
 std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options())
+  for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
   return names;
+}
+
+/// --name of --name=value, -n of -nvalue; empty for what is no option, as a negative number.
+std::string option_of(const std::string& word) {
+  if (word.rfind("--", 0) == 0) return word.substr(0, word.find('='));
+  const bool letter = word.size() > 1 && word[0] == '-' && std::isalpha(word[1] & 0xff) != 0;
+  return letter ? word.substr(0, 2) : "";
 }
 
 /// An option that is cut short, as --out, or mistyped; empty where none is like it.
 std::string meant_option(const std::string& word, const std::vector<std::string>& names) {
+  if (word.size() < 3) return "";
   for (const std::string& name : names)
     if (word.size() > 3 && name.rfind(word, 0) == 0) return name;
   return nearest(word, names);
 }
 
-/// CLI11 would first ask for options that are missing, also for the one that was mistyped.
-void check_options(const CLI::App& command, int argc, char** argv, const std::string& help) {
-  const std::vector<std::string> names = option_names(command);
-  for (int i = 2; i < argc; ++i) {
-    const std::string word = argv[i], name = word.substr(0, word.find('='));
+/// CLI11 would first ask for a command or for options that are missing, also for the one that was mistyped.
+void check_options(const CLI::App& program,
+                   const CLI::App* command,
+                   int argc,
+                   char** argv,
+                   const std::string& help) {
+  const std::vector<std::string> names = option_names(command == nullptr ? program : *command);
+  const int first = command == nullptr ? 1 : 2;  // of the program itself only one is asked for
+  for (int i = first; i < (command == nullptr ? std::min(argc, 2) : argc); ++i) {
+    const std::string name = option_of(argv[i]);
     if (name == "--") return;
-    if (name.rfind("--", 0) != 0 || std::find(names.begin(), names.end(), name) != names.end())
-      continue;
+    if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) continue;
     const std::string meant = meant_option(name, names);
+    const std::string expected =
+        command == nullptr ? ", expected --help, --version or a command" : "";
     throw InputError(fmt::format("unknown option {}{}{}", name,
-                                 meant.empty() ? "" : ", did you mean " + meant + "?", help));
+                                 meant.empty() ? expected : ", did you mean " + meant + "?", help));
   }
 }
 
@@ -114,7 +126,7 @@ int run_program(const std::string& name,
   const CLI::App* command = find_command(program, argc, argv);
   const std::string help = fmt::format(" ({}{} --help says more)", name,
                                        command == nullptr ? "" : " " + command->get_name());
-  if (command != nullptr) check_options(*command, argc, argv, help);
+  check_options(program, command, argc, argv, help);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version

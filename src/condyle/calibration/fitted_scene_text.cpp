@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <system_error>
 #include <utility>
 
 #include "condyle/calibration/calibration_words.h"
-#include "condyle/calibration/text_edit.h"
 #include "condyle/input_error.h"
+#include "condyle/scene_file/moved_paths.h"
 #include "condyle/scene_file/scene_words.h"
 
 namespace condyle {
@@ -132,33 +131,6 @@ void set_loads(const Value& document,
   }
 }
 
-bool same_folder(const fs::path& a, const fs::path& b) {
-  std::error_code unknown;
-  const auto folder = [](const fs::path& file) {
-    return file.has_parent_path() ? file.parent_path() : fs::path(".");
-  };
-  return fs::equivalent(folder(a), folder(b), unknown);
-}
-
-/// Paths are told from the folder that the text will stand in.
-void move_paths(const Value& document,
-                const Scene& scene,
-                const fs::path& file,
-                std::vector<TextEdit>& edits) {
-  const auto move = [&](const Value* value, const fs::path& path) {
-    if (value != nullptr && value->column > 0 && !fs::path(value->text).is_absolute())
-      edits.push_back(edit_of(*value, scene_string(mesh_path_in(file, path))));
-  };
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    if (scene.bodies[i].mesh)
-      move(table_at(document, "body", i).find("mesh"), scene.bodies[i].mesh->path);
-  for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
-    if (scene.surfaces[i].patch.mesh)
-      move(table_at(document, "surface", i).find("mesh"), scene.surfaces[i].patch.mesh->path);
-  if (const Value* calibrate = document.find("calibrate"); calibrate && scene.calibration)
-    move(calibrate->find("measurements"), scene.calibration->measurements);
-}
-
 std::string first_line(const CalibrationResult& result) {
   const MeasurementTable& table = result.table;
   const std::string specimen =
@@ -187,7 +159,8 @@ std::string fitted_scene_text(const Scene& scene,
     set_law(table, scene, was, now);
   }
   set_loads(document, scene, fitted, edits);
-  if (!file.empty() && !same_folder(file, scene.file)) move_paths(document, scene, file, edits);
+  if (!file.empty())
+    for (TextEdit& edit : moved_paths(document, scene.file, file)) edits.push_back(std::move(edit));
   std::string text = edited(scene.text, edits);
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte-order mark may only come first
   return first_line(result) + text;

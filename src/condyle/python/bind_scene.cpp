@@ -4,6 +4,8 @@
 #include "condyle/python/arguments.h"
 #include "condyle/python/bindings.h"
 #include "condyle/python/own_functions.h"
+#include "condyle/results/output_file.h"
+#include "condyle/scene_file/moved_paths.h"
 #include "condyle/scene_file/read_scene.h"
 
 namespace condyle::python {
@@ -72,6 +74,16 @@ void bind_scene(py::module_& m) {
         return py::make_tuple(read_scene(name).text, name);
       },
       py::arg("path"), "The text of a scene file that can be read, and its path.");
+  m.def(
+      "write_scene_text",
+      [](const std::string& text, const std::string& from, const py::object& file) {
+        const std::string name = path(file, "path");
+        check_output_file(name, ".toml");
+        write_output_file(name, moved_scene_text(text, from, name));
+      },
+      py::arg("text"), py::arg("from_file"), py::arg("path"),
+      "Write the text of a scene file; relative paths in it are told from the folder of `path`, "
+      "not of `from_file`.");
 }
 
 }  // namespace condyle::python

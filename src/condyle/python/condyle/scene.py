@@ -10,7 +10,7 @@ import tomllib
 from collections.abc import Iterator
 from typing import Any, Optional, Union
 
-from ._condyle import InputError, ParsedScene, scene_text
+from ._condyle import InputError, ParsedScene, scene_text, write_scene_text
 from .described import (Body, Calibrate, Condition, Contact, Joint, Laxity, Ligament, Load, Simulate, Surface, Sweep, Units,
                         Wrap)
 from .tables import Table, Tables, inline, plain
@@ -75,10 +75,9 @@ class Scene(Table):
         return self._text(functions_too=False)
 
     def save(self, path: Union[str, os.PathLike]) -> None:
-        """Write it to a file, of which paths of meshes are taken from its folder: they are written as they are."""
-        text = self.to_toml()
-        with open(path, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
+        """Write it to a file. Relative paths of meshes and measurements are told from the folder of that file, where it is
+        another one than that of the scene. Raises InputError where the file cannot be written."""
+        write_scene_text(_utf8(self.to_toml()), self._file, path)
 
     def _text(self, functions_too: bool) -> str:
         return self._read[0] if self._read is not None and self._is_as_read() else self._toml(functions_too)

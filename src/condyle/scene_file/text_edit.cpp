@@ -1,4 +1,4 @@
-#include "condyle/calibration/text_edit.h"
+#include "condyle/scene_file/text_edit.h"
 
 #include <fmt/format.h>
 
