@@ -112,28 +112,37 @@ Place closest_by_newton(const Surface& surface, const Vector3d& p, const Place& 
 
 namespace {
 
-/// Parameters θ in [from, to] of points (a cos θ, b sin θ) that divide the arc into equal parts of
-/// about `spacing`.
-std::vector<double> evenly_spaced(
-    double a, double b, double from, double to, double spacing, int least) {
-  constexpr int kFine = 512;
-  std::vector<double> arc(kFine + 1, 0.0);
-  const double step = (to - from) / kFine;
-  for (int i = 0; i < kFine; ++i) {
-    const double middle = from + (i + 0.5) * step;
-    arc[i + 1] = arc[i] + step * std::hypot(a * std::sin(middle), b * std::cos(middle));
+/// The arc of an ellipse, points (a cos θ, b sin θ) for θ in [from, to].
+class EllipseArc {
+ public:
+  EllipseArc(double a, double b, double from, double to)
+      : from_(from), to_(to), arc_(kFine + 1, 0.0) {
+    for (int i = 0; i < kFine; ++i) {
+      const double middle = from + (i + 0.5) * step();
+      arc_[i + 1] = arc_[i] + step() * std::hypot(a * std::sin(middle), b * std::cos(middle));
+    }
   }
-  const int parts = std::max(least, static_cast<int>(std::ceil(arc.back() / spacing)));
-  std::vector<double> angles = {from};
-  int i = 0;
-  for (int part = 1; part < parts; ++part) {
-    const double wanted = arc.back() * part / parts;
-    while (arc[i + 1] < wanted) ++i;
-    angles.push_back(from + step * (i + (wanted - arc[i]) / (arc[i + 1] - arc[i])));
+  /// Parameters that divide it into equal parts of about `spacing`, both ends among them.
+  [[nodiscard]] std::vector<double> evenly_spaced(double spacing, int least) const {
+    const int parts = std::max(least, static_cast<int>(std::ceil(arc_.back() / spacing)));
+    std::vector<double> angles = {from_};
+    int i = 0;
+    for (int part = 1; part < parts; ++part) {
+      const double wanted = arc_.back() * part / parts;
+      while (arc_[i + 1] < wanted) ++i;
+      angles.push_back(from_ + step() * (i + (wanted - arc_[i]) / (arc_[i + 1] - arc_[i])));
+    }
+    angles.push_back(to_);
+    return angles;
   }
-  angles.push_back(to);
-  return angles;
-}
+
+ private:
+  static constexpr int kFine = 512;
+  [[nodiscard]] double step() const { return (to_ - from_) / kFine; }
+
+  double from_, to_;
+  std::vector<double> arc_;  // from the first point, equal steps of θ apart
+};
 
 }  // namespace
 
@@ -146,11 +155,13 @@ std::vector<Place> ellipsoid_samples(const Vector3d& center,
   semi_axes.maxCoeff(&polar);
   const int x = (polar + 1) % 3, y = (polar + 2) % 3;
   const double widest = std::max(semi_axes[x], semi_axes[y]);
+  const EllipseArc meridian(semi_axes[polar], widest, 0, pi);
+  const EllipseArc equator(semi_axes[x], semi_axes[y], 0, 2 * pi);  // rings are of its shape
   std::vector<Place> places;
-  for (const double latitude : evenly_spaced(semi_axes[polar], widest, 0, pi, spacing, 4)) {
-    const double a = semi_axes[x] * std::sin(latitude), b = semi_axes[y] * std::sin(latitude);
+  for (const double latitude : meridian.evenly_spaced(spacing, 4)) {
+    const double size = std::sin(latitude), a = semi_axes[x] * size, b = semi_axes[y] * size;
     std::vector<double> ring = {0, 0};  // a pole; the last angle repeats the first
-    if (std::max(a, b) > 1e-9 * widest) ring = evenly_spaced(a, b, 0, 2 * pi, spacing, 4);
+    if (size > 1e-9) ring = equator.evenly_spaced(spacing / size, 4);
     ring.pop_back();
     for (const double angle : ring) {
       places.push_back({center + a * std::cos(angle) * axes.col(x) +
