@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "condyle/calibration/text_edit.h"
+#include "condyle/scene_file/text_edit.h"
 #include "condyle/input_error.h"
 #include "condyle/scene_file/document.h"
 #include "condyle/scene_file/scene_words.h"
