@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "condyle/scene_file/text_edit.h"
 #include "condyle/input_error.h"
 #include "condyle/scene_file/document.h"
 #include "condyle/scene_file/scene_words.h"
+#include "condyle/scene_file/text_edit.h"
 
 namespace condyle::phantom {
 
