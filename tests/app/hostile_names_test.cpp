@@ -27,6 +27,7 @@ const std::vector<std::string> kNasty = {
     R"(..\..\pwned)",
     R"(-rf)",
     R"(=cmd|'touch pwned'!A0)",
+    R"(a xmlns='b id="c href='#d url(#e)",
 };
 
 /// As TOML's literal text in a basic string.
@@ -77,6 +78,11 @@ std::size_t running_tags(const std::string& text) {
   return n;
 }
 
+/// With the word and nothing after it but attributes.
+std::size_t tags(const std::string& text, const std::string& word) {
+  return count(text, word + ">") + count(text, word + " ");
+}
+
 std::string before_scripts(const std::string& page) {
   const std::size_t at = page.find("<script");
   return page.substr(0, at) + page.substr(std::min(page.size(), page.rfind("</script>")));
@@ -101,6 +107,8 @@ TEST_P(NastyNames, AreNoMarkupNoPathAndNoCommand) {
   EXPECT_EQ(running_tags(rest), 0U);
   EXPECT_EQ(count(page, "<script>alert"), 0U);
   EXPECT_EQ(count(page, "<script"), count(page, "</script>"));
+  for (const char* tag : {"g", "text", "svg"})
+    EXPECT_EQ(tags(rest, std::string("<") + tag), tags(rest, std::string("</") + tag)) << tag;
   for (const auto& plot : fs::directory_iterator(folder_ / "plots")) {
     const std::string svg = contents(plot.path());
     EXPECT_NE(svg.find("</svg>"), std::string::npos) << plot.path();

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "condyle/pictures/color_map.h"
+#include "condyle/pictures/fitted_words.h"
 #include "condyle/pictures/png_file.h"
 #include "condyle/pictures/run_program.h"
 #include "support/scratch_folder.h"
@@ -16,6 +17,7 @@ namespace {
 HeatMap small_map() {
   HeatMap map;
   map.title = "O'Brien's \"knee\" \\ $HOME";
+  map.what = "what moves what";
   map.rows = {{"aACL.stiffness", "+10 %"}, {"drawer.scale", "+0.1"}};
   map.columns = {{"adduction", 0}, {"medial", 1}, {"lateral", 1}};
   map.scales = {{"rotation", "°", 0.5}, {"force", "N", 120}};
@@ -39,6 +41,32 @@ TEST(HeatMap, CellsHaveTheColoursAndDigitsOfTheirScale) {
   for (const double t : {1.0, -1.0, 0.5, 0.0})
     EXPECT_NE(script.find(" " + color(t) + "\n"), std::string::npos) << t;
   EXPECT_NE(script.find(" " + std::to_string(0xE6E8EB) + "\n"), std::string::npos);  // no number
+}
+
+TEST(HeatMap, ALongTitleIsCutAndDoesNotWidenThePage) {
+  HeatMap map = small_map();
+  const auto page = [&] {
+    const std::string script = gnuplot_script(map, PlotFormat::kSvg);
+    return script.substr(script.find("size "), script.find(',') - script.find("size "));
+  };
+  map.title = "";
+  const std::string size = page();
+  map.title = std::string(3000, 'w');
+  EXPECT_EQ(page(), size);
+  const std::string script = gnuplot_script(map, PlotFormat::kSvg);
+  EXPECT_EQ(script.find(std::string(400, 'w')), std::string::npos);
+  EXPECT_NE(script.find("w…\""), std::string::npos);
+}
+
+TEST(FittedWords, AreCutToTheLettersThatFit) {
+  const auto width = [](const std::string& text) { return 10.0 * letters(text); };
+  EXPECT_EQ(cut_words("knee", 40, width), "knee");
+  EXPECT_EQ(cut_words("knees", 40, width), "kne…");
+  EXPECT_EQ(cut_words("äöüß€", 40, width), "äöü…");
+  EXPECT_EQ(cut_words("knees", 0, width), "k…");
+  EXPECT_EQ(cut_words("", 0, width), "");
+  EXPECT_EQ(letters(cut_words(std::string(100000, 'a'), 1000, width)), 100U);
+  EXPECT_GT(words_width("knee", 12), words_width("kne", 12));
 }
 
 TEST(HeatMap, IsDrawnWhateverStandsInItsTitle) {

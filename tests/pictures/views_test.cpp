@@ -175,6 +175,18 @@ Run beyond_edge_run() {
   return run;
 }
 
+TEST(Views, TheKeyOfAStripIsThatOfAllItsPoses) {
+  const Run run = beyond_edge_run();
+  const PictureOptions size = strip_size(View::kMedial, 2);
+  const auto key = [&](const std::vector<std::size_t>& poses) {
+    const Image strip = draw_strip(run, View::kMedial, poses, size);
+    return count_in(strip, {0, size.height - 80.0, 1.0 * size.width, 1.0 * size.height}, is_alarm);
+  };
+  EXPECT_GT(key({1, 0}), 20);
+  EXPECT_EQ(key({0, 1}), key({1, 0}));
+  EXPECT_EQ(key({0, 2}), 0);
+}
+
 TEST(Views, APoseBeyondAnEdgeIsMarkedAtThePointAndInWords) {
   const auto run = beyond_edge_run();
   KneePictures pictures(run, kBare);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "condyle/input_error.h"
+#include "condyle/pictures/round_ticks.h"
 #include "condyle/report/compared_runs_json.h"
 #include "condyle/report/compared_words.h"
 #include "condyle/report/svg_curves.h"
@@ -216,6 +217,8 @@ TEST(SvgCurves, TicksAreRoundAndWithin) {
   EXPECT_EQ(round_ticks(0, 120, 6), (std::vector<double>{0, 20, 40, 60, 80, 100, 120}));
   EXPECT_EQ(round_ticks(-0.3, 0.31, 5), (std::vector<double>{-0.2, 0, 0.2}));
   EXPECT_TRUE(round_ticks(1, 1, 5).empty());
+  EXPECT_TRUE(round_ticks(1e7, 10000000.000000002, 5).empty());  // one step of doubles
+  EXPECT_TRUE(round_ticks(1e17, 1e17 + 32, 5).empty());
 }
 
 TEST(SvgCurves, LinesEndWhereThereIsNoValueAndOfNoCurveThereIsNoDrawing) {

@@ -50,7 +50,7 @@ memory() {
 
 closed_streams() {
   begin "$1"
-  try 1>&-
+  run_job >&- 2>said.log || code=$?
   meet "without a standard output" 1 0
   is_whole
   begin "$1"

@@ -21,8 +21,10 @@ def found(name):
 (cost, values, sd, stopped), (other_cost, other_values, _, other_stopped) = found(sys.argv[1]), found(sys.argv[2])
 if stopped or other_stopped:
     sys.exit("one of them was stopped")
-if abs(cost - other_cost) > COST * abs(cost):
+if not abs(cost - other_cost) <= COST * abs(cost):
     sys.exit(f"cost {other_cost}, expected {cost}")
+if (numpy.isnan(values) != numpy.isnan(other_values)).any():
+    sys.exit("numbers that one of them has not")
 far = numpy.nanmax(abs(values - other_values) / sd)
-if far > NUMBERS:
+if not far <= NUMBERS:
     sys.exit(f"numbers that differ by {far:.2g} of their sd")

@@ -13,7 +13,6 @@
 #include "condyle/mesh_files/load_mesh.h"
 #include "condyle/scene/ligament_path.h"
 #include "condyle/scene/start_pose.h"
-#include "condyle/scene_file/read_scene.h"
 #include "condyle/scene_file/scene_words.h"
 #include "condyle/specimen/fit_wraps.h"
 
@@ -197,16 +196,13 @@ void doubt_insertions(NewKnee& knee) {
 /// Are there surfaces on these bones that the ligaments can wrap on? Else they are straight.
 void try_wraps(NewKnee& knee, const KneeMeshes& meshes) {
   if (!knee.wraps) return;
-  const std::filesystem::path nowhere = std::filesystem::current_path() / "new.toml";
-  Scene scene = parse_scene(new_scene_text(knee, nowhere), nowhere);
+  Scene scene = scene_of(knee);
   try {
     fit_wraps(scene, {meshes.femur, meshes.tibia});
   } catch (const InputError& error) {
     knee.wraps = false;
-    const std::string text = error.what();
-    knee.doubts.push_back(
-        "the template's wraps do not fit these bones, ligaments are straight: " +
-        text.substr(text.find("[[wrap]]") == std::string::npos ? 0 : text.find("[[wrap]]")));
+    knee.doubts.push_back("the template's wraps do not fit these bones, ligaments are straight: " +
+                          without_file(error.what()));
   }
 }
 

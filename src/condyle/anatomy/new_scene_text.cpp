@@ -10,12 +10,15 @@
 
 #include "condyle/math/degree.h"
 #include "condyle/math/rotation.h"
+#include "condyle/scene_file/read_scene.h"
 #include "condyle/scene_file/scene_words.h"
 
 namespace condyle {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kNoFile = "new.toml";  // what a scene without a file is called
 using Eigen::Vector3d;
 
 /// To a tenth, never "-0.0".
@@ -266,6 +269,13 @@ class SceneText {
 
 std::string new_scene_text(const NewKnee& knee, const fs::path& scene) {
   return SceneText(knee, scene).text();
+}
+
+Scene scene_of(const NewKnee& knee) { return parse_scene(new_scene_text(knee, kNoFile), kNoFile); }
+
+std::string without_file(std::string error) {
+  if (error.starts_with(std::string(kNoFile) + ":")) error.erase(0, error.find(": ") + 2);
+  return error;
 }
 
 }  // namespace condyle

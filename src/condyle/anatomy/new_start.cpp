@@ -11,7 +11,6 @@
 #include "condyle/math/degree.h"
 #include "condyle/math/rotation.h"
 #include "condyle/scene/start_pose.h"
-#include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/specimen/start_gap.h"
 #include "condyle/surface/offset_patch.h"
@@ -163,17 +162,12 @@ void doubt_start(NewKnee& knee, bool bare, const Vector2d& after) {
         std::abs(start.tilted) / kDegree, start.tilted > 0 ? "adduction" : "abduction"));
 }
 
-/// Of the scene that is being made: a user has no such file yet, so that errors name its tables and meshes alone.
 Gaps gaps_of(const NewKnee& knee) {
-  const std::filesystem::path nowhere = std::filesystem::current_path() / "new.toml";
   try {
-    return Gaps(parse_scene(new_scene_text(knee, nowhere), nowhere));
+    return Gaps(scene_of(knee));
   } catch (const InputError& error) {
-    std::string text = error.what();
-    if (text.starts_with(nowhere.string() + ":"))
-      text.erase(0, text.find(": ", nowhere.string().size() + 1) + 2);
     throw InputError(fmt::format("{} and {} make no knee: {}", knee.files.femur.string(),
-                                 knee.files.tibia.string(), text));
+                                 knee.files.tibia.string(), without_file(error.what())));
   }
 }
 

@@ -115,8 +115,8 @@ std::string femoral_rule(const FemoralShape& f) {
 std::string tibial_rule(const TibialShape& t) {
   const std::string proximal =
       t.shaft > 0 ? fmt::format(
-                        "proximal: centroids of the shaft's sections {:.0f} to {:.0f} mm below it "
-                        "[Grood and Suntay 1983]",
+                        "proximal: centroids of the shaft's sections {:.0f} to {:.0f} mm below the "
+                        "plateau [Grood and Suntay 1983]",
                         t.shaft_first, t.shaft_first + t.shaft)
                   : fmt::format("proximal: plane of the plateau, falling {:.1f} degrees backwards",
                                 t.slope / kDegree);

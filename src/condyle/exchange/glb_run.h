@@ -17,7 +17,7 @@ namespace condyle {
                                        const std::vector<ShownPose>& shown,
                                        const ShapeOptions& options = {});
 
-/// The same of all converged poses. Throws InputError, naming `file`, where no pose has converged.
+/// The same of all poses with a place, results or not. Throws InputError, naming `file`, where none has one.
 [[nodiscard]] std::string glb_of_run(const Run& run,
                                      const std::string& file,
                                      const ShapeOptions& options = {});

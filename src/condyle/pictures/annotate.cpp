@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "condyle/pictures/fitted_words.h"
 #include "condyle/pictures/label_layout.h"
 #include "condyle/pictures/ligament_labels.h"
 #include "condyle/pictures/page_scales.h"
@@ -23,19 +24,19 @@ std::string newtons(double force) {
   return fmt::format("{:.{}f} N", force, std::abs(force) < 9.95 ? 1 : 0);
 }
 
+std::string megapascals(double pressure) {
+  return pressure < 0.95 ? fmt::format("{:.2g} MPa", pressure)
+                         : fmt::format("{:.1f} MPa", pressure);
+}
+
 Vector2d on_page(const Scenery& scenery, const Vector3d& p) {
   return scenery.camera.project(p).head<2>();
 }
 
-/// The text, cut with an ellipsis where it would be wider than `width`.
-std::string cut(const Pen& pen, std::string text, double width, const TextStyle& style) {
-  if (pen.canvas.text_width(text, style) <= width) return text;
-  while (!text.empty() && pen.canvas.text_width(text + "…", style) > width) {
-    do text.pop_back();
-    while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U);
-    if (!text.empty() && (static_cast<unsigned char>(text.back()) & 0x80U) != 0) text.pop_back();
-  }
-  return text + "…";
+/// The text, cut with an ellipsis where it would be wider than `room`.
+std::string cut(const Pen& pen, const std::string& text, double room, const TextStyle& style) {
+  return cut_words(text, room,
+                   [&](const std::string& words) { return pen.canvas.text_width(words, style); });
 }
 
 /// A label as wide as it is: one that its column has no room for begins farther in, over the drawing, and one that would reach
@@ -128,9 +129,9 @@ std::string view_words(const Scenery& scenery) {
 
 std::string in_words(const Scenery& scenery, const ContactMark& mark) {
   std::string words = newtons(mark.force);
-  if (scenery.hertz && mark.hertz) words += fmt::format(", {:.1f} MPa", mark.hertz->peak_pressure);
+  if (scenery.hertz && mark.hertz) words += ", " + megapascals(mark.hertz->peak_pressure);
   if (scenery.colors == SurfaceColors::kPressure && mark.peak_pressure > 0)
-    words += fmt::format(", {:.1f} MPa", mark.peak_pressure);
+    words += ", " + megapascals(mark.peak_pressure);
   if (mark.beyond > 0) words += fmt::format(", {:.1f} mm beyond the edge", mark.beyond);
   return words;
 }
@@ -140,7 +141,8 @@ constexpr double kSmallest = 0.7;  // of a text's size, to which it may shrink
 /// The text at the largest size, down to the smallest, at which it is no wider than `width`.
 TextStyle fitted(const Pen& pen, const std::string& text, double width, TextStyle style) {
   const int least = std::max(7, static_cast<int>(std::lround(kSmallest * style.size)));
-  while (style.size > least && pen.canvas.text_width(text, style) > width) --style.size;
+  const std::string first = shortened(text, kMostLetters);
+  while (style.size > least && pen.canvas.text_width(first, style) > width) --style.size;
   return style;
 }
 

@@ -14,15 +14,11 @@ constexpr double kBandInterval =
 constexpr double kLeastForce = 0.5;  // what a ligament has to carry to be shown [N]
 constexpr double kBandHeight = 200;  // [pixel]
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 /// Name of the force's ligament or contact; empty for coordinates.
 std::string carrier(const Band& band) {
   const std::string end = ".force";
-  return ends_with(band.quantity, end) ? band.quantity.substr(0, band.quantity.size() - end.size())
-                                       : "";
+  return band.quantity.ends_with(end) ? band.quantity.substr(0, band.quantity.size() - end.size())
+                                      : "";
 }
 
 bool has_ligament(const Scene& scene, const std::string& name) {

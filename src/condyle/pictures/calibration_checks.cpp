@@ -6,6 +6,7 @@
 #include "condyle/calibration/calibration.h"
 #include "condyle/calibration/shown_numbers.h"
 #include "condyle/calibration/told_units.h"
+#include "condyle/pictures/fitted_words.h"
 #include "condyle/pictures/plot_calibration.h"
 
 namespace condyle {

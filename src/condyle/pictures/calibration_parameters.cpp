@@ -7,6 +7,7 @@
 #include "condyle/calibration/shown_numbers.h"
 #include "condyle/calibration/told_parameter.h"
 #include "condyle/pictures/color_map.h"
+#include "condyle/pictures/fitted_words.h"
 #include "condyle/pictures/plot_calibration.h"
 
 namespace condyle {

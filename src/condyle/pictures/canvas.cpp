@@ -98,11 +98,11 @@ void Canvas::rectangle(const Frame& frame, Rgb color) {
 }
 
 int Canvas::text_width(const std::string& text, const TextStyle& style) {
-  return font(style.bold).width(text, style.size);
+  return shared_font(style.bold).width(text, style.size);
 }
 
 void Canvas::text(const Eigen::Vector2d& at, const std::string& text, const TextStyle& style) {
-  const TextMask letters = font(style.bold).render(text, style.size, style.halo);
+  const TextMask letters = shared_font(style.bold).render(text, style.size, style.halo);
   const double shift = style.align == Align::kLeft ? 0 : style.align == Align::kCenter ? 0.5 : 1;
   const int left =
       static_cast<int>(std::lround(at.x() - shift * letters.advance)) - letters.origin.x();

@@ -26,7 +26,7 @@ struct TextStyle {
 class Canvas {
  public:
   /// Draws into `image`, which must outlive the canvas.
-  explicit Canvas(Image& image) : image_(image), regular_(false), bold_(true) {}
+  explicit Canvas(Image& image) : image_(image) {}
 
   void line(const Eigen::Vector2d& a,
             const Eigen::Vector2d& b,
@@ -42,10 +42,8 @@ class Canvas {
 
  private:
   void blend(int x, int y, Rgb color, double opacity);
-  Font& font(bool bold) { return bold ? bold_ : regular_; }
 
   Image& image_;
-  Font regular_, bold_;
 };
 
 }  // namespace condyle

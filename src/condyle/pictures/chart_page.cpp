@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/pictures/fitted_words.h"
 #include "condyle/pictures/gnuplot_page.h"
 #include "condyle/pictures/page_marks.h"
-#include "condyle/pictures/text.h"
 
 namespace condyle {
 namespace {
@@ -225,11 +225,6 @@ std::string panel_script(const ChartPage& page, std::size_t index, PlotFormat fo
 }
 
 }  // namespace
-
-double words_width(const std::string& text, double size) {
-  Font font(false);
-  return font.width(text, static_cast<int>(std::ceil(kPixelPerPoint * size)));
-}
 
 double top_of_panels(const ChartPage& page) {
   const std::vector<KeyPlace> places = key_places(page);

@@ -67,9 +67,6 @@ void lay_in_grid(ChartPage& page, int columns, double panel_height);
                                              int columns,
                                              double panel_height);
 
-/// Width of words in regular letters of that size [pixel].
-[[nodiscard]] double words_width(const std::string& text, double size);
-
 [[nodiscard]] std::string gnuplot_script(const ChartPage& page, PlotFormat format);
 
 /// Throws as `plot` of a chart does.

@@ -6,22 +6,14 @@
 #include <cmath>
 #include <vector>
 
+#include "condyle/pictures/round_ticks.h"
+
 namespace condyle {
 namespace {
 
 using Eigen::Vector2d;
 
 constexpr double kTriangle = 15;  // high, in units of the page
-
-/// A step of 1, 2 or 5 times a power of ten that gives at most six ticks.
-double tick_step(double range) {
-  double step = std::pow(10.0, std::floor(std::log10(range / 5)));
-  for (const double factor : {2.0, 2.5, 2.0}) {
-    if (range / step <= 6) break;
-    step *= factor;
-  }
-  return step;
-}
 
 /// Two lines that end above `at`; where what the bar shows and its unit are too long for one line,
 /// the unit has one of its own, and what is still too long is set smaller or, where letters would be
@@ -70,13 +62,14 @@ void draw_color_bar(const Pen& pen, const ColorBar& bar, const Frame& wanted) {
   if (lift > 0) draw_triangle(pen, place, map_color(bar.map, 1), bar.above);
   const double words = place.top - lift;
   draw_heading(pen, bar, {place.left - 2 * pen.s, words - 15 * pen.s});
-  const double range = std::max(1e-9, bar.high - bar.low), step = tick_step(range);
-  for (double value = std::ceil(bar.low / step - 1e-6) * step; value <= bar.high + 1e-6 * range;
-       value += step) {
-    const double y = place.bottom - height * (value - bar.low) / range;
+  const double range = bar.high - bar.low;
+  std::vector<double> ticks = round_ticks(bar.low, bar.high, 6);
+  if (ticks.empty()) ticks = {bar.low};  // of no size
+  for (const double value : ticks) {
+    const double y = place.bottom - (range > 0 ? height * (value - bar.low) / range : 0);
     pen.canvas.line({place.right, y}, {place.right + 5 * pen.s, y}, pen.s, kInk);
-    pen.canvas.text({place.right + 9 * pen.s, y + 5 * pen.s},
-                    fmt::format("{:g}", std::round(value / step) * step + 0.0), pen.style(14));
+    pen.canvas.text({place.right + 9 * pen.s, y + 5 * pen.s}, fmt::format("{:.6g}", value),
+                    pen.style(14));
   }
 }
 

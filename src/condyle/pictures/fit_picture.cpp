@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "condyle/pictures/annotate.h"
 #include "condyle/pictures/color_bar.h"
 #include "condyle/pictures/fit_map.h"
 #include "condyle/pictures/renderer.h"
@@ -99,13 +100,6 @@ void draw_cross(const Pen& pen,
     }
 }
 
-void draw_words(const Pen& pen, const Page& page) {
-  TextStyle title = pen.style(23);
-  title.bold = true;
-  pen.canvas.text({30, 44}, capitalized(page.fitted.report->surface), title);
-  pen.canvas.text({30, 72}, page.caption, pen.style(16, kQuiet));
-}
-
 void draw_scale(const Pen& pen, double mm_per_pixel, double bottom) {
   const double pixels = 10 / mm_per_pixel;
   pen.canvas.rectangle({30, bottom - 32, 30 + pixels, bottom - 28}, kInk);
@@ -159,7 +153,7 @@ Image draw_page(Renderer& renderer, int slot, const Page& page) {
           panel.column * kPanelWidth, kHead + panel.row * kPanelHeight);
   Canvas canvas(image);
   const Pen pen{canvas, 1};
-  draw_words(pen, page);
+  draw_title(pen, width, capitalized(page.fitted.report->surface), page.caption);
   for (const Panel& panel : panels) {
     const Eigen::Vector2d corner(panel.column * kPanelWidth, kHead + panel.row * kPanelHeight);
     draw_cross(pen, corner + Eigen::Vector2d(60, kPanelHeight - 50), cameras[panel.side],

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "condyle/pictures/fitted_words.h"
 #include "condyle/pictures/gnuplot_page.h"
 
 namespace condyle {

@@ -7,24 +7,22 @@
 #include <string_view>
 
 #include "condyle/input_error.h"
+#include "condyle/pictures/fitted_words.h"
 #include "condyle/pictures/picture_error.h"
 #include "condyle/pictures/run_program.h"
-#include "condyle/pictures/text.h"
 #include "condyle/results/output_file.h"
 
 namespace condyle {
 namespace {
 
 constexpr double kLeastTitleSize = 11, kPdfTitleSize = 8.5;  // [point]
-constexpr int kTitleLine = 28;                               // [pixel]
 constexpr double kPdfInch = 7.0 / kPageWidth;  // of a pixel: 7 inch are two columns of a journal
 
+constexpr std::size_t kLongestTitle = 400;  // letters: more are on no line
+
 double widest(const std::vector<std::string>& lines, double size) {
-  Font font(true);
   double width = 0;
-  for (const std::string& line : lines)
-    width = std::max(width, static_cast<double>(font.width(
-                                line, static_cast<int>(std::ceil(kPixelPerPoint * size)))));
+  for (const std::string& line : lines) width = std::max(width, words_width(line, size, true));
   return width;
 }
 
@@ -42,21 +40,6 @@ std::string quoted_words(const std::string& text) {
       result += c;
   }
   return result + '"';
-}
-
-std::string shortened(const std::string& text, std::size_t most) {
-  std::size_t letters = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if ((static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U) continue;
-    if (letters++ == most) return text.substr(0, i) + "…";
-  }
-  return text;
-}
-
-std::size_t letters(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-  }));
 }
 
 std::string terminal(PlotFormat format, int width, int height) {
@@ -91,14 +74,14 @@ std::string plot_style(PlotFormat format, int width, int height) {
 
 Title page_title(const std::string& title, const std::string& what, double room) {
   if (title.empty()) return {{what}};
-  Title one{{title + ": " + what}};
+  const std::string first = shortened(title, kLongestTitle);
+  Title one{{first + ": " + what}};
   if (widest(one.lines, one.size) <= room) return one;
-  Title two{{title + ":", what}};
+  Title two{{first + ":", what}};
   while (two.size > kLeastTitleSize && widest(two.lines, two.size) > room) two.size -= 0.5;
-  for (std::string& line : two.lines) {
-    for (std::size_t n = letters(line); n > 1 && widest({line}, two.size) > room; --n)
-      line = shortened(line, n - 1);
-  }
+  for (std::string& line : two.lines)
+    line = cut_words(line, room,
+                     [&](const std::string& words) { return words_width(words, two.size, true); });
   return two;
 }
 

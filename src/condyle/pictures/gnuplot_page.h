@@ -15,6 +15,7 @@ namespace condyle {
 
 inline constexpr int kPageWidth = 1200, kHeadHeight = 80;  // [pixel]
 inline constexpr double kTitleSize = 16;                   // [point]
+inline constexpr int kTitleLine = 28;                      // [pixel]
 inline constexpr double kPixelPerPoint = 4.0 / 3;          // of gnuplot's PNG and SVG
 
 /// Okabe and Ito's colours for every kind of sight; lines beyond their number are dashed.
@@ -24,10 +25,6 @@ inline constexpr std::array<const char*, 8> kColors = {"#0072B2", "#D55E00", "#0
 /// In double quotes, with what gnuplot could take for an end, a command or a macro as octal numbers: within single quotes
 /// a text that begins with one ends at once (5.4).
 [[nodiscard]] std::string quoted_words(const std::string& text);
-/// Letters of UTF-8.
-[[nodiscard]] std::size_t letters(const std::string& text);
-/// At most `most` letters of UTF-8.
-[[nodiscard]] std::string shortened(const std::string& text, std::size_t most);
 
 /// Of a page of that size; in a PDF kPageWidth is the width of two columns of a journal.
 [[nodiscard]] std::string terminal(PlotFormat format, int width, int height);
@@ -36,7 +33,7 @@ inline constexpr std::array<const char*, 8> kColors = {"#0072B2", "#D55E00", "#0
 /// Borders, tics, grid, and what all panels of a page begin with.
 [[nodiscard]] std::string plot_style(PlotFormat format, int width, int height);
 
-/// The title in one line or, where that is too long, in two, smaller where it has to be.
+/// The title in one line or, where that is too long, in two, smaller where it has to be, and cut.
 struct Title {
   std::vector<std::string> lines;
   double size = kTitleSize;  ///< [point]

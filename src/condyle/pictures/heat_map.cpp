@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "condyle/pictures/color_map.h"
+#include "condyle/pictures/fitted_words.h"
 #include "condyle/pictures/gnuplot_page.h"
-#include "condyle/pictures/text.h"
 
 namespace condyle {
 namespace {
@@ -17,11 +17,6 @@ constexpr double kCellWidth = 37, kGroupGap = 12, kPanelGap = 40, kMargin = 22;
 constexpr double kTextSize = 10, kCellSize = 7.5, kNoteSize = 10;
 constexpr double kTitleHeight = 44, kNoteHeight = 20, kBarHeight = 11, kFoot = 74;
 constexpr double kHeadLine = 20;  // of a panel's title, and of what its columns are
-
-double width_of(const std::string& text, double size) {
-  Font font(false);
-  return font.width(text, static_cast<int>(std::ceil(kPixelPerPoint * size)));
-}
 
 double cell_height(const HeatMap& map) {
   if (map.rows.size() <= 12) return 26;
@@ -40,11 +35,12 @@ class Page {
     }
     panel_width_ = x;
     for (const HeatMap::Row& row : map.rows)
-      labels_ = std::max(labels_, width_of(row.name + "  " + row.note, kTextSize));
+      labels_ = std::max(labels_, words_width(row.name + "  " + row.note, kTextSize));
     for (const HeatMap::Column& column : map.columns)
-      names_ = std::max(names_, width_of(column.name, kTextSize));
+      names_ = std::max(names_, words_width(column.name, kTextSize));
     labels_ += kMargin + 12;
     names_ += 14;
+    title_ = page_title(map.title, map.what, width() - 2 * kMargin);
   }
 
   [[nodiscard]] std::size_t across() const { return std::min(map_.beside, map_.panels.size()); }
@@ -53,13 +49,18 @@ class Page {
   }
   [[nodiscard]] double width() const {
     const auto n = static_cast<double>(across());
-    double titles = width_of(map_.title, 1.1 * kTitleSize);
-    for (const std::string& note : map_.notes) titles = std::max(titles, width_of(note, kNoteSize));
+    double words = words_width(map_.what, 1.1 * kTitleSize);
+    for (const std::string& note : map_.notes)
+      words = std::max(words, words_width(note, kNoteSize));
     return std::max(labels_ + n * panel_width_ + (n - 1) * kPanelGap + kMargin,
-                    titles + 2 * kMargin);
+                    words + 2 * kMargin);
+  }
+  [[nodiscard]] const Title& title() const { return title_; }
+  [[nodiscard]] double title_height() const {
+    return kTitleHeight + kTitleLine * (static_cast<double>(title_.lines.size()) - 1);
   }
   [[nodiscard]] double head() const {
-    return kTitleHeight + kNoteHeight * static_cast<double>(map_.notes.size());
+    return title_height() + kNoteHeight * static_cast<double>(map_.notes.size());
   }
   [[nodiscard]] double grid_height() const {
     return cell_height(map_) * static_cast<double>(map_.rows.size());
@@ -84,6 +85,7 @@ class Page {
   const HeatMap& map_;
   std::vector<double> lefts_;
   double panel_width_ = 0, labels_ = 0, names_ = 0;
+  Title title_;
 };
 
 unsigned color_of(double t) {
@@ -112,8 +114,11 @@ class Script {
     for (std::size_t panel = 0; panel < map_.panels.size(); ++panel) add_panel(panel);
     add_bars();
     double y = 0.62 * kTitleHeight;
-    words(kMargin, y, map_.title, kTitleSize, "left", true);
-    y = kTitleHeight + 0.35 * kNoteHeight;
+    for (const std::string& line : page_.title().lines) {
+      words(kMargin, y, line, page_.title().size, "left", true);
+      y += kTitleLine;
+    }
+    y = page_.title_height() + 0.35 * kNoteHeight;
     for (const std::string& note : map_.notes) {
       words(kMargin, y, note, kNoteSize, "left", false, "#58606a");
       y += kNoteHeight;
@@ -175,7 +180,7 @@ class Script {
   void add_row_name(std::size_t r, double left, double y) {
     const std::string& note = map_.rows[r].note;
     words(left - 8, y, note, kTextSize, "right", false, "#8a929c");
-    words(left - 8 - width_of("  " + note, kTextSize), y, map_.rows[r].name, kTextSize, "right",
+    words(left - 8 - words_width("  " + note, kTextSize), y, map_.rows[r].name, kTextSize, "right",
           false);
   }
   void add_column_names(double left, double top) {
@@ -195,7 +200,7 @@ class Script {
         std::count_if(map_.columns.begin(), map_.columns.end(),
                       [scale](const HeatMap::Column& column) { return column.scale == scale; });
     const std::string title = full_title(map_.scales[scale]);
-    const bool fits = width_of(title, kTextSize) < kCellWidth * static_cast<double>(columns);
+    const bool fits = words_width(title, kTextSize) < kCellWidth * static_cast<double>(columns);
     return fits ? title : "[" + map_.scales[scale].unit + "]";
   }
   void add_value(double value, double largest, double left, double top) {

@@ -31,7 +31,7 @@ struct HeatMap {
     std::string title;
     std::vector<double> values;  ///< by rows; NaN: no number
   };
-  std::string title;
+  std::string title, what;         ///< what it is of, and what it shows
   std::vector<std::string> notes;  ///< lines below the title
   std::vector<Row> rows;
   std::vector<Column> columns;

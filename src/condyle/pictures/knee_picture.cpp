@@ -65,6 +65,11 @@ struct KneePictures::State {
   int ligaments = -1, contacts = -1, ellipses = -1, arrows = -1, crosses = -1, axes = -1;
   std::array<std::optional<Staging>, kViewCount> stagings;
   std::array<std::optional<Camera>, kViewCount> cameras;
+  struct Seen {
+    Eigen::Matrix3d R_VB;
+    std::vector<bool> insertions;
+  };
+  std::array<std::optional<Seen>, kViewCount> seen;  // of the pose before: of most views it stays
 
   State(const Run& r, const PictureOptions& o);
   [[nodiscard]] std::array<int, 2> bodies() const {
@@ -137,7 +142,11 @@ Scenery KneePictures::State::scenery(View view, const PoseResult& pose) {
   const int body = stage.tibia ? tibia_body(run.scene) : femur_body(run.scene);
   if (body < 0) return scenery;
   const Eigen::Matrix3d& R_PB = scenery.X_P[static_cast<std::size_t>(body)].R;
-  scenery.seen = seen_insertions(run.scene, body_meshes, body, scenery.camera.R_VP * R_PB);
+  const Eigen::Matrix3d R_VB = scenery.camera.R_VP * R_PB;
+  std::optional<Seen>& kept = seen[static_cast<std::size_t>(view)];
+  if (!kept || kept->R_VB != R_VB)
+    kept = Seen{R_VB, seen_insertions(run.scene, body_meshes, body, R_VB)};
+  scenery.seen = kept->insertions;
   return scenery;
 }
 

@@ -29,10 +29,6 @@ std::vector<double> swept_values(const Run& run) {
   return values;
 }
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 bool carries(const ComparedQuantity& quantity) {
   const double least = quantity.units == "N" ? 0.5 : 1e-6;
   const auto some = [least](double value) { return std::abs(value) > least; };
@@ -40,20 +36,30 @@ bool carries(const ComparedQuantity& quantity) {
   return std::any_of(a.begin(), a.end(), some) || std::any_of(b.begin(), b.end(), some);
 }
 
-/// Without what the label of the axis says already: "medial contact force" is medial.
-std::string short_title(std::string title) {
-  for (const char* word : {" contact force", " force", " contact"}) {
-    const std::size_t at = title.find(word);
-    if (at != std::string::npos) title.erase(at, std::string(word).size());
-  }
-  return title;
+/// The contact whose force the quantity is; none for other quantities.
+std::optional<std::size_t> contact_of_force(const Scene& scene, const ComparedQuantity& quantity) {
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i)
+    if (quantity.name == scene.contacts[i].name + " contact force") return i;
+  return std::nullopt;
 }
 
 /// The contact whose place on the tibia the quantity is; none for other quantities.
 std::optional<std::size_t> contact_of_place(const Scene& scene, const ComparedQuantity& quantity) {
   for (std::size_t i = 0; i < scene.contacts.size(); ++i)
-    if (quantity.name.rfind(scene.contacts[i].name + " contact, ", 0) == 0) return i;
+    if (quantity.name.starts_with(scene.contacts[i].name + " contact, ")) return i;
   return std::nullopt;
+}
+
+/// Without what the label of the axis says already: "medial contact force" is medial.
+std::string short_title(const Scene& scene, const ComparedQuantity& quantity) {
+  if (const auto contact = contact_of_force(scene, quantity)) return scene.contacts[*contact].name;
+  if (const auto contact = contact_of_place(scene, quantity)) {
+    const std::string& name = scene.contacts[*contact].name;
+    return name + quantity.name.substr(name.size() + std::string(" contact").size());
+  }
+  const std::string force = " force";
+  const std::size_t size = quantity.name.size();
+  return quantity.name.substr(0, quantity.name.ends_with(force) ? size - force.size() : size);
 }
 
 /// The quantities that `which` takes, each with a curve of ours and one of the reference.
@@ -64,7 +70,8 @@ Panel both(const Run& run,
   int color = 0;
   for (const ComparedQuantity& quantity : run.comparison()->quantities) {
     if (!which(quantity) || !carries(quantity)) continue;
-    Curve ours{short_title(quantity.name), swept_values(run), quantity.of(Variant::kOurs), color};
+    Curve ours{short_title(run.scene, quantity), swept_values(run), quantity.of(Variant::kOurs),
+               color};
     Curve reference{"", swept_values(run), quantity.of(Variant::kReference), color, true};
     if (const auto contact = contact_of_place(run.scene, quantity)) {
       ours = broken_at_jumps(std::move(ours), run.sweep, *contact);
@@ -125,11 +132,11 @@ void add_chart(std::vector<NamedChart>& charts,
 std::vector<NamedChart> comparison_charts(const Run& run) {
   std::vector<NamedChart> charts;
   if (!run.comparison()) return charts;
-  const auto is_place = [](const ComparedQuantity& q) {
-    return q.name.find(" contact, ") != std::string::npos;
+  const auto is_place = [&](const ComparedQuantity& q) {
+    return contact_of_place(run.scene, q).has_value();
   };
-  const auto is_contact_force = [](const ComparedQuantity& q) {
-    return ends_with(q.name, " contact force");
+  const auto is_contact_force = [&](const ComparedQuantity& q) {
+    return contact_of_force(run.scene, q).has_value();
   };
   add_chart(charts, run, "compare_joint", std::string("joint coordinates") + kDashed,
             {both(run, "Rotation [°]", [](const auto& q) { return q.units == "deg"; }),

@@ -135,7 +135,8 @@ std::optional<HeatMap> sensitivity_map(const Run& run) {
   const std::vector<std::size_t> rows =
       weightiest(count, kMostRows, [&](std::size_t j) { return effects.weight(j); });
   HeatMap map;
-  map.title = run.scene.title.empty() ? "What moves what" : run.scene.title + ": what moves what";
+  map.title = run.scene.title;
+  map.what = map.title.empty() ? "What moves what" : "what moves what";
   map.notes = {
       "What a typical change of each number, told after its name, does to the pose; "
       "contacts stay as they are."};

@@ -86,8 +86,12 @@ Image draw_strip(const Run& run,
     draw_contact_forces({on_panel, s}, panel.width, shown);
     paste(image, page, i * panel.width, top);
     draw_value(pen, {(i + 0.5) * panel.width, (kHead + 22) * s}, shown);
-    if (!common) common.emplace(shown);
+    if (!common) {
+      common.emplace(shown);
+      continue;
+    }
     common->overlap = std::max(common->overlap, shown.overlap);
+    common->marks.insert(common->marks.end(), shown.marks.begin(), shown.marks.end());
   }
   draw_page_words(pen, {options.width, options.height, s, {}}, *common);
   return page;

@@ -11,8 +11,8 @@ namespace condyle {
 /// A page that gives n poses room: more width for plateau and condyles than for the upright views.
 [[nodiscard]] PictureOptions strip_size(View view, std::size_t poses);
 
-/// `options.width` and `height` are those of the whole page. `poses` must have converged and not be
-/// empty. Throws as KneePictures does, and where the page leaves too little for each pose.
+/// `options.width` and `height` are those of the whole page. `poses` must have a place and not be
+/// empty; those that are no results have a sign. Throws as KneePictures does, and where the page leaves too little for each pose.
 [[nodiscard]] Image draw_strip(const Run& run,
                                View view,
                                const std::vector<std::size_t>& poses,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/pictures/fitted_words.h"
 #include "condyle/pictures/gnuplot_page.h"
 #include "condyle/pictures/plot_study.h"
 #include "condyle/results/study_shown.h"

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "condyle/pictures/fitted_words.h"
 #include "condyle/pictures/plot_study.h"
 #include "condyle/results/study_shown.h"
 #include "condyle/results/study_words.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "condyle/pictures/fitted_words.h"
 #include "condyle/pictures/gnuplot_page.h"
 #include "condyle/pictures/plot_study.h"
 #include "condyle/results/study_shown.h"

@@ -98,4 +98,9 @@ TextMask Font::render(const std::string& text, int size, int margin) {
   return mask;
 }
 
+Font& shared_font(bool bold) {
+  thread_local Font regular(false), heavy(true);
+  return bold ? heavy : regular;
+}
+
 }  // namespace condyle

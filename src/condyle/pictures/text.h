@@ -37,4 +37,7 @@ class Font {
   std::unique_ptr<State> state_;
 };
 
+/// The font of this thread, opened once. Throws as Font does.
+[[nodiscard]] Font& shared_font(bool bold);
+
 }  // namespace condyle

@@ -17,25 +17,35 @@ void replace_all(std::string& text, std::string_view from, const std::string& to
     text.replace(at, from.size(), to);
 }
 
-/// As a part of a page: no prologue, no name spaces, and names of its own, as several plots share
-/// one page.
-std::string inlined(std::string svg, const std::string& prefix) {
-  const std::size_t begin = svg.find("<svg");
-  if (begin == std::string::npos) return "";
-  svg.erase(0, begin);
+/// Attributes of one tag as part of a page: no name spaces, and names of its own, as several plots share one page.
+std::string inlined_tag(std::string tag, const std::string& prefix) {
   for (const char* quote : {"\"", "'"}) {
     const std::string q = quote;
-    replace_all(svg, " id=" + q, " id=" + q + prefix);
-    replace_all(svg, "href=" + q + "#", "href=" + q + "#" + prefix);
+    replace_all(tag, " id=" + q, " id=" + q + prefix);
+    replace_all(tag, "href=" + q + "#", "href=" + q + "#" + prefix);
     for (const char* space : {" xmlns=", " xmlns:xlink="}) {
-      const std::size_t at = svg.find(space + q);
+      const std::size_t at = tag.find(space + q);
       if (at == std::string::npos) continue;
-      const std::size_t end = svg.find(q, at + std::string(space).size() + 1);
-      svg.erase(at, end + 1 - at);
+      const std::size_t end = tag.find(q, at + std::string(space).size() + 1);
+      if (end != std::string::npos) tag.erase(at, end + 1 - at);
     }
   }
-  replace_all(svg, "url(#", "url(#" + prefix);
-  return svg;
+  replace_all(tag, "url(#", "url(#" + prefix);
+  return tag;
+}
+
+/// Without its prologue; words between tags stay as they are.
+std::string inlined(const std::string& svg, const std::string& prefix) {
+  std::size_t done = svg.find("<svg");
+  if (done == std::string::npos) return "";
+  std::string result;
+  for (;;) {
+    const std::size_t begin = svg.find('<', done), end = svg.find('>', begin);
+    if (end == std::string::npos) return result.append(svg, done);
+    result.append(svg, done, begin - done);
+    result += inlined_tag(svg.substr(begin, end + 1 - begin), prefix);
+    done = end + 1;
+  }
 }
 
 }  // namespace

@@ -24,7 +24,4 @@ struct SvgCurves {
 /// A short line in colour and dashes of a run, for legends.
 [[nodiscard]] std::string svg_swatch(std::size_t run);
 
-/// Round values from `low` to `high`, about `most` of them at most, ends within.
-[[nodiscard]] std::vector<double> round_ticks(double low, double high, int most);
-
 }  // namespace condyle

@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 
 constexpr double kWidest = 125;    // of a knee; epicondylar widths of men are 83 +- 4 [mm]
 constexpr double kGoodAxis = 1.5;  // rms of posterior condyles from their cylinders [mm]
-// Of the width of the bone: femoral condyles have radii of 0.22 to 0.27, the rims of a plateau 0.13.
+// Of the width of the bone; the rims of a plateau have radii of 0.13.
 constexpr double kMostRadius = 0.32;  // of condyles, of the width: femurs have 0.22 to 0.28
 constexpr double kLeastRadius = 0.17;
 // Of the radius: a femur goes on above the axis of its condyles; the back of a plateau, which may look like them where the

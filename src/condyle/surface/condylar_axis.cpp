@@ -17,6 +17,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kFirstAngle = 0.35, kLastAngle = 1.92;  // of posterior arcs, 0 distal [rad]
+
 /// A vertex in anatomical components (x anterior, y proximal, z lateral) with its normal and its
 /// area.
 struct Sample {
@@ -103,8 +105,8 @@ std::vector<Sample> condyle_samples(const std::vector<Sample>& all,
   for (const Sample& s : all) {
     const Vector3d q = c.from_axis(s.p);
     const double r = q.norm(), angle = angle_of(q.x(), q.y());
-    if (std::abs(r - c.radius[c.side(s.p)]) < band && s.n.dot(q) > 0.7 * r && angle > 0.35 &&
-        angle < 1.92)
+    if (std::abs(r - c.radius[c.side(s.p)]) < band && s.n.dot(q) > 0.7 * r && angle > kFirstAngle &&
+        angle < kLastAngle)
       kept.push_back(s);
   }
   return kept;
@@ -149,11 +151,10 @@ double rms_distance(const Cylinders& c, const std::vector<Sample>& samples) {
 /// Share of 18 steps of 5 degrees, on either side, in which samples lie.
 double covered(const Cylinders& c, const std::vector<Sample>& samples) {
   constexpr int kSteps = 18;
-  constexpr double kFirst = 0.35, kLast = 1.92;
   std::array<std::array<bool, kSteps>, 2> filled{};
   for (const Sample& s : samples) {
     const Vector3d q = c.from_axis(s.p);
-    const double at = (angle_of(q.x(), q.y()) - kFirst) / (kLast - kFirst);
+    const double at = (angle_of(q.x(), q.y()) - kFirstAngle) / (kLastAngle - kFirstAngle);
     filled[c.side(s.p)][std::clamp(static_cast<int>(at * kSteps), 0, kSteps - 1)] = true;
   }
   int count = 0;

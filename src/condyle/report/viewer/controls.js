@@ -59,7 +59,7 @@ function addToggles(bar, scene, data) {
 function addMarks(marks, most, unit) {
   for (const part of [0, 0.5, 1]) {
     const mark = document.createElement('span');
-    mark.textContent = `${(most * part).toFixed(most < 4 ? 1 : 0)} ${unit}`;
+    mark.textContent = `${Number((most * part).toPrecision(3))} ${unit}`;
     marks.append(mark);
   }
 }

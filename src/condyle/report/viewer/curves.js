@@ -34,18 +34,20 @@ function extent(values, zero) {
   return [low, high];
 }
 
-/// Pieces between poses that follow each other; a pose that is no result, or that is missing, parts them.
-function pathOf(xs, ys, broken, x, y) {
-  let path = '', open = false;
+/// Poses that follow each other, as lists of their numbers; one that is no result, or that is missing, parts them.
+function piecesOf(xs, ys, broken) {
+  const pieces = [];
+  let open = false;
   ys.forEach((value, i) => {
     if (value === null || xs[i] === null || broken[i] === 'no result') {
       open = false;
       return;
     }
-    path += `${open && broken[i] !== 'after a gap' ? 'L' : 'M'}${x(xs[i]).toFixed(1)} ${y(value).toFixed(1)}`;
+    if (!open || broken[i] === 'after a gap') pieces.push([]);
+    pieces.at(-1).push(i);
     open = true;
   });
-  return path;
+  return pieces;
 }
 
 /// `xs` and `ys` by pose, null where there is no number; `broken` says of a pose 'no result' or 'after a gap'. Returns
@@ -56,6 +58,7 @@ export function drawCurve({ xs, ys, broken, xLabel, what, zero }) {
   const end = WIDTH - RIGHT, floor = HEIGHT - BOTTOM;
   const x = (value) => LEFT + ((value - across[0]) / (across[1] - across[0])) * (end - LEFT);
   const y = (value) => floor + ((value - up[0]) / (up[1] - up[0])) * (TOP - floor);
+  const pieces = piecesOf(xs, ys, broken), point = (i) => `${x(xs[i]).toFixed(1)} ${y(ys[i]).toFixed(1)}`;
   const svg = element('svg', { class: 'curves', viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: 'img', 'aria-label': what });
   for (const tick of roundTicks(...up, 4)) {
     svg.append(element('path', { class: 'grid', d: `M${LEFT} ${y(tick)}H${end}` }),
@@ -67,10 +70,11 @@ export function drawCurve({ xs, ys, broken, xLabel, what, zero }) {
   }
   svg.append(element('path', { class: 'axis', d: `M${LEFT} ${TOP}V${floor}H${end}` }),
     element('text', { class: 'x', x: (LEFT + end) / 2, y: HEIGHT - 6 }, xLabel),
-    element('path', { class: 'line run1', d: pathOf(xs, ys, broken, x, y) }));
+    element('path', { class: 'line run1', d: pieces.map((piece) => 'M' + piece.map(point).join('L')).join('') }));
+  const circle = (i, kind) => svg.append(element('circle', { class: `point run1${kind}`, cx: x(xs[i]), cy: y(ys[i]), r: 3 }));
+  for (const piece of pieces) if (piece.length === 1) circle(piece[0], '');  // a point without neighbours is no line
   ys.forEach((value, i) => {
-    const alone = broken[i] === 'no result' || ys.length === 1;
-    if (value !== null && alone) svg.append(element('circle', { class: 'point run1 hollow', cx: x(xs[i]), cy: y(value), r: 3 }));
+    if (value !== null && xs[i] !== null && broken[i] === 'no result') circle(i, ' hollow');
   });
   const line = element('path', { class: 'now' }), dot = element('circle', { class: 'now', r: 4.5 });
   svg.append(line, dot);
