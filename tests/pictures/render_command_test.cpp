@@ -68,10 +68,9 @@ TEST_F(PictureCommands, PosesThatLieCloseHaveAPictureEach) {
 
 /// A scale of which the ends are neighbours among numbers has no steps that could be added up.
 TEST_F(PictureCommands, ValuesThatAreNeighboursHaveAPicture) {
-  const std::string loaded = test::with(test::kScene, "[0, 100, 0]", "[0, 1e-5, 0]");
-  write("near.toml",
-        test::with(test::with(loaded, "vary = \"bend\"", "vary = \"weight.scale\""),
-                   "from = 0\nto = 20\nstep = 5", "values = [1e7, 10000000.000000002]"));
+  const std::string loaded = with(test::kScene, "[0, 100, 0]", "[0, 1e-5, 0]");
+  write("near.toml", with(with(loaded, "vary = \"bend\"", "vary = \"weight.scale\""),
+                          "from = 0\nto = 20\nstep = 5", "values = [1e7, 10000000.000000002]"));
   ASSERT_EQ(run("sweep near.toml -o near.h5").code, 0);
   const Outcome one = run("render near.h5 -o near.png --view medial --at 1e7", "timeout 60 ");
   EXPECT_EQ(one.code, 0) << one.err;

@@ -176,7 +176,7 @@ Run beyond_edge_run() {
 }
 
 TEST(Views, TheKeyOfAStripIsThatOfAllItsPoses) {
-  const Run run = beyond_edge_run();
+  const condyle::Run run = beyond_edge_run();
   const PictureOptions size = strip_size(View::kMedial, 2);
   const auto key = [&](const std::vector<std::size_t>& poses) {
     const Image strip = draw_strip(run, View::kMedial, poses, size);
