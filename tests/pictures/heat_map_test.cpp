@@ -59,7 +59,9 @@ TEST(HeatMap, ALongTitleIsCutAndDoesNotWidenThePage) {
 }
 
 TEST(FittedWords, AreCutToTheLettersThatFit) {
-  const auto width = [](const std::string& text) { return 10.0 * letters(text); };
+  const auto width = [](const std::string& text) {
+    return 10.0 * static_cast<double>(letters(text));
+  };
   EXPECT_EQ(cut_words("knee", 40, width), "knee");
   EXPECT_EQ(cut_words("knees", 40, width), "kne…");
   EXPECT_EQ(cut_words("äöüß€", 40, width), "äöü…");

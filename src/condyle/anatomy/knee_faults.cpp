@@ -55,7 +55,7 @@ void check_cartilage(const TriangleMesh& cartilage,
   if (far > to_other[to_other.size() / 2])
     throw InputError(
         fmt::format("the {} cartilage lies on the other bone: the two cartilages are interchanged, "
-                    "or the bones",
+                    "or the bones, or the cartilage is of another knee or in another frame",
                     name));
   if (far > 0.2 * size)
     throw InputError(

@@ -11,6 +11,7 @@
 
 #include "condyle/app/begin_study.h"
 #include "condyle/app/commands.h"
+#include "condyle/app/files_to_write.h"
 #include "condyle/app/interrupt.h"
 #include "condyle/app/progress.h"
 #include "condyle/app/resume.h"
@@ -42,25 +43,20 @@ struct CalibrateCommand {
   bool suggest = false, resume = false;
 };
 
-std::vector<fs::path> files_to_write(const CalibrateCommand& command) {
-  std::vector<fs::path> files = {command.output, journal_path(command.output)};
-  for (const std::string* file :
-       {&command.fitted_scene, &command.table, &command.latex, &command.posterior})
-    if (!file->empty()) files.emplace_back(*file);
-  return files;
+std::vector<FileToWrite> files_to_write(const CalibrateCommand& command) {
+  return given_files({{command.output, ".h5"},
+                      {journal_path(command.output), ""},
+                      {command.fitted_scene, ".toml"},
+                      {command.table, ".csv"},
+                      {command.latex, ".tex"},
+                      {command.posterior, ".csv"}});
 }
 
 /// Each file to write is one of its own, can be written, and is none that is read.
 void check_files(const CalibrateCommand& command, const Scene& scene) {
-  const std::vector<fs::path> files = files_to_write(command);
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    check_output_file(files[i]);
-    refuse_to_overwrite_inputs(files[i], scene);
-    for (std::size_t k = 0; k < i; ++k)
-      if (fs::weakly_canonical(fs::absolute(files[i])) ==
-          fs::weakly_canonical(fs::absolute(files[k])))
-        throw InputError(files[i].string() + ": is to be written twice, expected a file for each");
-  }
+  const std::vector<FileToWrite> files = files_to_write(command);
+  check_files_to_write(files);
+  for (const FileToWrite& file : files) refuse_to_overwrite_inputs(file.path, scene);
   expect_calibration_journal(journal_path(command.output));
 }
 

@@ -86,6 +86,10 @@ int run_check(const CheckOptions& options) {
   print_meshes(scene, bones);
   for (const std::string& line : describe_wrap_fits(scene)) tell("{}\n", line);
   const std::vector<std::string> remarks = start_warnings(scene, surfaces, bones);
+  std::vector<const FitReport*> reports;
+  for (const FittedSurface& surface : surfaces)
+    if (surface.report) reports.push_back(&*surface.report);
+  for (const std::string& line : fit_warnings(reports)) tell("warning: {}\n", line);
   for (const std::string& line : remarks) tell("{}\n", line);
   if (scene.simulation) print_mass(scene);
 #ifdef CONDYLE_PICTURES

@@ -77,7 +77,11 @@ int import_model(ImportCommand& command) {
   const OsimKnee knee = find_knee(model, file, command.knee);
   const OsimScene scene = osim_scene(model, knee, file, command.output, command.scene);
   refuse_to_overwrite(command.output, scene.used);
-  for (const OsimMovedMesh& moved : scene.meshes) check_output_file(moved.file);
+  for (const OsimMovedMesh& moved : scene.meshes) {
+    check_output_file(moved.file, ".ply");
+    refuse_to_overwrite(moved.file, scene.used);
+    refuse_to_overwrite(moved.file, {file});
+  }
   for (const OsimMovedMesh& moved : scene.meshes) write_output_file(moved.file, ply(moved.mesh));
   write_output_file(command.output, scene.text);
   tell("{}: joint {}, femur {}, tibia {}, {} ligaments\n", file, knee.joint, knee.femur.name,

@@ -9,12 +9,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "condyle/app/command_tree.h"
 #include "condyle/app/standard_streams.h"
+#include "condyle/app/talk.h"
 #include "condyle/app/tell.h"
 #include "condyle/build_info.h"
 #include "condyle/input_error.h"
@@ -126,7 +128,16 @@ int run_program(const std::string& name,
   const CLI::App* command = find_command(program, argc, argv);
   const std::string help = fmt::format(" ({}{} --help says more)", name,
                                        command == nullptr ? "" : " " + command->get_name());
-  check_options(program, command, argc, argv, help);
+  Talk talk;  // that of the command is not known before its options are
+  talk.json = std::find(argv, argv + argc, std::string("--json")) != argv + argc;
+  if (command != nullptr) talk.command = command->get_name();
+  const auto refuse = [&](const std::function<void()>& check) {
+    (void)run_telling_errors(talk, [&] {
+      check();
+      return 0;
+    });
+  };
+  refuse([&] { check_options(program, command, argc, argv, help); });
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
@@ -134,7 +145,7 @@ int run_program(const std::string& name,
     (void)program.exit(asked, text, text);
     tell("{}", text.str());
   } catch (const CLI::ParseError& error) {
-    throw InputError(words_of(error, program) + help);
+    refuse([&] { throw InputError(words_of(error, program) + help); });
   }
   finish_standard_output();
   return status;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "condyle/app/begin_study.h"
+#include "condyle/app/files_to_write.h"
 #include "condyle/app/progress.h"
 #include "condyle/input_error.h"
 #include "condyle/results/output_file.h"
@@ -24,23 +25,19 @@ void check_study_options(const StudyCommand& command) {
     refuse("--part writes no tables, expected --bands, --indices and --table with --merge");
 }
 
-std::vector<fs::path> study_files_to_write(const StudyCommand& command) {
-  std::vector<fs::path> files = {command.output};
-  for (const std::string* file : {&command.bands, &command.indices, &command.table})
-    if (!file->empty()) files.emplace_back(*file);
-  return files;
+std::vector<FileToWrite> study_files_to_write(const StudyCommand& command) {
+  return given_files({{command.output, ".h5"},
+                      {command.bands, ".csv"},
+                      {command.indices, ".csv"},
+                      {command.table, ".csv"}});
 }
 
 void check_study_files(const StudyCommand& command, const ReadStudy& read) {
-  const std::vector<fs::path> files = study_files_to_write(command);
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    check_output_file(files[i]);
-    refuse_to_overwrite(files[i], {read.study.file, read.study.table});
-    for (const Scene& scene : read.scenes) refuse_to_overwrite_inputs(files[i], scene);
-    for (std::size_t k = 0; k < i; ++k)
-      if (fs::weakly_canonical(fs::absolute(files[i])) ==
-          fs::weakly_canonical(fs::absolute(files[k])))
-        throw InputError(files[i].string() + ": is to be written twice, expected a file for each");
+  const std::vector<FileToWrite> files = study_files_to_write(command);
+  check_files_to_write(files);
+  for (const FileToWrite& file : files) {
+    refuse_to_overwrite(file.path, {read.study.file, read.study.table});
+    for (const Scene& scene : read.scenes) refuse_to_overwrite_inputs(file.path, scene);
   }
 }
 

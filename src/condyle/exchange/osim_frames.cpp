@@ -36,7 +36,12 @@ std::string absolute(const std::string& path, const std::string& owner) {
 }  // namespace
 
 OsimFrames::OsimFrames(const OsimModel& model, std::string file)
-    : model_(model), file_(std::move(file)) {}
+    : model_(model), file_(std::move(file)) {
+  for (const OsimFrame& frame : model.frames) {
+    by_path_[frame.path].push_back(&frame);
+    by_name_[frame.name].push_back(&frame);
+  }
+}
 
 bool OsimFrames::is_body(const std::string& name) const {
   return name == "ground" ||
@@ -62,11 +67,11 @@ OsimPlace OsimFrames::find(const std::string& path,
   if (depth > kDeepest)
     throw InputError(fmt::format("{}: {}: the frame {} is fixed to itself", file_, who, path));
   const std::string place = absolute(path, owner), name = last_of(path);
-  std::vector<const OsimFrame*> namesakes;
-  for (const OsimFrame& frame : model_.frames) {
-    if (frame.path == place) return at(frame, depth);
-    if (frame.name == name) namesakes.push_back(&frame);
-  }
+  if (const auto here = by_path_.find(place); here != by_path_.end())
+    return at(*here->second.front(), depth);
+  const auto named = by_name_.find(name);
+  const std::vector<const OsimFrame*> namesakes =
+      named == by_name_.end() ? std::vector<const OsimFrame*>() : named->second;
   if (place == "/ground" || (is_body(last_of(place)) && place == "/bodyset/" + last_of(place)))
     return {last_of(place), {}};
   if (is_body(name) && namesakes.empty()) return {name, {}};
@@ -78,23 +83,29 @@ OsimPlace OsimFrames::find(const std::string& path,
                                namesakes.empty() ? "is no frame" : "are several frames", asked));
 }
 
+const OsimFrames::Welds& OsimFrames::welds() const {
+  if (welds_) return *welds_;
+  welds_.emplace();
+  for (const OsimJoint& joint : model_.joints) {
+    if (joint.type != "WeldJoint") continue;
+    const OsimPlace parent = find(joint.parent, joint.path, "WeldJoint \"" + joint.name + "\"");
+    const OsimPlace child = find(joint.child, joint.path, "WeldJoint \"" + joint.name + "\"");
+    const RigidTransform X = parent.X * child.X.inverse();  // of the child's body in the parent's
+    (*welds_)[parent.body].push_back({child.body, X});
+    (*welds_)[child.body].push_back({parent.body, X.inverse()});
+  }
+  return *welds_;
+}
+
 std::map<std::string, RigidTransform> OsimFrames::welded_to(const std::string& root) const {
   std::map<std::string, RigidTransform> poses = {{root, {}}};
-  for (bool grew = true; grew;) {
-    grew = false;
-    for (const OsimJoint& joint : model_.joints) {
-      if (joint.type != "WeldJoint") continue;
-      const OsimPlace parent = find(joint.parent, joint.path, "WeldJoint \"" + joint.name + "\"");
-      const OsimPlace child = find(joint.child, joint.path, "WeldJoint \"" + joint.name + "\"");
-      const RigidTransform X = parent.X * child.X.inverse();  // of the child's body in the parent's
-      const bool has_parent = poses.count(parent.body) > 0, has_child = poses.count(child.body) > 0;
-      if (has_parent == has_child) continue;
-      if (has_parent)
-        poses[child.body] = poses[parent.body] * X;
-      else
-        poses[parent.body] = poses[child.body] * X.inverse();
-      grew = true;
-    }
+  std::vector<std::string> reached = {root};
+  for (std::size_t next = 0; next < reached.size(); ++next) {
+    const auto from = welds().find(reached[next]);
+    if (from == welds().end()) continue;
+    const RigidTransform X = poses.at(reached[next]);
+    for (const Weld& weld : from->second)
+      if (poses.emplace(weld.other, X * weld.X_other).second) reached.push_back(weld.other);
   }
   return poses;
 }

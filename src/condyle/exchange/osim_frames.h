@@ -4,6 +4,7 @@
 /// together.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,8 +42,18 @@ class OsimFrames {
   [[nodiscard]] OsimPlace at(const OsimFrame& frame, int depth) const;
   [[nodiscard]] bool is_body(const std::string& name) const;
 
+  /// A WeldJoint, seen from one of its bodies.
+  struct Weld {
+    std::string other;
+    RigidTransform X_other;  ///< in the frame of the one [mm]
+  };
+  using Welds = std::map<std::string, std::vector<Weld>>;
+  [[nodiscard]] const Welds& welds() const;
+
   const OsimModel& model_;
   std::string file_;
+  std::map<std::string, std::vector<const OsimFrame*>> by_path_, by_name_;
+  mutable std::optional<Welds> welds_;  // of each body, once they are asked for
 };
 
 }  // namespace condyle

@@ -49,6 +49,9 @@ class KneeFinder {
   [[nodiscard]] OsimKnee find() {
     if (model_.ligaments.empty())
       fail("holds no Blankevoort1991Ligament, expected an OpenSim-JAM model of a knee");
+    for (const OsimLigament& ligament : model_.ligaments)
+      spans_.push_back({place_of(frames_, ligament, ligament.points.front()).body,
+                        place_of(frames_, ligament, ligament.points.back()).body});
     choose_joint();
     find_contacts();
     find_anatomy();
@@ -73,13 +76,10 @@ class KneeFinder {
   [[nodiscard]] int spanning_ligaments(const OsimJoint& joint) const {
     const Poses a = frames_.welded_to(parent_of(joint).body),
                 b = frames_.welded_to(child_of(joint).body);
-    int count = 0;
-    for (const OsimLigament& ligament : model_.ligaments) {
-      const std::string first = place_of(frames_, ligament, ligament.points.front()).body,
-                        last = place_of(frames_, ligament, ligament.points.back()).body;
-      if ((a.count(first) && b.count(last)) || (b.count(first) && a.count(last))) ++count;
-    }
-    return count;
+    return static_cast<int>(
+        std::count_if(spans_.begin(), spans_.end(), [&](const std::array<std::string, 2>& ends) {
+          return (a.count(ends[0]) && b.count(ends[1])) || (b.count(ends[0]) && a.count(ends[1]));
+        }));
   }
 
   [[nodiscard]] std::vector<std::string> spanned_joints() const {
@@ -287,6 +287,11 @@ class KneeFinder {
       knee_.notes.push_back(fmt::format("coordinates of {} {}, taken as 0 in the start pose",
                                         joint_->type, joint_->name));
     }
+    for (const auto* axes : {&joint_->rotations, &joint_->translations})
+      for (const OsimAxis& axis : *axes)
+        if (!axis.unread.empty())
+          knee_.notes.push_back(fmt::format("a {} of {} {}, taken as 0 in the start pose",
+                                            axis.unread, joint_->type, joint_->name));
     for (const auto& [type, count] : model_.other_forces)
       knee_.notes.push_back(fmt::format("{} {}", count, type));
     std::vector<std::string> others;
@@ -300,6 +305,7 @@ class KneeFinder {
   const std::string& file_;
   const OsimOptions& options_;
   OsimFrames frames_;
+  std::vector<std::array<std::string, 2>> spans_;  ///< bodies of the ends of each ligament
   const OsimJoint* joint_ = nullptr;
   bool reversed_ = false;
   Poses in_femur_, in_tibia_;  ///< bodies welded to either bone

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <pugixml.hpp>
 #include <sstream>
 
@@ -30,6 +31,9 @@ class OsimReader {
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw InputError(file_ + ": no such file, expected an OpenSim model (.osim)");
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (const std::size_t begin = text.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+        begin != std::string::npos && text[begin] != '<')
+      throw InputError(file_ + ": begins with no tag, expected an OpenSim model (XML)");
     const pugi::xml_parse_result result = document_.load_buffer(text.data(), text.size());
     if (!result) {
       const auto end = text.begin() + std::min<std::ptrdiff_t>(result.offset, std::ssize(text));
@@ -212,33 +216,55 @@ class OsimReader {
       OsimAxis& out = turns ? joint.rotations[index] : joint.translations[index];
       out.axis = vector_or(axis, "axis", Vector3d::Zero());
       const auto coordinate = coordinates.find(text(axis, "coordinates"));
-      out.value = (turns ? 1 : kMillimetre) *
-                  value_of(axis, coordinate == coordinates.end() ? 0 : coordinate->second);
+      const std::optional<double> value =
+          value_of(axis, coordinate == coordinates.end() ? 0 : coordinate->second);
+      out.value = (turns ? 1 : kMillimetre) * value.value_or(0);
+      if (!value && out.axis != Vector3d::Zero()) out.unread = function_kind(axis);
     }
     out_.joints.push_back(joint);
   }
 
-  /// The function that `holder` holds, at x. It serves a first estimate of the pose only, so a
-  /// spline counts as straight between its points.
-  [[nodiscard]] double value_of(const xml_node& holder, double x) const {
-    if (const xml_node f = holder.child("LinearFunction")) {
-      const std::vector<double> c = numbers(f, "coefficients");
-      return c.size() == 2 ? c[0] * x + c[1] : 0;
+  /// Of the child that is neither its coordinates nor its axis; empty where there is none.
+  [[nodiscard]] static std::string function_kind(const xml_node& axis) {
+    for (const xml_node child : axis.children()) {
+      const std::string kind = child.name();
+      if (!kind.empty() && kind != "coordinates" && kind != "axis") return kind;
     }
-    if (const xml_node f = holder.child("Constant")) return number_or(f, "value", 0);
-    if (const xml_node f = holder.child("MultiplierFunction"))
-      return number_or(f, "scale", 1) * value_of(f.child("function"), x);
-    for (const char* kind : {"SimmSpline", "NaturalCubicSpline", "PiecewiseLinearFunction"}) {
-      if (const xml_node f = holder.child(kind))
-        return between(numbers(f, "x"), numbers(f, "y"), x);
-    }
-    return 0;
+    return "";
   }
 
-  [[nodiscard]] static double between(const std::vector<double>& xs,
-                                      const std::vector<double>& ys,
-                                      double x) {
-    if (xs.empty() || xs.size() != ys.size()) return 0;
+  /// The function that `holder` holds, at x. It serves a first estimate of the pose only, so a
+  /// spline counts as straight between its points. Nothing for a function of another kind.
+  [[nodiscard]] std::optional<double> value_of(xml_node holder, double x) const {
+    double factor = 1;
+    while (const xml_node f = holder.child("MultiplierFunction")) {
+      factor *= number_or(f, "scale", 1);
+      holder = f.child("function");
+    }
+    if (const xml_node f = holder.child("Constant")) return factor * number_or(f, "value", 0);
+    for (const char* kind : {"LinearFunction", "PolynomialFunction"}) {
+      const xml_node f = holder.child(kind);
+      if (!f) continue;
+      double y = 0;  // the greatest power comes first
+      for (const double c : numbers(f, "coefficients")) y = y * x + c;
+      return factor * y;
+    }
+    for (const char* kind :
+         {"SimmSpline", "NaturalCubicSpline", "GCVSpline", "PiecewiseLinearFunction"}) {
+      if (const xml_node f = holder.child(kind))
+        return factor * between(f, numbers(f, "x"), numbers(f, "y"), x);
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] double between(const xml_node& function,
+                               const std::vector<double>& xs,
+                               const std::vector<double>& ys,
+                               double x) const {
+    if (xs.empty() || xs.size() != ys.size())
+      fail(function, "expected as many numbers y as x, and at least one");
+    for (std::size_t i = 1; i < xs.size(); ++i)
+      if (!(xs[i] > xs[i - 1])) fail(function, "expected numbers x that rise");
     for (std::size_t i = 1; i < xs.size(); ++i) {
       if (x > xs[i] && i + 1 < xs.size()) continue;
       return ys[i - 1] + (ys[i] - ys[i - 1]) * (x - xs[i - 1]) / (xs[i] - xs[i - 1]);

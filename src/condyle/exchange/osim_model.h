@@ -26,7 +26,8 @@ struct OsimFrame {
 /// One of the six axes of a CustomJoint, and how far it has gone at the default coordinates.
 struct OsimAxis {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();
-  double value = 0;  ///< [rad] or [mm]
+  double value = 0;    ///< [rad] or [mm]
+  std::string unread;  ///< the kind of a function that is not known, whose value is taken as 0
 };
 
 struct OsimJoint {

@@ -117,12 +117,6 @@ class SceneText {
                          [&](const auto& entry) { return entry.second == path; });
     };
     for (int k = 2; taken(); ++k) path = folder / fmt::format("{}_{}.ply", stem, k);
-    std::error_code unknown;
-    if (fs::equivalent(path, found(placed.mesh), unknown)) {
-      throw InputError(path.string() +
-                       ": is read by this command and would be overwritten, "
-                       "expected another name of the scene");
-    }
     moved_[placed.mesh.path] = path;
     out_.meshes.push_back({path, placed_mesh(placed)});
     return path;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -68,6 +69,56 @@ double enclosed_volume(const TriangleMesh& mesh,
   return volume;
 }
 
+/// A closed component, and its volume as its triangles were in the file, most of them.
+struct Shell {
+  std::vector<int> members;
+  double volume = 0;
+  bool outward = true;  ///< as it shall be
+};
+
+/// Solid angle of a triangle seen from the origin, signed [van Oosterom and Strackee 1983].
+double solid_angle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const double x = a.norm(), y = b.norm(), z = c.norm();
+  return 2 * std::atan2(a.dot(b.cross(c)), x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y);
+}
+
+bool contains(const TriangleMesh& mesh,
+              const std::vector<bool>& turned,
+              const Shell& shell,
+              const Vector3d& p) {
+  double sum = 0;
+  for (const int t : shell.members) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const double part =
+        solid_angle(mesh.vertices[a] - p, mesh.vertices[b] - p, mesh.vertices[c] - p);
+    sum += turned[t] ? -part : part;
+  }
+  return std::abs(sum) > 2 * std::numbers::pi;
+}
+
+/// A shell within another one, of triangles that face the other way in the file, is the wall of a cavity: it faces the other
+/// way still. All others face outward.
+void orient_shells(const TriangleMesh& mesh,
+                   std::vector<bool>& turned,
+                   std::vector<Shell>& shells) {
+  std::stable_sort(shells.begin(), shells.end(), [](const Shell& a, const Shell& b) {
+    return std::abs(a.volume) > std::abs(b.volume);
+  });
+  const std::vector<bool> in_file = turned;
+  for (std::size_t i = 0; i < shells.size(); ++i) {
+    Shell& shell = shells[i];
+    const Vector3d& p = mesh.vertices[mesh.triangles[shell.members.front()][0]];
+    for (std::size_t k = i; k-- > 0;) {  // the least that may hold it first
+      if ((shells[k].volume < 0) == (shell.volume < 0) || !contains(mesh, in_file, shells[k], p))
+        continue;
+      shell.outward = !shells[k].outward;
+      break;
+    }
+    if ((shell.volume < 0) == shell.outward)
+      for (const int t : shell.members) turned[t] = !turned[t];
+  }
+}
+
 }  // namespace
 
 std::vector<int> find_components(const TriangleMesh& mesh, const TriangleLinks& links) {
@@ -102,15 +153,16 @@ int orient_components(TriangleMesh& mesh,
     for (std::size_t k = 0; k < 3; ++k) boundary[component[t]] += links.is_boundary(t, k);
 
   closed.assign(n, false);
+  std::vector<Shell> shells;
   std::vector<bool> turned(mesh.triangles.size(), false), seen(mesh.triangles.size(), false);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (seen[t]) continue;
     const std::vector<int> members = make_consistent(links, static_cast<int>(t), turned, seen);
     const int c = component[t];
     closed[c] = boundary[c] <= kPinholes * static_cast<double>(members.size());
-    if (closed[c] && enclosed_volume(mesh, members, turned) < 0)
-      for (const int m : members) turned[m] = !turned[m];
+    if (closed[c]) shells.push_back({members, enclosed_volume(mesh, members, turned)});
   }
+  orient_shells(mesh, turned, shells);
   for (std::size_t t = 0; t < turned.size(); ++t)
     if (turned[t]) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
   return static_cast<int>(std::count(turned.begin(), turned.end(), true));

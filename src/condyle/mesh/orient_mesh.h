@@ -15,7 +15,8 @@ namespace condyle {
                                                const TriangleLinks& links);
 
 /// Turns triangles so that each component is consistent in itself (the fewest are turned) and
-/// closed components face outward. Returns how many triangles end up turned; fills `closed` per
+/// closed components face out of the solid: outward, but for the wall of a cavity, a component within another one whose
+/// triangles face the other way in the file. Returns how many triangles end up turned; fills `closed` per
 /// component.
 int orient_components(TriangleMesh& mesh,
                       const TriangleLinks& links,

@@ -34,7 +34,7 @@ class BestSoFar {
  public:
   BestSoFar(const std::string& output, bool resume, const Scene& scene, const KneeModel& knee) {
     if (output.empty()) return;
-    check_output_file(output);
+    check_output_file(output, ".h5");
     refuse_to_overwrite_inputs(output, scene);
     const std::filesystem::path path = journal_path(output);
     expect_calibration_journal(path);
@@ -133,6 +133,7 @@ std::shared_ptr<RunData> calibrate_scene(const py::object& scene_or_model,
 py::tuple fitted_scene(const RunData& run) {
   const CalibrationResult* result = run.computed().calibration();
   if (result == nullptr) throw InputError("run: not of a calibration, expected one");
+  if (run.model()) run.model()->fitted().knee.expect_writable("a scene file");
   const Scene& scene = run.computed().scene;
   return py::make_tuple(fitted_scene_text(scene, *result), scene.file.string());
 }

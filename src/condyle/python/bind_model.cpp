@@ -130,7 +130,7 @@ void bind_model(py::module_& m) {
           "warnings",
           [](const ModelPointer& model) {
             {
-              const py::gil_scoped_release unlocked;
+              const Unlocked unlocked;
               (void)model->empty_run();
             }
             const std::vector<std::string>& start = model->empty_run().start;

@@ -1,6 +1,7 @@
 #include "condyle/input_error.h"
 #include "condyle/python/arguments.h"
 #include "condyle/python/bindings.h"
+#include "condyle/python/interrupts.h"
 #include "condyle/results/make_run.h"
 #include "condyle/results/output_file.h"
 #include "condyle/results/run_view.h"
@@ -21,7 +22,7 @@ const char* kind_name(RunKind kind) {
 /// want meanwhile in another thread.
 const ColumnTree* tree_at(const RunPointer& run, const std::string& place) {
   if (run->model() && RunData::is_of_model(place)) {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     (void)run->model()->empty_run();
   }
   return run->tree_at(place);
@@ -82,7 +83,7 @@ void save(const RunPointer& run, const py::object& file) {
   if (run->model()) run->model()->fitted().knee.expect_writable("a file");
   Run complete;
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     complete = run->complete();
   }
   refuse_to_overwrite_inputs(name, complete.scene);

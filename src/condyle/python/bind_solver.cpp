@@ -1,3 +1,4 @@
+#include "condyle/python/interrupts.h"
 #include "condyle/python/solver.h"
 
 #include "condyle/python/arguments.h"
@@ -11,7 +12,7 @@ using SolverPointer = std::shared_ptr<KneeSolver>;
 
 SolverPointer make_solver(const py::object& model, bool stability) {
   auto knee = model_of(model);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return std::make_shared<KneeSolver>(std::move(knee), stability);
 }
 
@@ -20,7 +21,7 @@ std::shared_ptr<PoseData> solve(const SolverPointer& solver,
                                 const py::kwargs& named) {
   const KneeSolver::Use use(*solver);
   const Drive asked = drive_from(*solver->knee(), solver->drive(), drive, named);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return solver->solve(asked);
 }
 

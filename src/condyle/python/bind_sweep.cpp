@@ -44,7 +44,7 @@ std::shared_ptr<RunData> sweep_model(const py::object& scene_or_model,
   if (!run.scene.sweep->sensitivities.empty())
     check_no_own_loads(*knee, "derivatives ([sweep] sensitivities)");
   const OnProgress tell = progress_of(progress);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   const int total =
       run.scene.sweep->arc_length ? 0 : static_cast<int>(run.scene.sweep->values.size());
   int done = 0;

@@ -4,6 +4,7 @@
 #include "condyle/input_error.h"
 #include "condyle/python/arguments.h"
 #include "condyle/python/bindings.h"
+#include "condyle/python/interrupts.h"
 #include "condyle/python/solver.h"
 #include "condyle/python/thread_seconds.h"
 
@@ -29,7 +30,7 @@ double seconds_of_solves(const std::shared_ptr<KneeSolver>& solver,
   const KneeSolver::Use use(*solver);
   const DrivenNumber& number = driven(*solver->knee(), name);
   const std::vector<double> all = inside(values, number);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return solver->seconds_of(number.which, all);
 }
 
@@ -38,7 +39,7 @@ double seconds_of_sweep(const std::shared_ptr<KneeModel>& knee,
                         const py::object& values) {
   const DrivenNumber& number = driven(*knee, name);
   const std::vector<double> all = inside(values, number);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   const double begin = thread_seconds();
   EquilibriumSolver solver(knee->model(), knee->covers(), equilibrium_options(knee->scene()));
   const SweepResult result = sweep(solver, number.which, all);

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void check_output(const StudyToCompute& asked) {
-  check_output_file(asked.output);
+  check_output_file(asked.output, ".h5");
   refuse_to_overwrite(asked.output, {asked.read.study.file, asked.read.study.table});
   for (const Scene& scene : asked.read.scenes) refuse_to_overwrite_inputs(asked.output, scene);
 }

@@ -16,7 +16,36 @@ namespace {
 /// Ends work that is asked to stop.
 struct Stopped {};
 
+std::atomic<int> computing = 0;  // how many have let go of the lock
+std::atomic<bool> ending = false;
+
 }  // namespace
+
+Unlocked::Unlocked() {
+  ++computing;
+  if (interpreter_ends()) {
+    --computing;
+    throw std::runtime_error("the interpreter ends");
+  }
+  release_.emplace();
+}
+
+Unlocked::~Unlocked() {
+  release_.reset();
+  --computing;
+}
+
+bool interpreter_ends() { return ending; }
+
+void wait_at_exit() {
+  py::module_::import("atexit").attr("register")(py::cpp_function([] {
+    const py::gil_scoped_release unlocked;
+    ending = true;
+    while (computing > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }));
+  py::module_::import("os").attr("register_at_fork")(
+      py::arg("after_in_child") = py::cpp_function([] { computing = 0; }));  // of other threads
+}
 
 void run_interruptibly(const std::function<void(const std::function<bool()>& should_stop)>& work) {
   std::atomic<bool> stop = false;
@@ -26,10 +55,10 @@ void run_interruptibly(const std::function<void(const std::function<bool()>& sho
   std::exception_ptr failure;
   std::optional<py::error_already_set> raised;
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     std::thread worker([&] {
       try {
-        work([&] { return stop.load(); });
+        work([&] { return stop || interpreter_ends(); });
       } catch (...) {
         failure = std::current_exception();
       }
@@ -55,6 +84,7 @@ void run_interruptibly(const std::function<void(const std::function<bool()>& sho
   }
   if (raised) throw std::move(*raised);
   if (failure) std::rethrow_exception(failure);
+  if (interpreter_ends()) throw std::runtime_error("the interpreter ends");
 }
 
 void run_interruptibly(const OnProgress& progress,

@@ -1,20 +1,43 @@
 #pragma once
 
-/// Ctrl-C while C++ computes: Python's handlers run only where its interpreter is asked.
+/// C++ that computes without the interpreter's lock: Ctrl-C, as Python's handlers run only where its interpreter is asked, and
+/// an interpreter that ends while a daemon thread computes.
 
 #include <pybind11/pybind11.h>
 
 #include <chrono>
 #include <functional>
+#include <optional>
+#include <stdexcept>
 
 #include "condyle/on_progress.h"
 
 namespace condyle::python {
 
+/// Without the interpreter's lock, which the caller has and gets back. The interpreter does not end meanwhile: a thread that
+/// waits for its lock then would be ended within C++. Throws where it is about to end.
+class Unlocked {
+ public:
+  Unlocked();
+  Unlocked(const Unlocked&) = delete;
+  Unlocked& operator=(const Unlocked&) = delete;
+  ~Unlocked();
+
+ private:
+  std::optional<pybind11::gil_scoped_release> release_;
+};
+
+/// Is the interpreter about to end? What computes then has to stop.
+[[nodiscard]] bool interpreter_ends();
+
+/// Has the end of the interpreter wait for what computes.
+void wait_at_exit();
+
 /// For loops without the interpreter's lock: asks it some twenty times a second. Throws what a handler raises.
 class Interrupts {
  public:
   void check() {
+    if (interpreter_ends()) throw std::runtime_error("the interpreter ends");
     const auto now = std::chrono::steady_clock::now();
     if (now < next_) return;
     next_ = now + std::chrono::milliseconds(50);

@@ -10,6 +10,7 @@
 #include "condyle/input_error.h"
 #include "condyle/math/rotation.h"
 #include "condyle/results/make_run.h"
+#include "condyle/specimen/check_layers.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/specimen/fit_wraps.h"
 
@@ -106,13 +107,19 @@ std::shared_ptr<const FittedKnee> with_surfaces_of(const FittedKnee& fitted,
   const auto same = [&](const SurfaceDescription& a, const SurfaceDescription& b) {
     return same_shape(a, b) && same_mesh(fitted.knee.scene.mesh_of(a), scene.scene.mesh_of(b));
   };
+  const auto same_layers = [&] {  // a patch under a layer is fitted to its very edge
+    for (int i = 0; i < static_cast<int>(asked.size()); ++i)
+      if (carries_layer(fitted.knee.scene, i) != carries_layer(scene.scene, i)) return false;
+    return true;
+  };
   const bool by_joint = std::any_of(asked.begin(), asked.end(), [](const auto& surface) {
     return surface.patch.compartment.has_value();
   });
-  if (!std::equal(known.begin(), known.end(), asked.begin(), asked.end(), same) ||
+  if (!std::equal(known.begin(), known.end(), asked.begin(), asked.end(), same) || !same_layers() ||
       (by_joint && !same_joint(fitted.knee.scene.joint, scene.scene.joint)))
     throw InputError("surfaces: fitted for another scene, expected those of condyle.fit(scene)");
   auto knee = std::make_shared<FittedKnee>(FittedKnee{scene, fitted.surfaces, fitted.meshes});
+  check_layers(knee->knee.scene, knee->surfaces);
   fit_wraps(knee->knee.scene, knee->surfaces);
   return knee;
 }

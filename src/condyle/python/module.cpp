@@ -1,8 +1,10 @@
 #include "condyle/python/bindings.h"
+#include "condyle/python/interrupts.h"
 
 PYBIND11_MODULE(_condyle, m) {
   using namespace condyle::python;
   m.doc() = "The compiled part of condyle; its names are those of the package condyle.";
+  wait_at_exit();
   bind_errors(m);
   bind_build_info(m);
   bind_scene(m);

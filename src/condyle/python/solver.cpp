@@ -5,6 +5,7 @@
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/input_error.h"
 #include "condyle/python/arguments.h"
+#include "condyle/python/interrupts.h"
 #include "condyle/python/thread_seconds.h"
 
 namespace condyle::python {
@@ -143,7 +144,7 @@ std::shared_ptr<PoseData> solve_once(const std::shared_ptr<KneeModel>& knee,
                                      const py::object& drive,
                                      const py::kwargs& named) {
   const Drive asked = drive_from(*knee, drive_of(*knee->model()), drive, named);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return std::make_shared<PoseData>(knee, knee->solve_anew(asked));
 }
 

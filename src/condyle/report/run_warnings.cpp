@@ -31,24 +31,25 @@ void add_remarks(const Run& run, std::vector<std::string>& warnings) {
   }
 }
 
-/// Notes on a mesh come with each patch of it.
-void add_fit_warnings(const Run& run, std::vector<std::string>& warnings) {
+}  // namespace
+
+std::vector<std::string> fit_warnings(const std::vector<const FitReport*>& reports) {
   std::vector<std::pair<std::string, std::string>> said;  // warning, surfaces
-  for (const RunPatch& patch : run.patches) {
-    for (const std::string& note : patch.report.notes) {
+  for (const FitReport* report : reports) {
+    for (const std::string& note : report->notes) {
       if (!is_warning(note)) continue;
       const auto same =
           std::find_if(said.begin(), said.end(), [&](const auto& s) { return s.first == note; });
       if (same == said.end())
-        said.emplace_back(note, patch.surface);
+        said.emplace_back(note, report->surface);
       else
-        same->second += ", " + patch.surface;
+        same->second += ", " + report->surface;
     }
   }
+  std::vector<std::string> warnings;
   for (const auto& [note, surfaces] : said) warnings.push_back(surfaces + ": " + bare(note));
+  return warnings;
 }
-
-}  // namespace
 
 bool is_warning(const std::string& line) { return line.rfind(kWarning, 0) == 0; }
 
@@ -56,7 +57,9 @@ std::vector<std::string> start_and_fit_warnings(const Run& run) {
   std::vector<std::string> warnings;
   for (const std::string& line : run.start)
     if (is_warning(line)) warnings.push_back(bare(line));
-  add_fit_warnings(run, warnings);
+  std::vector<const FitReport*> reports;
+  for (const RunPatch& patch : run.patches) reports.push_back(&patch.report);
+  for (std::string& line : fit_warnings(reports)) warnings.push_back(std::move(line));
   return warnings;
 }
 

@@ -36,6 +36,9 @@ struct CommandSummary {
 /// Whether a line of a fit's notes, or about the start, is a warning.
 [[nodiscard]] bool is_warning(const std::string& line);
 
+/// Warnings of fits, with the names of their surfaces; one that several patches of a mesh share is said once.
+[[nodiscard]] std::vector<std::string> fit_warnings(const std::vector<const FitReport*>& reports);
+
 /// Warnings of the start and of the fit; one that several patches of a mesh share is said once.
 [[nodiscard]] std::vector<std::string> start_and_fit_warnings(const Run& run);
 

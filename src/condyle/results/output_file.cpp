@@ -101,7 +101,8 @@ bool ends_like_another_kind(const fs::path& path, const std::string& own) {
                                               ".json", ".mot",  ".mp4",  ".obj",  ".off",  ".osim",
                                               ".pdf",  ".ply",  ".png",  ".sto",  ".stl",  ".svg",
                                               ".tif",  ".tiff", ".toml", ".vtp",  ".webp"};
-  const std::string ending = path.extension().string();
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return ending != own && known.contains(ending);
 }
 

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 
+#include "condyle/input_error.h"
 #include "condyle/results/study_groups.h"
 
 namespace condyle {
 
 StudyColumns::StudyColumns(const std::filesystem::path& path, ReadBy by)
-    : reader_(path, by),
+    : path_(path),
+      state_(file_state(path)),
+      reader_(path, by),
       view_(read_study_in(reader_.root())),
       outputs_(reader_.root().open("outputs")) {
   const Hdf5Group root = reader_.root();
@@ -25,7 +28,15 @@ void StudyColumns::read_output(const std::string& name) {
   ColumnTree& outputs = columns_.make_group("outputs");
   const bool there =
       std::find(outputs.names.begin(), outputs.names.end(), name) != outputs.names.end();
-  if (there && outputs.column(name) == nullptr) outputs.columns[name] = read_column(outputs_, name);
+  if (!there || outputs.column(name) != nullptr) return;
+  expect_unchanged();
+  outputs.columns[name] = read_column(outputs_, name);
+}
+
+void StudyColumns::expect_unchanged() const {
+  if (is_written_into(state_, file_state(path_)))
+    throw InputError(path_.string() +
+                     ": has been written into since it was opened, expected it as it was");
 }
 
 const ColumnTree& StudyColumns::tree_at(const std::string& place) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "condyle/results/column_tree.h"
+#include "condyle/results/file_state.h"
 #include "condyle/results/hdf5_file.h"
 #include "condyle/results/read_by.h"
 #include "condyle/results/study_file.h"
@@ -25,14 +26,18 @@ class StudyColumns {
   StudyColumns(const std::filesystem::path& path, ReadBy by);
   friend std::shared_ptr<StudyColumns> open_study(const std::filesystem::path& path, ReadBy by);
   void read_output(const std::string& name);
+  void expect_unchanged() const;
 
+  std::filesystem::path path_;
+  FileState state_;  // as it was opened
   Hdf5Reader reader_;
   StudyView view_;
   Hdf5Group outputs_;
   ColumnTree columns_;
 };
 
-/// Throws InputError for a file that is missing, damaged, or no study; so does tree_at of it where what it reads is damaged.
+/// Throws InputError for a file that is missing, damaged, or no study; so does tree_at of it where what it reads is damaged, or
+/// the file is not as it was when it was opened.
 [[nodiscard]] std::shared_ptr<StudyColumns> open_study(const std::filesystem::path& path,
                                                        ReadBy by = ReadBy::kProcessOfItsOwn);
 

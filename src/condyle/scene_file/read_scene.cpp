@@ -63,6 +63,8 @@ std::string text_of(const std::filesystem::path& file, const std::string& expect
   if (text.str().starts_with("\x89HDF"))
     throw InputError(name + ": is a result (HDF5), expected " + expected +
                      "; condyle plot and condyle report show results");
+  if (text.str().find('\0') != std::string::npos)
+    throw InputError(name + ": holds bytes that are no text, expected " + expected);
   return text.str();
 }
 

@@ -11,6 +11,8 @@
 namespace condyle {
 namespace {
 
+constexpr const char* kThickLayer = "warning: a layer of ";
+
 constexpr double kMost = 0.25, kSome = 0.05;  // of the known part of a patch
 
 /// "1.5 mm at (1.0, 2.0, 3.0) mm".
@@ -45,10 +47,10 @@ void check_layer(const Scene& scene, std::size_t index, FittedSurface& fitted) {
         place_of_layer(scene, index), thickness / scene.length_to_mm, 100 * fold.share(),
         least_radius(fold)));
   if (fold.share() > kSome && fitted.report)
-    fitted.report->notes.push_back(fmt::format(
-        "warning: a layer of {:g} mm is thicker than the radius of curvature on {:.0f} % of the "
-        "patch, the least is {}: pressures there mean nothing",
-        thickness, 100 * fold.share(), least_radius(fold)));
+    fitted.report->notes.push_back(
+        fmt::format("{}{:g} mm is thicker than the radius of curvature on {:.0f} % of the "
+                    "patch, the least is {}: pressures there mean nothing",
+                    kThickLayer, thickness, 100 * fold.share(), least_radius(fold)));
 }
 
 }  // namespace
@@ -61,6 +63,10 @@ bool carries_layer(const Scene& scene, int surface) {
 }
 
 void check_layers(const Scene& scene, std::vector<FittedSurface>& surfaces) {
+  for (FittedSurface& fitted : surfaces)
+    if (fitted.report)
+      std::erase_if(fitted.report->notes,
+                    [](const std::string& note) { return note.starts_with(kThickLayer); });
   std::vector<bool> done(surfaces.size());
   for (const ContactDescription& contact : scene.contacts) {
     if (!contact.layer) continue;

@@ -43,6 +43,7 @@ class Scene(Table):
     def __init__(self, *, folder: Union[str, os.PathLike] = ".", **keys: Any) -> None:
         """`folder`: where paths of meshes start."""
         self._file = os.path.join(os.fspath(folder), "<Scene>")
+        self._folder = os.getcwd()  # where its file is told from
         self._read: Optional[tuple[str, Any]] = None  # the text that it was read from, and what that said
         super().__init__(**keys)
 
@@ -58,7 +59,7 @@ class Scene(Table):
         if check:
             ParsedScene(_utf8(text), file, True, {}, {})
         try:
-            tables = tomllib.loads(text)
+            tables = tomllib.loads(text.removeprefix("\ufeff"))
         except tomllib.TOMLDecodeError as error:
             raise InputError(f"{file}: {error}, expected TOML") from None
         scene = cls(**{_PLURALS.get(key, key): value for key, value in tables.items()})
@@ -77,7 +78,11 @@ class Scene(Table):
     def save(self, path: Union[str, os.PathLike]) -> None:
         """Write it to a file. Relative paths of meshes and measurements are told from the folder of that file, where it is
         another one than that of the scene. Raises InputError where the file cannot be written."""
-        write_scene_text(_utf8(self.to_toml()), self._file, path)
+        write_scene_text(_utf8(self.to_toml()), self._place(), path)
+
+    def _place(self) -> str:
+        """Its file, from where we are now."""
+        return self._file if self._folder == os.getcwd() else os.path.join(self._folder, self._file)
 
     def _text(self, functions_too: bool) -> str:
         return self._read[0] if self._read is not None and self._is_as_read() else self._toml(functions_too)
@@ -100,7 +105,7 @@ class Scene(Table):
     def _parsed(self) -> ParsedScene:
         """As the reader understands it, with its functions."""
         text = self._text(functions_too=True)
-        file = self._file
+        file = self._place()
         if self._read is not None and not self._is_as_read():
             file = os.path.join(os.path.dirname(file), "<Scene>")
         laws = {ligament.name: ligament.law for ligament in self.ligaments or () if _is_function(ligament.law)}
