@@ -319,7 +319,7 @@ TEST_F(CommandLine, WritesNoPngUnderTheNameOfAnotherFormat) {
 #endif
 
 TEST_F(CommandLine, WritesNoResultUnderTheNameOfAnotherFormat) {
-  for (const char* file : {"other.toml", "femur.stl", "page.html"})
+  for (const char* file : {"other.toml", "femur.stl", "FEMUR.STL", "page.html"})
     expect_bad_input(run(std::string("sweep knee.toml -o ") + file),
                      std::string(file) + ": expected a name that ends in .h5");
 }

@@ -91,6 +91,17 @@ TEST_F(CommandLine, TellsAScriptAboutBadInput) {
   EXPECT_EQ("condyle: " + json["error"].get<std::string>() + "\n", outcome.err);
 }
 
+TEST_F(CommandLine, TellsAScriptAboutOptionsToo) {
+  for (const char* line : {"sweep knee.toml --json", "sweep --json -o run.h5",
+                           "sweep knee.toml -o run.h5 --json --form 0"}) {
+    const Outcome outcome = run(line);
+    EXPECT_EQ(outcome.code, 1) << line;
+    const Json json = Json::parse(outcome.out);
+    EXPECT_EQ(json["command"], "sweep");
+    EXPECT_EQ("condyle: " + json["error"].get<std::string>() + "\n", outcome.err);
+  }
+}
+
 TEST_F(CommandLine, RemembersTheMeshesByTheirChecksum) {
   // A tetrahedron; what sha256sum says of it is asked of sha256sum.
   write("bone.obj", "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");

@@ -153,6 +153,10 @@ TEST_F(CalibrateCommand, RefusesBadInputInOneLineAndWritesNothing) {
                    "knee.toml: is read by this command, expected another file to write");
   expect_bad_input(run("calibrate knee.toml -o fit.h5 --table ./fit.h5"),
                    "./fit.h5: is to be written twice, expected a file for each");
+  expect_bad_input(run("calibrate knee.toml -o fit.h5 --scene other.h5"),
+                   "other.h5: expected a name that ends in .toml");
+  expect_bad_input(run("calibrate knee.toml -o fit.h5 --posterior FEMUR.STL"),
+                   "FEMUR.STL: expected a name that ends in .csv");
   write("fit.h5.journal", "my diary\n");
   expect_bad_input(run("calibrate knee.toml -o fit.h5"),
                    "fit.h5.journal: is no journal of a calibration, expected this name to be free "

@@ -2,6 +2,8 @@
 
 #include "app/run_program.h"
 #include "calibration/small_calibration.h"
+#include "condyle/exchange/ply_file.h"
+#include "condyle/mesh_files/load_mesh.h"
 #include "results/made_up_run.h"
 
 namespace condyle {
@@ -145,6 +147,28 @@ TEST_F(Exchange, ImportsOverNoMeshOfTheModel) {
   EXPECT_EQ(fs::file_size(folder_ / "meshes" / "femur.stl"), size);
   EXPECT_EQ(fs::file_size(folder_ / "model" / "femur.stl"), size);
   EXPECT_FALSE(fs::exists(folder_ / "scene.h5") || fs::exists(folder_ / "scene.csv"));
+
+  // A mesh that the model moves would be written as scene_NAME.ply: here the bone has that name.
+  const std::string taken = "scene_femur_cartilage.ply";
+  std::ofstream(folder_ / "model" / taken)
+      << ply(load_mesh(CONDYLE_SOURCE_DIR "/meshes/femur.stl", 1));
+  const std::string before = test::contents(folder_ / "model" / taken);
+  std::string model = test::contents(folder_ / "model" / "knee.osim");
+  const std::string scale = "<scale_factors>0.001 0.001 0.001</scale_factors>",
+                    mesh = "<mesh_file>";
+  model = with(model, scale + mesh + "../../meshes/femur.stl", scale + mesh + taken);
+  const std::string place =
+      "\"femur_cartilage\">\n<socket_frame>/bodyset/femur_distal_r</socket_frame>\n<location>0 0";
+  model = with(model, place + " 0", place + ".002 0");
+  for (std::size_t at; (at = model.find("../../meshes")) != std::string::npos;)
+    model.replace(at, 12, CONDYLE_SOURCE_DIR "/meshes");
+  write("model/moved.osim", model);
+  const Outcome over = run("import model/moved.osim -o model/scene.toml");
+  EXPECT_EQ(over.code, 1);
+  EXPECT_NE(over.err.find(taken + ": is read by this command"), std::string::npos) << over.err;
+  EXPECT_EQ(test::contents(folder_ / "model" / taken), before);
+  EXPECT_FALSE(fs::exists(folder_ / "model" / "scene.toml"));
+  EXPECT_EQ(run("import model/moved.osim -o model/other.toml").code, 0);
 }
 
 // The commands of docs/exchange.md.

@@ -80,6 +80,24 @@ TEST(CleanMesh, TurnsAClosedSurfaceOutward) {
   EXPECT_NEAR(enclosed_volume(clean.mesh), 1000, 1e-9);  // side³, positive: outward
 }
 
+// A marrow cavity weighs nothing; a solid within it, and one that its file has face as the outer one does, are solids.
+TEST(CleanMesh, TheWallOfACavityFacesIntoIt) {
+  const auto inward = [](TriangleMesh shell) {
+    for (auto& t : shell.triangles) std::swap(t[1], t[2]);
+    return shell;
+  };
+  TriangleMesh hollow = cube(10);
+  append(hollow, inward(cube(6, {2, 2, 2})));
+  EXPECT_NEAR(enclosed_volume(clean_mesh(hollow).mesh), 1000 - 216, 1e-9);
+  EXPECT_NEAR(enclosed_volume(clean_mesh(inward(hollow)).mesh), 1000 - 216, 1e-9);
+  TriangleMesh nested = hollow;
+  append(nested, cube(4, {3, 3, 3}));
+  EXPECT_NEAR(enclosed_volume(clean_mesh(nested).mesh), 1000 - 216 + 64, 1e-9);
+  TriangleMesh beside = cube(10);
+  append(beside, inward(cube(6, {12, 2, 2})));
+  EXPECT_NEAR(enclosed_volume(clean_mesh(beside).mesh), 1000 + 216, 1e-9);
+}
+
 TEST(CleanMesh, TurnsTheFewTrianglesThatDisagree) {
   TriangleMesh mesh = cube(10);
   for (const int t : {2, 7, 8}) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);

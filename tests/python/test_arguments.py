@@ -59,6 +59,22 @@ class Arguments(unittest.TestCase):
         with self.assertRaisesRegex(condyle.InputError, "fitted for another scene"):
             condyle.Model(scene, surfaces)
 
+    def test_surfaces_serve_contacts_of_the_law_they_were_fitted_for(self):
+        scene = condyle.read_scene(knees.PHANTOM)
+        rigid = condyle.fit(scene)
+        for surface in scene.surfaces:
+            surface.modulus, surface.poisson, surface.layer = 5, 0.45, 3
+        for contact in scene.contacts:
+            contact.law = "layer"
+        with self.assertRaisesRegex(condyle.InputError, "fitted for another scene"):
+            condyle.Model(scene, rigid)
+        layered = condyle.fit(scene)
+        condyle.Model(scene, layered)
+        for surface in scene.surfaces:
+            surface.layer = 25
+        with self.assertRaisesRegex(condyle.InputError, "layer = 25, expected a thickness less"):
+            condyle.Model(scene, layered)
+
     def test_values_are_those_that_a_scene_may_have(self):
         with self.assertRaisesRegex(condyle.InputError, "one turn"):
             condyle.sweep(knees.phantom(), [0, 720])

@@ -84,6 +84,8 @@ class Calibrations(Folder):
         self.assertIsNone(run.posterior)
         with self.assertRaisesRegex(condyle.InputError, "aACL|input|read|over"):
             condyle.calibrate(scene, output=scene.calibrate.measurements)
+        with self.assertRaisesRegex(condyle.InputError, "expected a name that ends in .h5"):
+            condyle.calibrate(scene, output=self.folder / "fit.toml")
         self.assertIn("anterior_drawer", (self.folder / "table.csv").read_text())
 
     def test_ctrl_c_ends_it(self):

@@ -202,6 +202,25 @@ class Changing(unittest.TestCase):
             self.assertEqual(condyle.read_scene(path), knees.spring())
             subprocess.run([knees.PROGRAM, "check", path], check=True, capture_output=True)
 
+    def test_a_scene_keeps_its_folder_when_the_working_folder_changes(self):
+        here = os.getcwd()
+        scene = condyle.read_scene(os.path.relpath(knees.PHANTOM))
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                os.chdir(folder)
+                scene.check()
+                scene.save("there.toml")
+                condyle.read_scene("there.toml").check()
+            finally:
+                os.chdir(here)
+        scene.check()
+
+    def test_a_byte_order_mark_is_no_part_of_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "mark.toml"
+            path.write_text("\ufeff" + knees.spring().to_toml(), encoding="utf-8")
+            self.assertEqual(condyle.read_scene(path), knees.spring())
+
     def test_save_into_another_folder_finds_its_meshes(self):
         read, changed = condyle.read_scene(knees.PHANTOM), condyle.read_scene(knees.PHANTOM)
         changed.ligaments["aACL"].stiffness = 4000

@@ -175,6 +175,27 @@ class Studies(Folder):
         with self.assertRaisesRegex(condyle.InputError, "is a scene"):
             condyle.study(KNEE)
 
+    def test_a_file_of_another_kind_is_no_output(self):
+        other = self.folder / "other.toml"
+        knees.ball_on_ball().save(other)
+        before = other.read_bytes()
+        for name in (other, self.folder / "femur.STL", self.folder / "table.csv"):
+            with self.assertRaisesRegex(condyle.InputError, "expected a name that ends in .h5"):
+                condyle.study(text(samples=8), output=name)
+        self.assertEqual(other.read_bytes(), before)
+
+    def test_a_file_that_is_written_into_is_not_read_on(self):
+        path, other = self.folder / "a.h5", self.folder / "b.h5"
+        condyle.study(text(samples=8), output=path)
+        condyle.study(text(samples=16), output=other)
+        study, replaced = condyle.open_study(path), condyle.open_study(other)
+        with open(path, "r+b") as file:
+            file.truncate(3000)
+        with self.assertRaisesRegex(condyle.InputError, "a.h5: has been written into"):
+            study["outputs/aACL.force"]
+        other.unlink()  # what is held open is as it was
+        self.assertEqual(replaced["outputs/aACL.force"].shape[0], 16)
+
     def test_files_that_are_no_studies(self):
         run, cut = self.folder / "run.h5", self.folder / "cut.h5"
         condyle.sweep(knees.ball_on_ball()).save(run)

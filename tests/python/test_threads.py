@@ -1,7 +1,10 @@
 """Several threads on one model, and what interrupts."""
 
 import os
+import pathlib
 import signal
+import subprocess
+import sys
 import threading
 import time
 import unittest
@@ -42,6 +45,25 @@ class Threads(unittest.TestCase):
         one = [model.solve(flexion=v).translation for v in values[::4]]
         for many in in_threads(8, lambda i: [model.solve(flexion=v).translation for v in values[::4]]):
             np.testing.assert_array_equal(many, one)
+
+    def test_the_interpreter_ends_while_daemon_threads_compute(self):
+        for scene in ("knees.ball_on_ball()", "knees.spring(law=lambda L: (100 * L - 1000, 100, 50 * (L - 10) ** 2))"):
+            script = f"""
+import threading
+import condyle, knees
+model, begun = condyle.Model({scene}), threading.Event()
+def work():
+    solver = condyle.Solver(model)
+    while True:
+        condyle.sweep(model, [0, 1] * 20000, progress=lambda *_: begun.set())
+        solver.solve()
+for _ in range(3):
+    threading.Thread(target=work, daemon=True).start()
+begun.wait()
+"""
+            done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120,
+                                  cwd=pathlib.Path(knees.__file__).parent)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), scene)
 
     def test_solvers_of_threads_do_not_see_each_others_numbers(self):
         model = knees.phantom()

@@ -196,6 +196,8 @@ TEST_F(StudyCommandLine, RefusesBadInputInOneLineAndWritesNothing) {
   const std::string read = "is read by this command, expected another file to write";
   expect_bad_input(study("-o study.toml"), "study.toml: expected a name that ends in .h5");
   expect_bad_input(study("-o s.h5 --bands knee.toml"), "knee.toml: " + read);
+  expect_bad_input(study("-o s.h5 --table other.h5"),
+                   "other.h5: expected a name that ends in .csv");
   expect_bad_input(study("-o s.h5 --bands ./s.h5"),
                    "./s.h5: is to be written twice, expected a file for each");
   expect_bad_input(study("-o no/s.h5"), "no/s.h5: there is no folder no, expected one that exists");

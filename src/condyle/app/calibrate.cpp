@@ -55,8 +55,8 @@ std::vector<FileToWrite> files_to_write(const CalibrateCommand& command) {
 /// Each file to write is one of its own, can be written, and is none that is read.
 void check_files(const CalibrateCommand& command, const Scene& scene) {
   const std::vector<FileToWrite> files = files_to_write(command);
-  check_files_to_write(files);
   for (const FileToWrite& file : files) refuse_to_overwrite_inputs(file.path, scene);
+  check_files_to_write(files);
   expect_calibration_journal(journal_path(command.output));
 }
 

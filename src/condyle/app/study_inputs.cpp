@@ -34,11 +34,11 @@ std::vector<FileToWrite> study_files_to_write(const StudyCommand& command) {
 
 void check_study_files(const StudyCommand& command, const ReadStudy& read) {
   const std::vector<FileToWrite> files = study_files_to_write(command);
-  check_files_to_write(files);
   for (const FileToWrite& file : files) {
     refuse_to_overwrite(file.path, {read.study.file, read.study.table});
     for (const Scene& scene : read.scenes) refuse_to_overwrite_inputs(file.path, scene);
   }
+  check_files_to_write(files);
 }
 
 void change_as_asked(const StudyCommand& command, StudyDescription& study) {

@@ -25,7 +25,7 @@ Unlocked::Unlocked() {
   ++computing;
   if (interpreter_ends()) {
     --computing;
-    throw std::runtime_error("the interpreter ends");
+    end_thread();
   }
   release_.emplace();
 }
@@ -36,6 +36,11 @@ Unlocked::~Unlocked() {
 }
 
 bool interpreter_ends() { return ending; }
+
+void end_thread() {
+  PyErr_SetNone(PyExc_SystemExit);
+  throw py::error_already_set();
+}
 
 void wait_at_exit() {
   py::module_::import("atexit").attr("register")(py::cpp_function([] {
@@ -84,7 +89,7 @@ void run_interruptibly(const std::function<void(const std::function<bool()>& sho
   }
   if (raised) throw std::move(*raised);
   if (failure) std::rethrow_exception(failure);
-  if (interpreter_ends()) throw std::runtime_error("the interpreter ends");
+  if (interpreter_ends()) end_thread();
 }
 
 void run_interruptibly(const OnProgress& progress,

@@ -8,14 +8,13 @@
 #include <chrono>
 #include <functional>
 #include <optional>
-#include <stdexcept>
 
 #include "condyle/on_progress.h"
 
 namespace condyle::python {
 
 /// Without the interpreter's lock, which the caller has and gets back. The interpreter does not end meanwhile: a thread that
-/// waits for its lock then would be ended within C++. Throws where it is about to end.
+/// waits for its lock then would be ended within C++. Ends the thread where it is about to end.
 class Unlocked {
  public:
   Unlocked();
@@ -29,6 +28,8 @@ class Unlocked {
 
 /// Is the interpreter about to end? What computes then has to stop.
 [[nodiscard]] bool interpreter_ends();
+/// Ends a Python thread without a word, under the interpreter's lock: SystemExit.
+[[noreturn]] void end_thread();
 
 /// Has the end of the interpreter wait for what computes.
 void wait_at_exit();
@@ -37,11 +38,11 @@ void wait_at_exit();
 class Interrupts {
  public:
   void check() {
-    if (interpreter_ends()) throw std::runtime_error("the interpreter ends");
     const auto now = std::chrono::steady_clock::now();
     if (now < next_) return;
     next_ = now + std::chrono::milliseconds(50);
     const pybind11::gil_scoped_acquire lock;
+    if (interpreter_ends()) end_thread();
     if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
   }
 
