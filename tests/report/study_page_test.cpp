@@ -73,6 +73,22 @@ TEST(StudyPage, TellsWhatExplainsWhatTheGreatestFirst) {
   EXPECT_FALSE(has(others, "At some poses, with intervals"));
 }
 
+// Four samples may give a first index of 0.69 beside a total one of 0.21.
+TEST(StudyPage, AnIndexThatMayBeAnythingIsNotNamed) {
+  StudyView study = test::made_up_study();
+  EXPECT_FALSE(has(page_of_study(study), kTooFewSamples));
+  for (auto* indices : {&study.all.effects[3].first, &study.all.effects[3].total})
+    for (IndexEstimate& index : (*indices)[4]) index = {0.99, 0.2, 1.3};
+  const std::string page = page_of_study(study);
+  EXPECT_TRUE(has(page, kTooFewSamples));
+  EXPECT_FALSE(has(page, "anterior drawer by aMCL strain (99 %)"));
+  EXPECT_TRUE(has(page, "anterior drawer by "));
+  for (const EffectSize& effect : largest_effects(study.all.effects[3], 0))
+    EXPECT_NE(effect.parameter, 4U);
+  const std::vector<std::string> lines = study_lines(study);
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), std::string("  ") + kTooFewSamples), 1);
+}
+
 TEST(StudyPage, EffectsOverTheSweepAreWeightedByVariance) {
   StudyView study = test::made_up_study();
   std::vector<double>& sd = study.all.bands[0].sd;

@@ -64,7 +64,11 @@ FittedLabel fitted(const Pen& pen,
   return label;
 }
 
-void draw_ligament_labels(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
+/// Where they stand.
+std::vector<Frame> draw_ligament_labels(const Pen& pen,
+                                        const PageLayout& page,
+                                        const Scenery& scenery) {
+  std::vector<Frame> taken;
   const Frame& d = page.drawing;
   const std::vector<LigamentLabel> labels = ligament_labels(scenery, d);
   std::vector<Vector2d> anchors;
@@ -82,7 +86,12 @@ void draw_ligament_labels(const Pen& pen, const PageLayout& page, const Scenery&
     quiet.halo = words.style.halo;
     pen.canvas.text(words.at + Vector2d(away * 6 * pen.s, 17 * pen.s),
                     label.force != 0 ? newtons(label.force) : "slack", quiet);
+    const double width = pen.canvas.text_width(words.name, words.style), x = words.at.x(),
+                 y = words.at.y();
+    taken.push_back({std::min(x, x + away * width), y - 13 * pen.s, std::max(x, x + away * width),
+                     y + 19 * pen.s});
   }
+  return taken;
 }
 
 bool overlap(const Frame& a, const Frame& b) {
@@ -223,8 +232,10 @@ void draw_alarm(const Pen& pen, int width, const Scenery& scenery) {
   }
 }
 
-void draw_contact_forces(const Pen& pen, int page_width, const Scenery& scenery) {
-  std::vector<Frame> taken;
+void draw_contact_forces(const Pen& pen,
+                         int page_width,
+                         const Scenery& scenery,
+                         std::vector<Frame> taken) {
   for (const ContactMark& mark : scenery.marks) {
     if (!(mark.force > 0)) continue;
     const double length = shows_arrows(scenery) ? mark.force * scenery.scales.arrow_mm_per_n : 0;
@@ -241,8 +252,7 @@ void draw_contact_forces(const Pen& pen, int page_width, const Scenery& scenery)
 void annotate(Image& image, const PageLayout& page, const Scenery& scenery) {
   Canvas canvas(image);
   const Pen pen{canvas, page.scale};
-  draw_ligament_labels(pen, page, scenery);
-  draw_contact_forces(pen, page.width, scenery);
+  draw_contact_forces(pen, page.width, scenery, draw_ligament_labels(pen, page, scenery));
   draw_title(pen, page.width, scenery.run.scene.title, caption(scenery));
   draw_alarm(pen, page.width, scenery);
   draw_bars(pen, page, scenery);

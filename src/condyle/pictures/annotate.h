@@ -20,8 +20,11 @@ void draw_title(const Pen& pen, int width, const std::string& title, const std::
 void draw_alarm(const Pen& pen, int width, const Scenery& scenery);
 /// A triangle with its tip up and an exclamation mark, `size` high, its lower left corner at `at`.
 void draw_alarm_sign(const Pen& pen, const Eigen::Vector2d& at, double size);
-/// Forces beside their arrows; peak pressures where ellipses are drawn.
-void draw_contact_forces(const Pen& pen, int page_width, const Scenery& scenery);
+/// Forces beside their arrows; peak pressures where ellipses are drawn. Where there is room, clear of what is taken.
+void draw_contact_forces(const Pen& pen,
+                         int page_width,
+                         const Scenery& scenery,
+                         std::vector<Frame> taken = {});
 void annotate(Image& image, const PageLayout& page, const Scenery& scenery);
 
 }  // namespace condyle

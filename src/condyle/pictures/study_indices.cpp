@@ -159,12 +159,6 @@ HeatMap map_of(const StudyView& study, const char* what, const At& at) {
   return map;
 }
 
-/// NaN where its interval says nothing.
-double known_value(const IndexEstimate& index) {
-  constexpr double kSaysNothing = 1;
-  return index.upper - index.lower < kSaysNothing ? index.value : std::nan("");
-}
-
 /// How many correlations are of; of a design of Saltelli blocks A and B have numbers of their own.
 long ranked_samples(const StudyView& study) {
   const long blocks = static_cast<long>(study.parameters.size()) + 2;

@@ -105,9 +105,11 @@ std::string study_effect_section(const StudyView& study) {
         {output.name, widest_in_words(study, output), greatest_in_words(names, effects.first)});
     if (indices) table.rows.back().push_back(greatest_in_words(names, effects.total));
   }
-  return section("effects", "What explains what",
-                 (indices ? in_one_sentence(study, outputs) : "") + html(table) +
-                     (indices ? by_pose(study, outputs) : ""));
+  return section(
+      "effects", "What explains what",
+      (indices ? in_one_sentence(study, outputs) : "") +
+          (has_unknown_indices(study) ? "<p>" + escaped(kTooFewSamples) + "</p>\n" : "") +
+          html(table) + (indices ? by_pose(study, outputs) : ""));
 }
 
 std::string study_band_section(const StudyView& study) {

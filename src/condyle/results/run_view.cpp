@@ -95,8 +95,8 @@ std::size_t nearest_pose_of(const Run& run, const std::string& file, double valu
   const bool rounded = swept.unit.name == "deg" || swept.unit.name == "mm";
   const double margin = rounded ? kRounding : 0.02 * (high - low) + 1e-9 * std::abs(high);
   if (value >= low - margin && value <= high + margin) return nearest;
-  throw InputError(
-      fmt::format("--at {:g}: {} holds {:g} to {:g} {}", value, file, low, high, swept.unit.name));
+  throw InputError(fmt::format("--at {:g}: {} holds {:g} to {:g} {}", value, file, low, high,
+                               swept.unit.name == "1" ? "(" + swept.title + ")" : swept.unit.name));
 }
 
 double ligament_radius(const Scene& scene) {

@@ -180,8 +180,8 @@ SweepEffects sweep_effects(const StudyView& study, std::size_t output) {
     for (std::size_t pose = 0; pose < sd.size(); ++pose) {
       const double weight = sd[pose] * sd[pose];
       const double rank = effects.rank.empty() ? std::nan("") : effects.rank.at(j).at(pose);
-      first.add(indices ? effects.first.at(j).at(pose).value : rank * rank, weight);
-      total.add(indices ? effects.total.at(j).at(pose).value : rank * rank, weight);
+      first.add(indices ? known_value(effects.first.at(j).at(pose)) : rank * rank, weight);
+      total.add(indices ? known_value(effects.total.at(j).at(pose)) : rank * rank, weight);
     }
     of.first.push_back(first.mean());
     of.total.push_back(total.mean());

@@ -43,7 +43,7 @@ struct ShownOutput {
 [[nodiscard]] std::vector<std::string> shown_parameters(const StudyView& study);
 
 /// Over the whole sweep, poses weighted by the variance at each: by parameters, what part of it each
-/// explains by itself, and with all that it does together with others. Of studies without Sobol's
+/// explains by itself, and with all that it does together with others, of poses at which the index is known. Of studies without Sobol's
 /// indices both are the square of the rank correlation.
 struct SweepEffects {
   std::vector<double> first, total;

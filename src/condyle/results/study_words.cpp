@@ -106,13 +106,23 @@ std::vector<EffectSize> largest_effects(const StudyEffects& effects, std::size_t
   const std::size_t d = effects.total.empty() ? effects.rank.size() : effects.total.size();
   for (std::size_t i = 0; i < d; ++i) {
     const double value =
-        effects.total.empty() ? effects.rank[i][pose] : effects.total[i][pose].value;
+        effects.total.empty() ? effects.rank[i][pose] : known_value(effects.total[i][pose]);
     if (!std::isnan(value)) sizes.push_back({i, value});
   }
   std::stable_sort(sizes.begin(), sizes.end(), [](const EffectSize& a, const EffectSize& b) {
     return std::abs(a.value) > std::abs(b.value);
   });
   return sizes;
+}
+
+bool has_unknown_indices(const StudyView& view) {
+  const auto unknown = [](const IndexEstimate& index) {
+    return std::isfinite(index.value) && std::isnan(known_value(index));
+  };
+  for (const StudyEffects& effects : view.all.effects)
+    for (const std::vector<IndexEstimate>& by_pose : effects.total)
+      if (std::any_of(by_pose.begin(), by_pose.end(), unknown)) return true;
+  return false;
 }
 
 std::vector<std::string> study_lines(const StudyView& view) {
@@ -124,6 +134,7 @@ std::vector<std::string> study_lines(const StudyView& view) {
   lines.emplace_back();
   lines.push_back(fmt::format("where each band is widest: 5, 50 and 95 %, and the largest {}",
                               indices ? "total indices" : "rank correlations"));
+  if (has_unknown_indices(view)) lines.push_back(std::string("  ") + kTooFewSamples);
   for (std::size_t o = 0; o < view.outputs.size(); ++o) {
     const StudyBand& band = view.all.bands[o];
     const std::optional<std::size_t> pose = widest_pose(band);

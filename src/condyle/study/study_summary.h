@@ -4,6 +4,7 @@
 /// itself where there are samples of it, and of all together.
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,11 @@ struct StudyBand {
 struct IndexEstimate {
   double value = 0, lower = 0, upper = 0;  ///< NaN: no variance, or too few samples
 };
+
+/// NaN where the interval of 95 % is wider than 1, all that an index can be: the samples are too few.
+[[nodiscard]] inline double known_value(const IndexEstimate& index) {
+  return index.upper - index.lower < 1 ? index.value : std::numeric_limits<double>::quiet_NaN();
+}
 
 /// By parameters and poses. Indices of designs of Saltelli only; empty else.
 struct StudyEffects {
