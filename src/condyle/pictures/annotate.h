@@ -4,6 +4,7 @@
 /// forces, colour bars, scale bar, length of force arrows, and the anatomical directions.
 
 #include <string>
+#include <vector>
 
 #include "condyle/pictures/image.h"
 #include "condyle/pictures/pen.h"
