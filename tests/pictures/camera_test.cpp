@@ -16,8 +16,18 @@ using Eigen::Vector3d;
 std::string edges(double side, View view) {
   const Anatomy anatomy = anatomy_of(block_scene(side));
   const Eigen::Matrix3d R = view_rotation(view, anatomy);
-  return {direction_letter(anatomy, R.row(0).transpose()),
-          direction_letter(anatomy, R.row(1).transpose())};
+  return direction_letter(anatomy, R.row(0).transpose()) +
+         direction_letter(anatomy, R.row(1).transpose());
+}
+
+TEST(Camera, DirectionsThatNobodyHasSaidAreAxes) {
+  Scene scene = block_scene(1);
+  scene.joint.reset();
+  const Anatomy anatomy = anatomy_of(scene);
+  EXPECT_FALSE(anatomy.known);
+  EXPECT_EQ(direction_letter(anatomy, {0.9, 0.1, 0}), "x");
+  EXPECT_EQ(direction_letter(anatomy, {0, -1, 0.2}), "−y");
+  EXPECT_EQ(direction_letter(anatomy, {0, 0, 1}), "z");
 }
 
 TEST(Camera, RightKneeShowsEachSideWhereAnatomyHasIt) {

@@ -173,6 +173,9 @@ std::string caption(const Scenery& scenery, bool with_value) {
   std::string text = view_words(scenery);
   if (scenery.colors == SurfaceColors::kGap) text += "  ·  gap between the surfaces";
   if (scenery.colors == SurfaceColors::kPressure) text += "  ·  pressure of the layers";
+  const Anatomy anatomy = anatomy_of(scenery.run.scene);
+  if (!anatomy.known && scenery.view != View::kExploded)
+    text += " (from " + direction_letter(anatomy, scenery.camera.R_VP.row(2)) + ")";
   if (!with_value) return text;
   if (scenery.run.scene.joint)
     text +=

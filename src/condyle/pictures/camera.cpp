@@ -41,7 +41,7 @@ View view_from_name(const std::string& text) {
 
 Anatomy anatomy_of(const Scene& scene) {
   if (!scene.joint)
-    return {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
+    return {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), false};
   const AnatomicalFrame& tibia = scene.joint->tibia;
   return {tibia.lateral, tibia.anterior, tibia.proximal};
 }
@@ -89,14 +89,16 @@ Camera fit_camera(const Eigen::Matrix3d& R_VP,
   return camera;
 }
 
-char direction_letter(const Anatomy& anatomy, const Eigen::Vector3d& direction) {
+std::string direction_letter(const Anatomy& anatomy, const Eigen::Vector3d& direction) {
   const std::array<Eigen::Vector3d, 3> axes = {anatomy.lateral, anatomy.anterior, anatomy.proximal};
-  const char* letters = "LMAPSI";
+  constexpr std::array<const char*, 6> kAnatomical = {"L", "M", "A", "P", "S", "I"},
+                                       kAxes = {"z", "−z", "x", "−x", "y", "−y"};
   int best = 0;
   for (int i = 1; i < 3; ++i) {
     if (std::abs(direction.dot(axes[i])) > std::abs(direction.dot(axes[best]))) best = i;
   }
-  return letters[2 * best + (direction.dot(axes[best]) < 0 ? 1 : 0)];
+  const auto letter = static_cast<std::size_t>(2 * best + (direction.dot(axes[best]) < 0 ? 1 : 0));
+  return anatomy.known ? kAnatomical[letter] : kAxes[letter];
 }
 
 }  // namespace condyle

@@ -32,9 +32,10 @@ inline constexpr int kViewCount = 7;
 /// side.
 struct Anatomy {
   Eigen::Vector3d lateral, anterior, proximal;
+  bool known = true;  ///< else directions are named by axes
 };
 /// The tibia's anatomical directions; a scene without [joint] is taken as x anterior, y proximal, z
-/// lateral.
+/// lateral, which nobody has said.
 [[nodiscard]] Anatomy anatomy_of(const Scene& scene);
 
 struct Camera {
@@ -67,6 +68,7 @@ struct Frame {
                                 const Frame& frame);
 
 /// Letter of the anatomical direction that a direction of P is closest to: A P M L S I.
-[[nodiscard]] char direction_letter(const Anatomy& anatomy, const Eigen::Vector3d& direction);
+[[nodiscard]] std::string direction_letter(const Anatomy& anatomy,
+                                           const Eigen::Vector3d& direction);
 
 }  // namespace condyle

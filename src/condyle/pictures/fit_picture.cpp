@@ -95,7 +95,7 @@ void draw_cross(const Pen& pen,
       const Eigen::Vector2d out = axis == 0 ? Eigen::Vector2d(sign, 0) : Eigen::Vector2d(0, -sign);
       pen.canvas.line(middle, middle + 18 * out, 1.4, kLeader);
       pen.canvas.text(middle + 29 * out + Eigen::Vector2d(0, 5),
-                      std::string(1, direction_letter(anatomy, sign * camera.R_VP.row(axis))),
+                      direction_letter(anatomy, sign * camera.R_VP.row(axis)),
                       pen.style(15, kInk, Align::kCenter));
     }
 }

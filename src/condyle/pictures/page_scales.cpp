@@ -88,10 +88,13 @@ void draw_bars(const Pen& pen, const PageLayout& page, const Scenery& scenery) {
 namespace {
 
 /// One arm of the mark: a line and the letter at its end.
-void draw_arm(const Pen& pen, const Vector2d& middle, const Vector2d& out, char letter) {
+void draw_arm(const Pen& pen,
+              const Vector2d& middle,
+              const Vector2d& out,
+              const std::string& letter) {
   pen.canvas.line(middle, middle + 22 * pen.s * out, 1.4 * pen.s, kLeader);
   const Vector2d away = 12 * pen.s * out.normalized();
-  pen.canvas.text(middle + 22 * pen.s * out + away + Vector2d(0, 6 * pen.s), std::string(1, letter),
+  pen.canvas.text(middle + 22 * pen.s * out + away + Vector2d(0, 6 * pen.s), letter,
                   pen.style(16, kInk, Align::kCenter));
 }
 
@@ -101,11 +104,10 @@ void draw_directions(const Pen& pen, const PageLayout& page, const Scenery& scen
   const Anatomy anatomy = anatomy_of(scenery.run.scene);
   const Vector2d middle(66 * pen.s, page.height - 74 * pen.s);
   if (scenery.view == View::kExploded) {
-    const std::array<std::pair<Vector3d, char>, 3> arms = {
-        {{anatomy.lateral, 'L'}, {anatomy.anterior, 'A'}, {anatomy.proximal, 'S'}}};
-    for (const auto& [direction, letter] : arms) {
+    for (const Vector3d& direction : {anatomy.lateral, anatomy.anterior, anatomy.proximal}) {
       const Vector3d seen = scenery.camera.R_VP * direction;
-      draw_arm(pen, middle, 1.35 * Vector2d(seen.x(), -seen.y()), letter);
+      draw_arm(pen, middle, 1.35 * Vector2d(seen.x(), -seen.y()),
+               direction_letter(anatomy, direction));
     }
     return;
   }
