@@ -52,6 +52,8 @@ TEST_F(PictureCommands, ASinglePictureMayGoIntoAFile) {
   const Outcome one = run("render run.h5 -o one.png --view plateau --at 10 --proximity");
   EXPECT_EQ(one.code, 0) << one.err;
   EXPECT_EQ(read_png(at("one.png")).width, 1200);
+  EXPECT_EQ(run("render run.h5 -o two.PNG --view plateau --at 10 --size 200x200").code, 0);
+  EXPECT_EQ(read_png(at("two.PNG")).width, 200);
   expect_refusal(run("render run.h5 -o one.png"), "do not go into one file");
   expect_refusal(run("render run.h5 -o one.mp4 --at 10 --view plateau"), "add --movie");
 }

@@ -22,6 +22,7 @@
 #include "condyle/exchange/run_table.h"
 #include "condyle/exchange/stl_run.h"
 #include "condyle/exchange/vtk_run.h"
+#include "condyle/file_ending.h"
 #include "condyle/input_error.h"
 #include "condyle/results/make_run.h"
 #include "condyle/results/output_file.h"
@@ -64,9 +65,9 @@ void check_formats(const ExportCommand& command, const std::string& ending) {
 }
 
 /// The ending of a file of one format, or nothing for a folder.
-std::string file_ending(const ExportCommand& command) {
+std::string ending_of(const ExportCommand& command) {
   const fs::path path(command.output);
-  std::string ending = path.extension().string();
+  std::string ending = file_ending(path);
   if (is_one_of(kFileEndings, ending)) return ending;
   if (ending == ".vtp" || ending == ".pvd") {
     throw InputError(fmt::format("{}: a series of many files, expected a folder, with --format vtk",
@@ -177,7 +178,7 @@ void expect_names_that_differ(const fs::path& folder, const std::vector<ExportFi
 /// Sources are known by path and by bytes; of measurements the run holds no bytes, and its paths start where it was
 /// computed. So no table is replaced that is not one of these.
 void refuse_to_overwrite_measurements(const fs::path& file, const Run& run) {
-  if (!run.scene.calibration || file.extension() != ".csv" || !fs::is_regular_file(file)) return;
+  if (!run.scene.calibration || file_ending(file) != ".csv" || !fs::is_regular_file(file)) return;
   const std::string_view expected = kTableHead;
   std::string head(expected.size(), ' ');
   std::ifstream stream(file, std::ios::binary);
@@ -211,7 +212,7 @@ void write_folder(const fs::path& folder, const std::vector<ExportFile>& files, 
 }
 
 int run_export(const ExportCommand& command) {
-  const std::string ending = file_ending(command);
+  const std::string ending = ending_of(command);
   check_formats(command, ending);
   if (!ending.empty()) check_output_file(command.output);
   const Run run = read_run(command.run);

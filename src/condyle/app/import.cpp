@@ -13,6 +13,7 @@
 #include "condyle/exchange/laxity_tables.h"
 #include "condyle/exchange/osim_scene.h"
 #include "condyle/exchange/ply_file.h"
+#include "condyle/file_ending.h"
 #include "condyle/input_error.h"
 #include "condyle/results/output_file.h"
 
@@ -37,7 +38,7 @@ std::optional<Side> parse_side(const std::string& text) {
   throw InputError("--side " + text + ": expected right or left");
 }
 
-bool is_table(const std::string& file) { return std::filesystem::path(file).extension() == ".csv"; }
+bool is_table(const std::string& file) { return file_ending(file) == ".csv"; }
 
 void check_table_options(const ImportCommand& command) {
   for (const auto& [name, sd] : {std::pair{"--sd-length", command.tests.sd_length},

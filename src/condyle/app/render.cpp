@@ -16,6 +16,7 @@
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
 #include "condyle/app/tell.h"
+#include "condyle/file_ending.h"
 #include "condyle/input_error.h"
 #include "condyle/pictures/knee_picture.h"
 #include "condyle/pictures/movie.h"
@@ -134,7 +135,7 @@ class Output {
  public:
   Output(const RenderCommand& command, const Run& run, std::size_t pictures) {
     const std::filesystem::path path(command.output);
-    const std::string ending = path.extension().string();
+    const std::string ending = file_ending(path);
     if (ending == ".mp4" && !command.movie)
       throw InputError(command.output + ": an MP4 is a movie: add --movie");
     if (ending != ".mp4" && ends_like_another_kind(path, ".png"))

@@ -11,6 +11,7 @@
 #include "condyle/app/run_names.h"
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
+#include "condyle/file_ending.h"
 #include "condyle/input_error.h"
 #include "condyle/report/compared_runs_json.h"
 #include "condyle/report/compared_runs_page.h"
@@ -32,7 +33,7 @@ struct ReportCommand {
 };
 
 void check_output(const ReportCommand& command) {
-  if (std::filesystem::path(command.output).extension() == ".pdf")
+  if (file_ending(command.output) == ".pdf")
     throw InputError(command.output +
                      ": the page is HTML, expected a name that ends in .html; browsers print it");
   check_output_file(command.output, ".html");

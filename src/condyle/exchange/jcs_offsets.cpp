@@ -11,6 +11,7 @@
 
 #include "condyle/calibration/csv_file.h"
 #include "condyle/exchange/jcs_heading.h"
+#include "condyle/file_ending.h"
 #include "condyle/input_error.h"
 
 namespace condyle {
@@ -128,7 +129,7 @@ std::array<double, 6> offsets_of_table(const std::filesystem::path& file) {
 }  // namespace
 
 std::array<double, 6> read_jcs_offsets(const std::filesystem::path& file) {
-  return file.extension() == ".csv" ? offsets_of_table(file) : offsets_of_state(file);
+  return file_ending(file) == ".csv" ? offsets_of_table(file) : offsets_of_state(file);
 }
 
 }  // namespace condyle

@@ -6,9 +6,9 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cctype>
 
 #include "condyle/exchange/osim_strands.h"
+#include "condyle/file_ending.h"
 #include "condyle/input_error.h"
 
 namespace condyle {
@@ -17,16 +17,12 @@ namespace {
 using Eigen::Vector3d;
 using Poses = std::map<std::string, RigidTransform>;
 
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 bool contains(const std::string& text, const char* word) {
-  return lower(text).find(word) != std::string::npos;
+  return lower_case(text).find(word) != std::string::npos;
 }
 
 std::optional<Side> side_of(const std::string& name) {
-  const std::string word = lower(name);
+  const std::string word = lower_case(name);
   const auto ends = [&](const char* end) {
     return word.size() > 2 && word.compare(word.size() - 2, 2, end) == 0;
   };

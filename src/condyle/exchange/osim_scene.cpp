@@ -10,6 +10,7 @@
 
 #include "condyle/contact/layer_options.h"
 #include "condyle/exchange/stl_run.h"
+#include "condyle/file_ending.h"
 #include "condyle/input_error.h"
 #include "condyle/math/rotation.h"
 #include "condyle/mesh_files/load_mesh.h"
@@ -79,9 +80,7 @@ class SceneText {
   }
 
   [[nodiscard]] static bool readable(const OsimMesh& mesh) {
-    std::string ending = fs::path(mesh.file).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string ending = file_ending(mesh.file);
     return ending == ".stl" || ending == ".obj" || ending == ".ply" || ending == ".off";
   }
 

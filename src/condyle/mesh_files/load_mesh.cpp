@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "condyle/file_ending.h"
 #include "condyle/input_error.h"
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/mesh_files/isolated_import.h"
@@ -21,9 +22,7 @@ namespace {
 constexpr double kLargest = 2000, kSmallest = 5;  // [mm], extent of a bone or a cartilage
 
 TriangleMesh read_mesh(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = file_ending(file);
   const MeshBytes bytes(file);
   if (ending == ".stl") return read_stl(bytes);
   if (ending == ".ply") return read_ply(bytes);

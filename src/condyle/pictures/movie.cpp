@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "condyle/file_ending.h"
 #include "condyle/pictures/picture_error.h"
 #include "condyle/pictures/png_file.h"
 #include "condyle/pictures/run_program.h"
@@ -12,7 +13,7 @@ namespace condyle {
 Movie::Movie(std::filesystem::path path, int frames_per_second)
     : path_(std::move(path)),
       frames_per_second_(frames_per_second),
-      mp4_(path_.extension() == ".mp4"),
+      mp4_(file_ending(path_) == ".mp4"),
       animated_(frames_per_second) {
   if (mp4_ && !run_program({"ffmpeg", "-version"}, "").started)
     throw PictureError(path_.string() +

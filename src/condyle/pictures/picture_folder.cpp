@@ -1,5 +1,6 @@
 #include "condyle/pictures/picture_folder.h"
 
+#include "condyle/file_ending.h"
 #include "condyle/input_error.h"
 
 namespace condyle {
@@ -12,7 +13,7 @@ std::filesystem::path make_picture_folder(const std::string& folder) {
   std::error_code error;
   if (std::filesystem::exists(path)) throw InputError(folder + ": expected a folder");
   for (const char* ending : {".png", ".svg", ".pdf"})
-    if (path.extension() == ending)
+    if (file_ending(path) == ending)
       throw InputError(folder + ": is the name of one file, expected a folder for several");
   if (!std::filesystem::is_directory(parent))
     throw InputError(folder + ": the folder " + parent.string() + " does not exist");

@@ -14,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "condyle/file_ending.h"
 #include "condyle/input_error.h"
 #include "condyle/results/sync_file.h"
 
@@ -101,8 +102,7 @@ bool ends_like_another_kind(const fs::path& path, const std::string& own) {
                                               ".json", ".mot",  ".mp4",  ".obj",  ".off",  ".osim",
                                               ".pdf",  ".ply",  ".png",  ".sto",  ".stl",  ".svg",
                                               ".tif",  ".tiff", ".toml", ".vtp",  ".webp"};
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = file_ending(path);
   return ending != own && known.contains(ending);
 }
 
