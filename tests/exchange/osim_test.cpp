@@ -173,7 +173,8 @@ OsimScene imported_with_function(const std::string& function) {
 TEST(OsimImport, ReadsTheFunctionsOfTheJoint) {
   const fs::path nowhere = fs::path(testing::TempDir()) / "osim_function" / "knee.toml";
   const auto start = [&](const OsimScene& scene) {
-    return parse_scene(scene.text, nowhere, false).moving().start.p.y();
+    const Scene read = parse_scene(scene.text, nowhere, false);
+    return read.bodies[static_cast<std::size_t>(read.moving_body())].start_translation.y();
   };
   const double without = start(imported_with_function("<Constant><value>0</value></Constant>"));
   const auto moved = [&](const std::string& function) {
