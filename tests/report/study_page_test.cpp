@@ -8,6 +8,7 @@
 #include <string>
 
 #include "condyle/results/study_shown.h"
+#include "condyle/results/study_words.h"
 #include "support/made_up_study.h"
 
 namespace condyle {
