@@ -63,11 +63,11 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return names;
 }
 
-/// --name of --name=value, -n of -nvalue; empty for what is no option, as a negative number.
+/// --name of --name=value, -n; empty for what is no option, as a negative number or -inf.
 std::string option_of(const std::string& word) {
   if (word.rfind("--", 0) == 0) return word.substr(0, word.find('='));
-  const bool letter = word.size() > 1 && word[0] == '-' && std::isalpha(word[1] & 0xff) != 0;
-  return letter ? word.substr(0, 2) : "";
+  const bool letter = word.size() == 2 && word[0] == '-' && std::isalpha(word[1] & 0xff) != 0;
+  return letter ? word : "";
 }
 
 /// An option that is cut short, as --out, or mistyped; empty where none is like it.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "condyle/pictures/gnuplot_page.h"
 #include "condyle/pictures/text.h"
 
 namespace condyle {

@@ -22,6 +22,7 @@ inline constexpr std::size_t kMostLetters =
                                     double room,
                                     const std::function<double(const std::string&)>& width);
 
+inline constexpr double kPixelPerPoint = 4.0 / 3;  ///< of gnuplot's PNG and SVG
 /// Width of words in letters of DejaVu Sans of that size [point] on a page of PNG or SVG [pixel].
 [[nodiscard]] double words_width(const std::string& text, double size, bool bold = false);
 

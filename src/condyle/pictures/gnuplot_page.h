@@ -16,7 +16,6 @@ namespace condyle {
 inline constexpr int kPageWidth = 1200, kHeadHeight = 80;  // [pixel]
 inline constexpr double kTitleSize = 16;                   // [point]
 inline constexpr int kTitleLine = 28;                      // [pixel]
-inline constexpr double kPixelPerPoint = 4.0 / 3;          // of gnuplot's PNG and SVG
 
 /// Okabe and Ito's colours for every kind of sight; lines beyond their number are dashed.
 inline constexpr std::array<const char*, 8> kColors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
