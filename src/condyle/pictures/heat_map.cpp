@@ -13,7 +13,7 @@ namespace condyle {
 namespace {
 
 // All in pixels of PNG and SVG; letters in points.
-constexpr double kCellWidth = 37, kGroupGap = 12, kPanelGap = 40, kMargin = 22;
+constexpr double kLeastCellWidth = 37, kGroupGap = 12, kPanelGap = 40, kMargin = 22;
 constexpr double kTextSize = 10, kCellSize = 7.5, kNoteSize = 10;
 constexpr double kTitleHeight = 44, kNoteHeight = 20, kBarHeight = 11, kFoot = 74;
 constexpr double kHeadLine = 20;  // of a panel's title, and of what its columns are
@@ -23,15 +23,36 @@ double cell_height(const HeatMap& map) {
   return map.rows.size() <= 24 ? 21 : 17;
 }
 
+/// So many digits that the largest of a scale has three; nothing for what they do not show.
+std::string in_cell(double value, double largest) {
+  const double digits = 2 - std::floor(std::log10(std::max(largest, 1e-9)));
+  std::string text = fmt::format("{:.{}f}", value, static_cast<int>(std::clamp(digits, 0.0, 4.0)));
+  if (text.find_first_of("123456789") == std::string::npos) return "";
+  if (text.front() == '-') text.replace(0, 1, "−");
+  return text;
+}
+
+/// Of all columns [pixel]: as wide as the longest number needs.
+double cell_width(const HeatMap& map) {
+  double width = kLeastCellWidth;
+  for (const HeatMap::Panel& panel : map.panels)
+    for (std::size_t i = 0; i < panel.values.size(); ++i) {
+      const double largest = map.scales[map.columns[i % map.columns.size()].scale].largest;
+      if (std::isfinite(panel.values[i]))
+        width = std::max(width, words_width(in_cell(panel.values[i], largest), kCellSize) + 5);
+    }
+  return width;
+}
+
 /// Where everything has its place, from the upper left corner of the page.
 class Page {
  public:
-  explicit Page(const HeatMap& map) : map_(map) {
+  explicit Page(const HeatMap& map) : map_(map), cell_width_(cell_width(map)) {
     double x = 0;
     for (std::size_t c = 0; c < map.columns.size(); ++c) {
       if (c > 0 && map.columns[c].scale != map.columns[c - 1].scale) x += kGroupGap;
       lefts_.push_back(x);
-      x += kCellWidth;
+      x += cell_width_;
     }
     panel_width_ = x;
     for (const HeatMap::Row& row : map.rows)
@@ -80,9 +101,11 @@ class Page {
     return top(panel) + 2 * kHeadLine + names_;
   }
   [[nodiscard]] double column_left(std::size_t c) const { return lefts_[c]; }
+  [[nodiscard]] double column_width() const { return cell_width_; }
 
  private:
   const HeatMap& map_;
+  double cell_width_;
   std::vector<double> lefts_;
   double panel_width_ = 0, labels_ = 0, names_ = 0;
   Title title_;
@@ -91,15 +114,6 @@ class Page {
 unsigned color_of(double t) {
   const Rgb rgb = map_color(ColorMap::kDiverging, 0.5 * (1 + t));
   return (static_cast<unsigned>(rgb[0]) << 16U) | (static_cast<unsigned>(rgb[1]) << 8U) | rgb[2];
-}
-
-/// So many digits that the largest of a scale has three; nothing for what they do not show.
-std::string in_cell(double value, double largest) {
-  const double digits = 2 - std::floor(std::log10(std::max(largest, 1e-9)));
-  std::string text = fmt::format("{:.{}f}", value, static_cast<int>(std::clamp(digits, 0.0, 4.0)));
-  if (text.find_first_of("123456789") == std::string::npos) return "";
-  if (text.front() == '-') text.replace(0, 1, "−");
-  return text;
 }
 
 std::string full_title(const HeatMap::Scale& scale) {
@@ -190,8 +204,8 @@ class Script {
       if (first)
         words(x, top + 1.5 * kHeadLine, heading(map_.columns[c].scale), kTextSize, "left", false,
               "#58606a");
-      words(x + 0.5 * kCellWidth, page_.cells_top(0) - page_.top(0) + top - 6, map_.columns[c].name,
-            kTextSize, "left", false, "#262c34", 90);
+      words(x + 0.5 * page_.column_width(), page_.cells_top(0) - page_.top(0) + top - 6,
+            map_.columns[c].name, kTextSize, "left", false, "#262c34", 90);
     }
   }
   /// Of the columns of a scale, the unit alone where they are few.
@@ -200,11 +214,13 @@ class Script {
         std::count_if(map_.columns.begin(), map_.columns.end(),
                       [scale](const HeatMap::Column& column) { return column.scale == scale; });
     const std::string title = full_title(map_.scales[scale]);
-    const bool fits = words_width(title, kTextSize) < kCellWidth * static_cast<double>(columns);
+    const bool fits =
+        words_width(title, kTextSize) < page_.column_width() * static_cast<double>(columns);
     return fits ? title : "[" + map_.scales[scale].unit + "]";
   }
   void add_value(double value, double largest, double left, double top) {
-    const double h = cell_height(map_), right = left + kCellWidth - 1, bottom = top + h - 1;
+    const double h = cell_height(map_), right = left + page_.column_width() - 1,
+                 bottom = top + h - 1;
     if (!std::isfinite(value)) return cell(left, top, right, bottom, 0xE6E8EBU);
     const double t = largest > 0 ? std::clamp(value / largest, -1.0, 1.0) : 0;
     cell(left, top, right, bottom, color_of(t));
