@@ -74,6 +74,12 @@ TEST_F(CommandLine, SaysWhichCommandOrOptionWasMeant) {
   expect_bad_input(
       run("-v"),
       "unknown option -v, expected --help, --version or a command (condyle --help says more)");
+  for (const char* word : {"-version", "-5", "-", "--"})
+    expect_bad_input(run(word), "unknown option " + std::string(word) +
+                                    (std::string(word) == "-version"
+                                         ? ", did you mean --version?"
+                                         : ", expected --help, --version or a command") +
+                                    " (condyle --help says more)");
   const std::string help = " (condyle sweep --help says more)";
   expect_bad_input(run("sweep knee.toml -o run.h5 --form 0"),
                    "unknown option --form, did you mean --from?" + help);

@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "condyle/calibration/calibration_words.h"
-#include "condyle/scene_file/text_edit.h"
 #include "condyle/input_error.h"
 #include "condyle/scene_file/read_scene.h"
+#include "condyle/scene_file/text_edit.h"
 #include "scene/small_scene.h"
 
 namespace condyle::test {

@@ -90,6 +90,18 @@ TEST(PlotStudy, LigamentsThatNeverCarryHaveNoBand) {
   EXPECT_EQ(panel_of(pages, "medial contact").y_label, "Force [N]");
 }
 
+TEST(PlotStudy, MapsSayWhatTheyShowBehindTheTitle) {
+  StudyView study = test::made_up_study();
+  study.title = "Knees";
+  std::vector<std::string> titles;
+  for (const NamedMap& map : study_maps(study)) {
+    const std::string script = gnuplot_script(map.map, PlotFormat::kSvg);
+    EXPECT_NE(script.find("\"Knees: " + map.map.what + "\""), std::string::npos) << map.name;
+    titles.push_back(map.map.what);
+  }
+  EXPECT_EQ(titles, (std::vector<std::string>{"rank correlation", "total index"}));
+}
+
 TEST(PlotStudy, IndicesStandAtTheUsualAnglesTheGreatestFirst) {
   const StudyView study = test::made_up_study();
   const auto pages = study_index_pages(study);

@@ -220,6 +220,13 @@ class Changing(unittest.TestCase):
             path = pathlib.Path(folder) / "mark.toml"
             path.write_text("\ufeff" + knees.spring().to_toml(), encoding="utf-8")
             self.assertEqual(condyle.read_scene(path), knees.spring())
+            first = "\ufeffcalibrate = { measurements = 'm.csv' }\n" + knees.spring().to_toml()
+            condyle.Scene.from_text(first, folder, check=False).save("moved.toml")
+            try:
+                moved = pathlib.Path("moved.toml").read_text(encoding="utf-8")
+                self.assertIn(f'measurements = "{os.path.relpath(folder)}/m.csv"', moved)
+            finally:
+                os.unlink("moved.toml")
 
     def test_save_into_another_folder_finds_its_meshes(self):
         read, changed = condyle.read_scene(knees.PHANTOM), condyle.read_scene(knees.PHANTOM)

@@ -61,9 +61,61 @@ for _ in range(3):
     threading.Thread(target=work, daemon=True).start()
 begun.wait()
 """
-            done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120,
-                                  cwd=pathlib.Path(knees.__file__).parent)
+            done = self.ended(script)
             self.assertEqual((done.returncode, done.stderr), (0, ""), scene)
+
+    def ended(self, script):
+        return subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120,
+                              cwd=pathlib.Path(knees.__file__).parent)
+
+    def test_what_runs_at_exit_may_compute(self):
+        done = self.ended("""
+import atexit
+def last():
+    print(condyle.sweep(knees.ball_on_ball(), [0, 1]).converged.all())
+atexit.register(last)
+import condyle, knees
+""")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "True\n", ""))
+
+    def test_a_child_of_a_computation_counts_its_own_threads(self):
+        done = self.ended("""
+import os, threading
+import condyle, knees
+model, begun, children = condyle.Model(knees.ball_on_ball()), threading.Event(), []
+def work():
+    while True:
+        condyle.sweep(model, [0, 1] * 20000, progress=lambda *_: begun.set())
+def fork(*_):
+    if not children:
+        children.append(os.fork())
+condyle.sweep(model, [0, 1], progress=fork)
+if children[0] == 0:
+    threading.Thread(target=work, daemon=True).start()
+    begun.wait()
+else:
+    print(os.waitstatus_to_exitcode(os.waitpid(children[0], 0)[1]))
+""")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "0\n", ""))
+
+    def test_ctrl_c_ends_an_interpreter_that_waits_for_a_thread_that_waits(self):
+        done = self.ended("""
+import os, signal, threading
+import condyle, knees
+model, begun, never = condyle.Model(knees.ball_on_ball()), threading.Event(), threading.Event()
+def wait(*_):
+    begun.set()
+    never.wait()
+threading.Thread(target=lambda: condyle.sweep(model, [0, 1], progress=wait), daemon=True).start()
+begun.wait()
+print("waits", flush=True)
+if os.fork() == 0:
+    import time
+    time.sleep(1)
+    os.kill(os.getppid(), signal.SIGINT)
+    os._exit(0)
+""")
+        self.assertEqual((done.returncode, done.stdout), (130, "waits\n"), done.stderr)
 
     def test_solvers_of_threads_do_not_see_each_others_numbers(self):
         model = knees.phantom()

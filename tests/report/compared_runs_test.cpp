@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "condyle/input_error.h"
-#include "condyle/pictures/round_ticks.h"
+#include "condyle/math/round_ticks.h"
 #include "condyle/report/compared_runs_json.h"
 #include "condyle/report/compared_words.h"
 #include "condyle/report/svg_curves.h"

@@ -17,9 +17,9 @@ namespace condyle {
 namespace {
 
 namespace fs = std::filesystem;
+using Eigen::Vector3d;
 
 constexpr const char* kNoFile = "new.toml";  // what a scene without a file is called
-using Eigen::Vector3d;
 
 /// To a tenth, never "-0.0".
 std::string degrees(double angle) {

@@ -8,7 +8,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <functional>
 #include <sstream>
 #include <string>
@@ -56,46 +55,50 @@ void keep_memory() {
 
 std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options()) {
+  for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
-  }
   return names;
-}
-
-/// --name of --name=value, -n; empty for what is no option, as a negative number or -inf.
-std::string option_of(const std::string& word) {
-  if (word.rfind("--", 0) == 0) return word.substr(0, word.find('='));
-  const bool letter = word.size() == 2 && word[0] == '-' && std::isalpha(word[1] & 0xff) != 0;
-  return letter ? word : "";
 }
 
 /// An option that is cut short, as --out, or mistyped; empty where none is like it.
 std::string meant_option(const std::string& word, const std::vector<std::string>& names) {
-  if (word.size() < 3) return "";
   for (const std::string& name : names)
     if (word.size() > 3 && name.rfind(word, 0) == 0) return name;
   return nearest(word, names);
 }
 
-/// CLI11 would first ask for a command or for options that are missing, also for the one that was mistyped.
-void check_options(const CLI::App& program,
-                   const CLI::App* command,
-                   int argc,
-                   char** argv,
-                   const std::string& help) {
-  const std::vector<std::string> names = option_names(command == nullptr ? program : *command);
-  const int first = command == nullptr ? 1 : 2;  // of the program itself only one is asked for
-  for (int i = first; i < (command == nullptr ? std::min(argc, 2) : argc); ++i) {
-    const std::string name = option_of(argv[i]);
+/// CLI11 would only say that a subcommand is missing.
+void check_program_option(const CLI::App& program, int argc, char** argv) {
+  if (argc < 2) return;
+  const std::string word = argv[1], name = word.substr(0, word.find('='));
+  if (name.size() > 1 && program.get_option_no_throw(name) != nullptr) return;
+  const std::string meant = meant_option(name, option_names(program));
+  throw InputError(fmt::format(
+      "unknown option {}, {} ({} --help says more)", word,
+      meant.empty() ? "expected --help, --version or a command" : "did you mean " + meant + "?",
+      program.get_name()));
+}
+
+/// CLI11 would first ask for options that are missing, also for the one that was mistyped.
+void check_options(const CLI::App& command, int argc, char** argv, const std::string& help) {
+  const std::vector<std::string> names = option_names(command);
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = argv[i], name = word.substr(0, word.find('='));
     if (name == "--") return;
-    if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) continue;
+    if (name.rfind("--", 0) != 0 || std::find(names.begin(), names.end(), name) != names.end())
+      continue;
     const std::string meant = meant_option(name, names);
-    const std::string expected =
-        command == nullptr ? ", expected --help, --version or a command" : "";
     throw InputError(fmt::format("unknown option {}{}{}", name,
-                                 meant.empty() ? expected : ", did you mean " + meant + "?", help));
+                                 meant.empty() ? "" : ", did you mean " + meant + "?", help));
   }
+}
+
+/// Whether a command that knows --json is asked for it, though its options may not be read.
+bool asks_for_json(const CLI::App* command, int argc, char** argv) {
+  if (command == nullptr || command->get_option_no_throw("--json") == nullptr) return false;
+  for (int i = 2; i < argc && std::string(argv[i]) != "--"; ++i)
+    if (std::string(argv[i]) == "--json") return true;
+  return false;
 }
 
 /// What CLI11 says, in our words where its own say less than it knows.
@@ -129,7 +132,7 @@ int run_program(const std::string& name,
   const std::string help = fmt::format(" ({}{} --help says more)", name,
                                        command == nullptr ? "" : " " + command->get_name());
   Talk talk;  // that of the command is not known before its options are
-  talk.json = std::find(argv, argv + argc, std::string("--json")) != argv + argc;
+  talk.json = asks_for_json(command, argc, argv);
   if (command != nullptr) talk.command = command->get_name();
   const auto refuse = [&](const std::function<void()>& check) {
     (void)run_telling_errors(talk, [&] {
@@ -137,7 +140,10 @@ int run_program(const std::string& name,
       return 0;
     });
   };
-  refuse([&] { check_options(program, command, argc, argv, help); });
+  if (command == nullptr)
+    check_program_option(program, argc, argv);
+  else
+    refuse([&] { check_options(*command, argc, argv, help); });
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version

@@ -85,16 +85,16 @@ OsimPlace OsimFrames::find(const std::string& path,
 
 const OsimFrames::Welds& OsimFrames::welds() const {
   if (welds_) return *welds_;
-  welds_.emplace();
+  Welds welds;
   for (const OsimJoint& joint : model_.joints) {
     if (joint.type != "WeldJoint") continue;
     const OsimPlace parent = find(joint.parent, joint.path, "WeldJoint \"" + joint.name + "\"");
     const OsimPlace child = find(joint.child, joint.path, "WeldJoint \"" + joint.name + "\"");
     const RigidTransform X = parent.X * child.X.inverse();  // of the child's body in the parent's
-    (*welds_)[parent.body].push_back({child.body, X});
-    (*welds_)[child.body].push_back({parent.body, X.inverse()});
+    welds[parent.body].push_back({child.body, X});
+    welds[child.body].push_back({parent.body, X.inverse()});
   }
-  return *welds_;
+  return welds_.emplace(std::move(welds));
 }
 
 std::map<std::string, RigidTransform> OsimFrames::welded_to(const std::string& root) const {

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 
 #include "condyle/exchange/osim_strands.h"
 #include "condyle/file_ending.h"

@@ -32,7 +32,7 @@ class OsimReader {
     if (!stream) throw InputError(file_ + ": no such file, expected an OpenSim model (.osim)");
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     if (const std::size_t begin = text.find_first_not_of("\xEF\xBB\xBF \t\r\n");
-        begin != std::string::npos && text[begin] != '<')
+        begin != std::string::npos && std::isalnum(text[begin] & 0xff) != 0)
       throw InputError(file_ + ": begins with no tag, expected an OpenSim model (XML)");
     const pugi::xml_parse_result result = document_.load_buffer(text.data(), text.size());
     if (!result) {
@@ -245,26 +245,27 @@ class OsimReader {
     for (const char* kind : {"LinearFunction", "PolynomialFunction"}) {
       const xml_node f = holder.child(kind);
       if (!f) continue;
-      double y = 0;  // the greatest power comes first
-      for (const double c : numbers(f, "coefficients")) y = y * x + c;
+      std::vector<double> coefficients = numbers(f, "coefficients");
+      if (coefficients.empty()) coefficients = {1, 0};  // OpenSim's own
+      double y = 0;                                     // the greatest power comes first
+      for (const double c : coefficients) y = y * x + c;
       return factor * y;
     }
     for (const char* kind :
          {"SimmSpline", "NaturalCubicSpline", "GCVSpline", "PiecewiseLinearFunction"}) {
       if (const xml_node f = holder.child(kind))
-        return factor * between(f, numbers(f, "x"), numbers(f, "y"), x);
+        if (const auto y = between(numbers(f, "x"), numbers(f, "y"), x)) return factor * *y;
     }
     return std::nullopt;
   }
 
-  [[nodiscard]] double between(const xml_node& function,
-                               const std::vector<double>& xs,
-                               const std::vector<double>& ys,
-                               double x) const {
-    if (xs.empty() || xs.size() != ys.size())
-      fail(function, "expected as many numbers y as x, and at least one");
+  /// Nothing where the points are none of a function.
+  [[nodiscard]] static std::optional<double> between(const std::vector<double>& xs,
+                                                     const std::vector<double>& ys,
+                                                     double x) {
+    if (xs.empty() || xs.size() != ys.size()) return std::nullopt;
     for (std::size_t i = 1; i < xs.size(); ++i)
-      if (!(xs[i] > xs[i - 1])) fail(function, "expected numbers x that rise");
+      if (!(xs[i] > xs[i - 1])) return std::nullopt;
     for (std::size_t i = 1; i < xs.size(); ++i) {
       if (x > xs[i] && i + 1 < xs.size()) continue;
       return ys[i - 1] + (ys[i] - ys[i - 1]) * (x - xs[i - 1]) / (xs[i] - xs[i - 1]);

@@ -84,10 +84,11 @@ std::vector<Frame> draw_ligament_labels(const Pen& pen,
     pen.canvas.text(words.at + Vector2d(away * 6 * pen.s, 1 * pen.s), words.name, words.style);
     TextStyle quiet = pen.style(13, kQuiet, words.style.align);
     quiet.halo = words.style.halo;
-    pen.canvas.text(words.at + Vector2d(away * 6 * pen.s, 17 * pen.s),
-                    label.force != 0 ? newtons(label.force) : "slack", quiet);
-    const double width = pen.canvas.text_width(words.name, words.style), x = words.at.x(),
-                 y = words.at.y();
+    const std::string force = label.force != 0 ? newtons(label.force) : "slack";
+    pen.canvas.text(words.at + Vector2d(away * 6 * pen.s, 17 * pen.s), force, quiet);
+    const double width = 6 * pen.s + std::max(pen.canvas.text_width(words.name, words.style),
+                                              pen.canvas.text_width(force, quiet)),
+                 x = words.at.x(), y = words.at.y();
     taken.push_back({std::min(x, x + away * width), y - 13 * pen.s, std::max(x, x + away * width),
                      y + 19 * pen.s});
   }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "condyle/pictures/round_ticks.h"
+#include "condyle/math/round_ticks.h"
 
 namespace condyle {
 namespace {

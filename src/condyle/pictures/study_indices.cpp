@@ -144,7 +144,8 @@ template <typename At>
 HeatMap map_of(const StudyView& study, const char* what, const At& at) {
   const std::vector<ShownOutput> columns = main_outputs(study, kMapLigaments);
   HeatMap map;
-  map.title = study.title + ": " + what;
+  map.title = study.title;
+  map.what = what;
   if (columns.empty()) return map;
   const std::vector<std::size_t> rows = map_rows(study, columns);
   if (rows.size() < study.parameters.size())

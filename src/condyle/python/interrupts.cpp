@@ -2,6 +2,8 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -16,26 +18,56 @@ namespace {
 /// Ends work that is asked to stop.
 struct Stopped {};
 
-std::atomic<int> computing = 0;  // how many have let go of the lock
+std::atomic<int> computing = 0;       // how many have let go of the lock
+thread_local int computing_here = 0;  // of them in this thread
 std::atomic<bool> ending = false;
+std::thread::id ending_thread;  // set before
+
+/// Ctrl-C while the interpreter waits at its end: nothing else would end the process.
+[[noreturn]] void end_process() {
+  PyErr_Clear();
+  for (const char* stream : {"stdout", "stderr"}) try {
+      py::module_::import("sys").attr(stream).attr("flush")();
+    } catch (const py::error_already_set&) {  // closed, or full
+    }
+  std::_Exit(128 + SIGINT);
+}
+
+void wait_for_others() {
+  ending_thread = std::this_thread::get_id();
+  ending = true;
+  while (computing > 0) {
+    {
+      const py::gil_scoped_release unlocked;
+      for (int i = 0; i < 50 && computing > 0; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    if (PyErr_CheckSignals() != 0) end_process();
+  }
+}
+
+/// In the child of a fork there is this thread alone.
+void begin_child() {
+  computing = computing_here;
+  ending = false;
+}
 
 }  // namespace
 
 Unlocked::Unlocked() {
+  if (interpreter_ends()) end_thread();
   ++computing;
-  if (interpreter_ends()) {
-    --computing;
-    end_thread();
-  }
+  ++computing_here;
   release_.emplace();
 }
 
 Unlocked::~Unlocked() {
   release_.reset();
+  --computing_here;
   --computing;
 }
 
-bool interpreter_ends() { return ending; }
+bool interpreter_ends() { return ending && std::this_thread::get_id() != ending_thread; }
 
 void end_thread() {
   PyErr_SetNone(PyExc_SystemExit);
@@ -43,13 +75,9 @@ void end_thread() {
 }
 
 void wait_at_exit() {
-  py::module_::import("atexit").attr("register")(py::cpp_function([] {
-    const py::gil_scoped_release unlocked;
-    ending = true;
-    while (computing > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }));
-  py::module_::import("os").attr("register_at_fork")(
-      py::arg("after_in_child") = py::cpp_function([] { computing = 0; }));  // of other threads
+  py::module_::import("atexit").attr("register")(py::cpp_function(&wait_for_others));
+  py::module_::import("os").attr("register_at_fork")(py::arg("after_in_child") =
+                                                         py::cpp_function(&begin_child));
 }
 
 void run_interruptibly(const std::function<void(const std::function<bool()>& should_stop)>& work) {
@@ -59,11 +87,13 @@ void run_interruptibly(const std::function<void(const std::function<bool()>& sho
   bool done = false;
   std::exception_ptr failure;
   std::optional<py::error_already_set> raised;
+  const std::thread::id caller = std::this_thread::get_id();
+  const auto should_stop = [&] { return stop || (ending && caller != ending_thread); };
   {
     const Unlocked unlocked;
     std::thread worker([&] {
       try {
-        work([&] { return stop || interpreter_ends(); });
+        work(should_stop);
       } catch (...) {
         failure = std::current_exception();
       }

@@ -26,12 +26,12 @@ class Unlocked {
   std::optional<pybind11::gil_scoped_release> release_;
 };
 
-/// Is the interpreter about to end? What computes then has to stop.
+/// Is the interpreter about to end, and this not the thread that ends it? What computes then has to stop.
 [[nodiscard]] bool interpreter_ends();
 /// Ends a Python thread without a word, under the interpreter's lock: SystemExit.
 [[noreturn]] void end_thread();
 
-/// Has the end of the interpreter wait for what computes.
+/// Has the end of the interpreter wait for what computes, as it does for threads that are no daemons; Ctrl-C ends the process.
 void wait_at_exit();
 
 /// For loops without the interpreter's lock: asks it some twenty times a second. Throws what a handler raises.

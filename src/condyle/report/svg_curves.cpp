@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "condyle/pictures/round_ticks.h"
+#include "condyle/math/round_ticks.h"
 #include "condyle/report/html.h"
 
 namespace condyle {

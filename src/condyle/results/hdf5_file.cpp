@@ -3,6 +3,7 @@
 #include <new>
 #include <utility>
 
+#include "condyle/file_ending.h"
 #include "condyle/input_error.h"
 #include "condyle/results/hdf5_answers.h"
 #include "condyle/results/hdf5_calls.h"
@@ -61,7 +62,7 @@ void check_plain_file(const std::filesystem::path& file) {
     throw InputError(
         name + (std::filesystem::exists(file, error) ? ": is no plain file" : ": no such file") +
         ", expected a run (HDF5)");
-  if (file.extension() == ".toml")
+  if (file_ending(file) == ".toml")
     throw InputError(name +
                      ": is a scene (TOML), expected a run (HDF5), as condyle sweep writes it");
 }

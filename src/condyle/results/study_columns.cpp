@@ -8,7 +8,7 @@
 namespace condyle {
 
 StudyColumns::StudyColumns(const std::filesystem::path& path, ReadBy by)
-    : path_(path),
+    : path_(std::filesystem::absolute(path)),
       state_(file_state(path)),
       reader_(path, by),
       view_(read_study_in(reader_.root())),

@@ -49,6 +49,10 @@ std::string line_of_quartiles(const StudyView& view, std::size_t parameter) {
                      view.parameters[parameter].name, rates);
 }
 
+bool is_unknown(const IndexEstimate& index) {
+  return std::isfinite(index.value) && std::isnan(known_value(index));
+}
+
 std::string effects_in_words(const StudyView& view, const StudyEffects& effects, std::size_t pose) {
   constexpr std::size_t kMost = 3;
   constexpr double kSmall = 0.05;
@@ -116,13 +120,14 @@ std::vector<EffectSize> largest_effects(const StudyEffects& effects, std::size_t
 }
 
 bool has_unknown_indices(const StudyView& view) {
-  const auto unknown = [](const IndexEstimate& index) {
-    return std::isfinite(index.value) && std::isnan(known_value(index));
+  const auto any = [](const std::vector<std::vector<IndexEstimate>>& indices) {
+    for (const std::vector<IndexEstimate>& by_pose : indices)
+      if (std::any_of(by_pose.begin(), by_pose.end(), is_unknown)) return true;
+    return false;
   };
-  for (const StudyEffects& effects : view.all.effects)
-    for (const std::vector<IndexEstimate>& by_pose : effects.total)
-      if (std::any_of(by_pose.begin(), by_pose.end(), unknown)) return true;
-  return false;
+  return std::any_of(
+      view.all.effects.begin(), view.all.effects.end(),
+      [&](const StudyEffects& effects) { return any(effects.first) || any(effects.total); });
 }
 
 std::vector<std::string> study_lines(const StudyView& view) {
@@ -134,17 +139,20 @@ std::vector<std::string> study_lines(const StudyView& view) {
   lines.emplace_back();
   lines.push_back(fmt::format("where each band is widest: 5, 50 and 95 %, and the largest {}",
                               indices ? "total indices" : "rank correlations"));
-  if (has_unknown_indices(view)) lines.push_back(std::string("  ") + kTooFewSamples);
+  bool unknown = false;
   for (std::size_t o = 0; o < view.outputs.size(); ++o) {
     const StudyBand& band = view.all.bands[o];
     const std::optional<std::size_t> pose = widest_pose(band);
     if (!pose) continue;
+    for (const std::vector<IndexEstimate>& by_pose : view.all.effects[o].total)
+      unknown = unknown || is_unknown(by_pose[*pose]);
     lines.push_back(
         fmt::format("  {:<24} at {:>6.4g}{}: {:>9.4g} {:>9.4g} {:>9.4g} {:<4}  {}",
                     view.outputs[o].name, view.values[*pose], view.swept.unit_after_number(),
                     band.quantiles[0][*pose], band.quantiles[2][*pose], band.quantiles[4][*pose],
                     view.outputs[o].units, effects_in_words(view, view.all.effects[o], *pose)));
   }
+  if (unknown) lines.push_back(std::string("  ") + kTooFewSamples);
   return lines;
 }
 

@@ -37,7 +37,7 @@ struct EffectSize {
 [[nodiscard]] std::vector<EffectSize> largest_effects(const StudyEffects& effects,
                                                       std::size_t pose);
 
-/// Whether some total index is not known (known_value), and what is said of such indices.
+/// Whether some index is not known (known_value), and what is said of such indices.
 [[nodiscard]] bool has_unknown_indices(const StudyView& view);
 inline constexpr const char* kTooFewSamples =
     "Indices whose interval of 95 % is wider than 1 are left out: too few samples.";

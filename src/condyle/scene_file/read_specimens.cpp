@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 
+#include "condyle/file_ending.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/scene_file/read_sections.h"
 #include "condyle/scene_file/read_study_parts.h"
@@ -28,7 +29,7 @@ bool has_bodies(const fs::path& file) {
 std::vector<fs::path> scenes_of(const fs::path& folder, const Section& root, const Value& entry) {
   std::vector<fs::path> scenes;
   for (const fs::directory_entry& file : fs::directory_iterator(folder))
-    if (file.path().extension() == ".toml" && file.is_regular_file() && has_bodies(file.path()))
+    if (file_ending(file.path()) == ".toml" && file.is_regular_file() && has_bodies(file.path()))
       scenes.push_back(file.path());
   if (scenes.empty())
     root.fail(

@@ -19,9 +19,9 @@ double factor_of(double inside, double unit) {
   return best;
 }
 
-/// Where each line begins, and the end of the text.
+/// Where each line begins, the first one behind a byte-order mark, and the end of the text.
 std::vector<std::size_t> line_starts(const std::string& text) {
-  std::vector<std::size_t> starts = {0};
+  std::vector<std::size_t> starts = {text.starts_with("\xEF\xBB\xBF") ? 3U : 0U};
   for (std::size_t i = 0; i < text.size(); ++i)
     if (text[i] == '\n') starts.push_back(i + 1);
   return starts;

@@ -43,7 +43,7 @@ class Scene(Table):
     def __init__(self, *, folder: Union[str, os.PathLike] = ".", **keys: Any) -> None:
         """`folder`: where paths of meshes start."""
         self._file = os.path.join(os.fspath(folder), "<Scene>")
-        self._folder = os.getcwd()  # where its file is told from
+        self._folder = _working_folder()  # where its file is told from
         self._read: Optional[tuple[str, Any]] = None  # the text that it was read from, and what that said
         super().__init__(**keys)
 
@@ -82,7 +82,7 @@ class Scene(Table):
 
     def _place(self) -> str:
         """Its file, from where we are now."""
-        return self._file if self._folder == os.getcwd() else os.path.join(self._folder, self._file)
+        return self._file if self._folder == _working_folder() else os.path.join(self._folder, self._file)
 
     def _text(self, functions_too: bool) -> str:
         return self._read[0] if self._read is not None and self._is_as_read() else self._toml(functions_too)
@@ -161,6 +161,13 @@ def _file_items(table: Table, place: str, functions_too: bool) -> Iterator[tuple
     if own_load:
         yield from ((key, value) for key, value in (("kind", "force"), ("vector", [0.0, 0.0, 0.0]))
                     if getattr(table, key) is None)
+
+
+def _working_folder() -> str:
+    try:
+        return os.getcwd()
+    except FileNotFoundError:  # it is gone
+        return ""
 
 
 def _utf8(text: str) -> str:

@@ -1,4 +1,4 @@
-#include "condyle/pictures/round_ticks.h"
+#include "condyle/math/round_ticks.h"
 
 #include <algorithm>
 #include <cmath>
