@@ -75,9 +75,10 @@ std::string plot_style(PlotFormat format, int width, int height) {
 Title page_title(const std::string& title, const std::string& what, double room) {
   if (title.empty()) return {{what}};
   const std::string first = shortened(title, kLongestTitle);
-  Title one{{first + ": " + what}};
+  Title one{{what.empty() ? first : first + ": " + what}};
   if (widest(one.lines, one.size) <= room) return one;
-  Title two{{first + ":", what}};
+  Title two{what.empty() ? std::vector<std::string>{first}
+                         : std::vector<std::string>{first + ":", what}};
   while (two.size > kLeastTitleSize && widest(two.lines, two.size) > room) two.size -= 0.5;
   for (std::string& line : two.lines)
     line = cut_words(line, room,
