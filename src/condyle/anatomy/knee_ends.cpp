@@ -1,11 +1,11 @@
 #include "condyle/anatomy/knee_ends.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/math/decompositions.h"
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/mesh/point_tree.h"
 
@@ -29,9 +29,7 @@ struct Moments {
   /// Columns by rising variance.
   [[nodiscard]] Matrix3d principal() const {
     const Vector3d m = middle();
-    return Eigen::SelfAdjointEigenSolver<Matrix3d>(second / std::max(area, 1e-300) -
-                                                   m * m.transpose())
-        .eigenvectors();
+    return symmetric_eigenvalues(second / std::max(area, 1e-300) - m * m.transpose()).vectors;
   }
 };
 

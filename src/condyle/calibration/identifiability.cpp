@@ -1,7 +1,5 @@
 #include "condyle/calibration/identifiability.h"
 
-#include <Eigen/Cholesky>
-
 #include <cassert>
 #include <cmath>
 
@@ -67,10 +65,8 @@ Information information_of(const Eigen::MatrixXd& J,
   const Eigen::MatrixXd WJC = WJ * covariance;
   const Eigen::MatrixXd small =
       Eigen::MatrixXd::Identity(J.rows(), J.rows()) + WJC * WJ.transpose();
-  const Eigen::LLT<Eigen::MatrixXd> root(small);
-  const Eigen::MatrixXd gain = root.matrixL().solve(WJC);
-  return {Eigen::MatrixXd(root.matrixL()).diagonal().array().log().sum(),
-          covariance - gain.transpose() * gain};
+  const Eigen::MatrixXd root = lower_root(small), gain = lower_solution(root, WJC);
+  return {root.diagonal().array().log().sum(), covariance - gain.transpose() * gain};
 }
 
 }  // namespace condyle

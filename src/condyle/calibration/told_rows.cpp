@@ -1,11 +1,10 @@
 #include "condyle/calibration/told_rows.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 
 #include "condyle/elements/joint_table.h"
 #include "condyle/equilibrium/joint_stiffness.h"
+#include "condyle/math/decompositions.h"
 
 namespace condyle {
 namespace {
@@ -144,7 +143,7 @@ void tell_derivatives(const ToldRows& told,
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   const Matrix6 J = joint_jacobian(*at.model.joint, at.state.X);
   const Matrix6 J_told = joint_jacobian(moved_frames(*at.model.joint, offsets), at.state.X);
-  const Matrix6 to_told = J.transpose().partialPivLu().solve(J_told.transpose()).transpose();
+  const Matrix6 to_told = fully_pivoted_solution(J.transpose(), J_told.transpose()).transpose();
   for (Eigen::Index j = 0; j < derivatives.cols(); ++j) {
     const Eigen::Matrix<double, 6, 1> column = derivatives.col(j).head<6>();
     derivatives.col(j).head<6>() = to_told * column;

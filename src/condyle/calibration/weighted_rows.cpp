@@ -1,9 +1,9 @@
 #include "condyle/calibration/weighted_rows.h"
 
-#include <Eigen/QR>
-
 #include <cmath>
 #include <utility>
+
+#include "condyle/math/decompositions.h"
 
 namespace condyle {
 
@@ -73,9 +73,7 @@ double cost_left(const LeastSquaresProblem& problem, const Trial& at, const Vect
     if ((at.theta[j] <= problem.lower[j] && gradient[j] > 0) ||
         (at.theta[j] >= problem.upper[j] && gradient[j] < 0))
       rows.J.col(j).setZero();
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(rows.J);
-  const VectorXd along = qr.householderQ().adjoint() * rows.f;
-  return 0.5 * along.head(qr.rank()).squaredNorm();
+  return 0.5 * square_along(rows.J, rows.f);
 }
 
 double negligible_cost(const LeastSquaresOptions& options, double cost) {

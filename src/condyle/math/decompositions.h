@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <memory>
 #include <optional>
 
 namespace condyle {
@@ -58,12 +59,34 @@ struct PlaneEigenvalues {
 /// x with A x = b for a regular A, by elimination with partial pivoting.
 [[nodiscard]] Eigen::VectorXd partially_pivoted_solution(const Eigen::MatrixXd& A,
                                                          const Eigen::VectorXd& b);
+/// A regular matrix eliminated once, with partial pivoting, and solved with many times.
+class EliminatedMatrix {
+ public:
+  explicit EliminatedMatrix(const Eigen::MatrixXd& A);
+  ~EliminatedMatrix();
+  EliminatedMatrix(const EliminatedMatrix&);
+  EliminatedMatrix& operator=(const EliminatedMatrix&);
+  EliminatedMatrix(EliminatedMatrix&&) noexcept;
+  EliminatedMatrix& operator=(EliminatedMatrix&&) noexcept;
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  [[nodiscard]] Eigen::Index rows() const;
+
+ private:
+  struct Factors;
+  std::unique_ptr<Factors> factors_;
+};
 /// X with A X = B by elimination with full pivoting, where A may be close to singular.
 [[nodiscard]] Eigen::MatrixXd fully_pivoted_solution(const Eigen::MatrixXd& A,
                                                      const Eigen::MatrixXd& B);
 /// X with A X = B for a symmetric A, that of normal equations say, by L D Lᵀ with pivoting.
 [[nodiscard]] Eigen::MatrixXd symmetric_solution(const Eigen::MatrixXd& A,
                                                  const Eigen::MatrixXd& B);
+/// The square of the length that b has along the columns of A.
+[[nodiscard]] double square_along(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+/// The lower triangle L of A = L Lᵀ, of a positive definite A.
+[[nodiscard]] Eigen::MatrixXd lower_root(const Eigen::MatrixXd& A);
+/// X with L X = B, of a lower triangle L.
+[[nodiscard]] Eigen::MatrixXd lower_solution(const Eigen::MatrixXd& L, const Eigen::MatrixXd& B);
 /// By elimination with full pivoting, without allocation; none where A has no number or a pivot up to `least`.
 [[nodiscard]] std::optional<SmallMatrix> regular_inverse(const SmallMatrix& A, double least);
 

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 
 #include "condyle/input_error.h"
+#include "condyle/math/decompositions.h"
 #include "condyle/math/rotation.h"
 #include "condyle/mesh/mesh_measures.h"
 
@@ -101,12 +101,11 @@ double polar_inertia_about(const MassProperties& body, const Eigen::Vector3d& po
 }
 
 std::array<PointMass, 6> equimomental_points(const MassProperties& body) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(second_moment_of(body.inertia));
+  const SymmetricEigenvalues principal = symmetric_eigenvalues(second_moment_of(body.inertia));
   std::array<PointMass, 6> points;
   for (int axis = 0; axis < 3; ++axis) {
-    const double moment = std::max(0.0, principal.eigenvalues()[axis]);
-    const Eigen::Vector3d arm =
-        std::sqrt(3 * moment / body.mass) * principal.eigenvectors().col(axis);
+    const double moment = std::max(0.0, principal.values[axis]);
+    const Eigen::Vector3d arm = std::sqrt(3 * moment / body.mass) * principal.vectors.col(axis);
     points[2 * axis] = {body.mass / 6, body.center + arm};
     points[2 * axis + 1] = {body.mass / 6, body.center - arm};
   }

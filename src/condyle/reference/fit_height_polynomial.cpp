@@ -1,9 +1,8 @@
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "condyle/math/decompositions.h"
 #include "condyle/reference/fit_heights.h"
 
 namespace condyle {
@@ -35,7 +34,7 @@ void fit_height_polynomial(const std::vector<Vector3d>& points,
     }
     b[row] = weight * surface.axes.col(2).dot(points[k] - surface.origin);
   }
-  const Eigen::VectorXd a = A.colPivHouseholderQr().solve(b);
+  const Eigen::VectorXd a = least_norm_solution(A, b).x;
   for (std::size_t t = 0; t < terms.size(); ++t)
     terms[t].a = a[static_cast<Eigen::Index>(t)] / std::pow(reach, terms[t].i + terms[t].j);
   surface.terms = std::move(terms);

@@ -1,12 +1,10 @@
 #include "condyle/reference/wismans_solver.h"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "condyle/math/decompositions.h"
 #include "condyle/reference/wismans_system.h"
 
 namespace condyle {
@@ -116,7 +114,7 @@ WismansSolution solve(const WismansModel& model,
     before = error;
     const WismansMatrix J = rows.asDiagonal() * system.jacobian * columns.asDiagonal();
     const WismansVector step =
-        -columns.cwiseProduct(WismansVector(Eigen::PartialPivLU<WismansMatrix>(J).solve(scaled)));
+        -columns.cwiseProduct(WismansVector(partially_pivoted_solution(J, scaled)));
     if (!step.allFinite()) {
       solution.status = PoseStatus::kSingular;
       return solution;
@@ -144,7 +142,7 @@ WismansVector first_guess(const WismansModel& model, const RigidTransform& X_BA)
   const Eigen::Matrix<double, 6, 3> A =
       rows.tail<6>().asDiagonal() * system.jacobian.block<6, 3>(kWorkRow, wismans::kForce);
   const Eigen::Matrix<double, 6, 1> b = rows.tail<6>().cwiseProduct(system.residual.tail<6>());
-  guess.tail<3>() = -A.colPivHouseholderQr().solve(b);
+  guess.tail<3>() = -least_norm_solution(A, b).x;
   return guess;
 }
 
