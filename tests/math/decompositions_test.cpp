@@ -104,15 +104,6 @@ TEST(Decompositions, SolutionsSolve) {
       kExactly);
 }
 
-TEST(Decompositions, AnEliminatedMatrixSolvesAgainAndIsCopied) {
-  const EliminatedMatrix first(Eigen::MatrixXd{{0, 2}, {1, 1}});
-  EliminatedMatrix copy = first;
-  copy = EliminatedMatrix(Eigen::MatrixXd{{3.0}});
-  EXPECT_EQ(copy.rows(), 1);
-  for (const Eigen::Vector2d& x : {Eigen::Vector2d(2, 1), Eigen::Vector2d(-1, 4)})
-    EXPECT_LT((first.solve(Eigen::Vector2d(2 * x[1], x[0] + x[1])) - x).norm(), kExactly);
-}
-
 TEST(Decompositions, WhatDependentColumnsSayTwiceCountsOnce) {
   // Of (3, 1, 0) the part along (1, 2, 0) is (1, 2, 0), the third axis takes all of 7.
   EXPECT_NEAR(square_along(deficient(), Eigen::Vector3d(3, 1, 7)), 5 + 49, 54 * kExactly);

@@ -52,28 +52,6 @@ Eigen::VectorXd partially_pivoted_solution(const Eigen::MatrixXd& A, const Eigen
   return A.partialPivLu().solve(b);
 }
 
-struct EliminatedMatrix::Factors {
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu;
-};
-
-EliminatedMatrix::EliminatedMatrix(const Eigen::MatrixXd& A)
-    : factors_(std::make_unique<Factors>(Factors{A.partialPivLu()})) {}
-EliminatedMatrix::~EliminatedMatrix() = default;
-EliminatedMatrix::EliminatedMatrix(const EliminatedMatrix& other)
-    : factors_(std::make_unique<Factors>(*other.factors_)) {}
-EliminatedMatrix& EliminatedMatrix::operator=(const EliminatedMatrix& other) {
-  *factors_ = *other.factors_;
-  return *this;
-}
-EliminatedMatrix::EliminatedMatrix(EliminatedMatrix&&) noexcept = default;
-EliminatedMatrix& EliminatedMatrix::operator=(EliminatedMatrix&&) noexcept = default;
-
-Eigen::VectorXd EliminatedMatrix::solve(const Eigen::VectorXd& b) const {
-  return factors_->lu.solve(b);
-}
-
-Eigen::Index EliminatedMatrix::rows() const { return factors_->lu.rows(); }
-
 Eigen::MatrixXd fully_pivoted_solution(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
   return A.fullPivLu().solve(B);
 }

@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 
 #include <array>
-#include <memory>
 #include <optional>
 
 namespace condyle {
@@ -59,22 +58,6 @@ struct PlaneEigenvalues {
 /// x with A x = b for a regular A, by elimination with partial pivoting.
 [[nodiscard]] Eigen::VectorXd partially_pivoted_solution(const Eigen::MatrixXd& A,
                                                          const Eigen::VectorXd& b);
-/// A regular matrix eliminated once, with partial pivoting, and solved with many times.
-class EliminatedMatrix {
- public:
-  explicit EliminatedMatrix(const Eigen::MatrixXd& A);
-  ~EliminatedMatrix();
-  EliminatedMatrix(const EliminatedMatrix&);
-  EliminatedMatrix& operator=(const EliminatedMatrix&);
-  EliminatedMatrix(EliminatedMatrix&&) noexcept;
-  EliminatedMatrix& operator=(EliminatedMatrix&&) noexcept;
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
-  [[nodiscard]] Eigen::Index rows() const;
-
- private:
-  struct Factors;
-  std::unique_ptr<Factors> factors_;
-};
 /// X with A X = B by elimination with full pivoting, where A may be close to singular.
 [[nodiscard]] Eigen::MatrixXd fully_pivoted_solution(const Eigen::MatrixXd& A,
                                                      const Eigen::MatrixXd& B);

@@ -4,11 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <cmath>
 #include <random>
 
-#include "condyle/math/decompositions.h"
 #include "condyle/verify/coordinates.h"
 #include "condyle/verify/laws.h"
 #include "condyle/verify/layer_checks.h"
@@ -161,7 +161,7 @@ RigidTransform PushCheck::pushed(const PoseResult& pose, Vector6 step, double& l
       value[static_cast<Eigen::Index>(c)] = list[c].value;
     }
     Vector6 taken = step;
-    if (!list.empty()) taken -= least_norm_solution(G, G * step + value).x;
+    if (!list.empty()) taken -= G.completeOrthogonalDecomposition().solve(G * step + value);
     if (i == 0) length = taken.norm();
     taken = taken.cwiseProduct(scale);
     X = moved(X, taken.head<3>(), taken.tail<3>(), X.p);

@@ -3,10 +3,11 @@
 /// The length of a ligament that wraps at poses that no run tells, by geodesics of the verifier's own:
 /// from how it lies at a pose that is told, to poses near it or, step by step, to another one.
 
+#include <Eigen/LU>
+
 #include <optional>
 #include <vector>
 
-#include "condyle/math/decompositions.h"
 #include "condyle/verify/course.h"
 
 namespace condyle::verification {
@@ -89,7 +90,7 @@ class TautString {
   std::size_t ligament_;
   RigidTransform X_BA_;
   std::vector<Arc> arcs_;
-  std::optional<EliminatedMatrix> rates_;  ///< of bends, at some pose near
+  std::optional<Eigen::PartialPivLU<Eigen::MatrixXd>> rates_;  ///< of bends, at some pose near
 };
 
 }  // namespace condyle::verification
