@@ -90,6 +90,8 @@ TEST_F(CommandLine, SaysWhichCommandOrOptionWasMeant) {
                    "--step = five, expected a number" + help);
   expect_bad_input(run("sweep knee.toml a.toml b.toml -o run.h5"),
                    "too many arguments: a.toml b.toml" + help);
+  expect_bad_input(run("sweep knee.toml -o run.h5 --uncertainty 4"),
+                   "too many arguments: 4, did you mean --uncertainty=4?" + help);
   expect_bad_input(run("sweep knee.toml"), "--output is required" + help);
   EXPECT_TRUE(results().empty());
 }

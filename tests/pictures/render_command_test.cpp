@@ -102,6 +102,17 @@ TEST_F(PictureCommands, SeveralRunsLieOverEachOther) {
   EXPECT_NE(svg.find(">other<"), std::string::npos) << "the legend names the runs";
 }
 
+TEST_F(PictureCommands, CurvesWithoutAPoseAreWarnedOf) {
+  const std::string slack = with(test::kScene, "slack_length = 30", "slack_length = 3000");
+  write("adrift.toml", with(slack, "[0, 100, 0]", "[0, -100, 0]"));
+  ASSERT_EQ(run("sweep adrift.toml -o adrift.h5 --to 5").code, 2);
+  const std::string warning =
+      "condyle: warning: adrift.h5: no pose converged, so its curves are empty\n";
+  EXPECT_EQ(run("plot adrift.h5 -o out --format svg").err, warning);
+  EXPECT_EQ(run("plot run.h5 adrift.h5 -o out --format svg").err, warning);
+  EXPECT_EQ(run("plot adrift.h5 -o out --format svg --quiet").err, "");
+}
+
 TEST_F(CommandLine, AMotionIsDrawnAndPlottedOverTime) {
   const Outcome motion = run("simulate '" + kPendulum + "' -o dyn.h5");
   ASSERT_EQ(motion.code, 0) << motion.err;

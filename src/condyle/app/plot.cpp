@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "condyle/app/run_names.h"
 #include "condyle/app/summary.h"
 #include "condyle/app/talk.h"
+#include "condyle/app/tell.h"
 #include "condyle/input_error.h"
 #include "condyle/pictures/picture_folder.h"
 #include "condyle/pictures/plot_run.h"
@@ -35,6 +37,14 @@ PlotFormat format_from_name(const std::string& text) {
   throw InputError("--format " + text + ": expected png, svg or pdf");
 }
 
+void warn_of_empty_curves(const Talk& talk, const std::string& file, const Run& run) {
+  const std::vector<PoseResult>& poses = run.sweep.poses;
+  const bool some =
+      std::any_of(poses.begin(), poses.end(), [](const PoseResult& pose) { return pose.solved(); });
+  if (poses.empty() || some || run.comparison() != nullptr || talk.quiet) return;
+  tell(stderr, "condyle: warning: {}: no pose converged, so its curves are empty\n", file);
+}
+
 Run read_plottable(const std::string& file, bool alone) {
   if (!alone && is_study_file(file))
     throw InputError(file + ": is a study, expected runs; a study is plotted by itself");
@@ -52,10 +62,14 @@ std::vector<std::filesystem::path> plot_all(const PlotCommand& command,
   }
   if (command.runs.size() == 1) {
     const Run run = read_plottable(command.runs.front(), true);
+    warn_of_empty_curves(command.talk, command.runs.front(), run);
     return plot_run(run, make_picture_folder(command.folder), formats);
   }
   std::vector<Run> runs;
-  for (const std::string& file : command.runs) runs.push_back(read_plottable(file, false));
+  for (const std::string& file : command.runs) {
+    runs.push_back(read_plottable(file, false));
+    warn_of_empty_curves(command.talk, file, runs.back());
+  }
   const std::vector<std::string> names = run_names(command.runs);
   std::vector<NamedRun> named;
   for (std::size_t i = 0; i < runs.size(); ++i) named.push_back({names[i], &runs[i]});

@@ -101,14 +101,36 @@ bool asks_for_json(const CLI::App* command, int argc, char** argv) {
   return false;
 }
 
+/// Of a word too many after an option whose value has to be joined to it, as its description says.
+std::string joined_option(const CLI::App& command, int argc, char** argv, const std::string& word) {
+  for (int i = 3; i < argc; ++i) {
+    const std::string name = argv[i - 1];
+    if (argv[i] != word || name.rfind("--", 0) != 0) continue;
+    const CLI::Option* option = command.get_option_no_throw(name);
+    if (option != nullptr && option->get_description().find(name + "=") != std::string::npos)
+      return fmt::format(", did you mean {}={}?", name, word);
+  }
+  return "";
+}
+
+/// Of the words that no option and no place has taken.
+std::string words_of_extras(const CLI::App& program,
+                            const CLI::App* command,
+                            int argc,
+                            char** argv) {
+  const std::vector<std::string> extras = program.remaining(true);
+  std::string words = fmt::format("too many arguments: {}", fmt::join(extras, " "));
+  if (command != nullptr && !extras.empty())
+    words += joined_option(*command, argc, argv, extras.front());
+  return words;
+}
+
 /// What CLI11 says, in our words where its own say less than it knows.
-std::string words_of(const CLI::ParseError& error, const CLI::App& program) {
+std::string words_of(const CLI::ParseError& error) {
   const std::string unconverted = "Could not convert: ";
   std::string words = error.what();
   if (words.rfind(unconverted, 0) == 0)
     return words.substr(unconverted.size()) + ", expected a number";
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
-    return fmt::format("too many arguments: {}", fmt::join(program.remaining(true), " "));
   return words;
 }
 
@@ -151,7 +173,11 @@ int run_program(const std::string& name,
     (void)program.exit(asked, text, text);
     tell("{}", text.str());
   } catch (const CLI::ParseError& error) {
-    refuse([&] { throw InputError(words_of(error, program) + help); });
+    const bool extras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+    refuse([&] {
+      throw InputError((extras ? words_of_extras(program, command, argc, argv) : words_of(error)) +
+                       help);
+    });
   }
   finish_standard_output();
   return status;
