@@ -123,10 +123,11 @@ INSTANTIATE_TEST_SUITE_P(All, NastyNames, testing::ValuesIn(kNasty));
 
 /// "\e]0;" would name the window, "\e[2J" wipe it; U+009B is the same as "\e[".
 TEST_F(CommandLine, ShowsControlCharactersInsteadOfSendingThemToTheTerminal) {
-  write("esc.toml", with(test::kScene, "ball and socket", "a\\u001b[2J\\u009b2Jb\\u007f"));
+  write("esc.toml", with(test::kScene, "ball and socket", "a\\u001b[2J\\u009b2Jb\\u007f\\u202ed"));
   const Outcome swept = run("sweep esc.toml -o run.h5");
   EXPECT_EQ(swept.code, 0) << swept.err;
-  EXPECT_NE(swept.out.find("a\\u001b[2J\\u009b2Jb\\u007f\n"), std::string::npos) << swept.out;
+  EXPECT_NE(swept.out.find("a\\u001b[2J\\u009b2Jb\\u007f\\u202ed\n"), std::string::npos)
+      << swept.out;
   EXPECT_EQ(swept.out.find_first_of("\x1b\x7f"), std::string::npos);
 
   write("key.toml", "\"a\\u001b[2J\\n\" = 1\n" + test::kScene);

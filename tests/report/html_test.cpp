@@ -10,6 +10,7 @@ namespace {
 
 TEST(Html, EscapesWhatCouldEndATextOrAnAttribute) {
   EXPECT_EQ(escaped(std::string("a\0b\x1b[2J\x7f\n\té", 12)), "a\\u0000b\\u001b[2J\\u007f\n\té");
+  EXPECT_EQ(escaped("a\u202egpj.b\u2066 \u2014 \u2068"), "a\\u202egpj.b\\u2066 \u2014 \\u2068");
   EXPECT_EQ(escaped("a < b & \"c\" > 'd'"), "a &lt; b &amp; &quot;c&quot; &gt; &#39;d&#39;");
 }
 

@@ -1,5 +1,7 @@
 #include "condyle/app/tell.h"
 
+#include "condyle/control_characters.h"
+
 namespace condyle {
 namespace {
 
@@ -27,7 +29,9 @@ std::string shown(std::string_view text, std::string_view kept) {
     const unsigned first = byte(text, at);
     const bool c1 = size == 2 && first == 0xc2U && byte(text, at + 1) < 0xa0U;
     const bool control = size == 1 && (first < 0x20U || first == 0x7fU);
-    if (size == 0 || c1 || (control && kept.find(text[at]) == std::string_view::npos))
+    if (const unsigned mark = turning_mark(text, at))
+      out += fmt::format("\\u{:04x}", mark);
+    else if (size == 0 || c1 || (control && kept.find(text[at]) == std::string_view::npos))
       out += fmt::format("\\u{:04x}", c1 ? byte(text, at + 1) : first);
     else
       out += text.substr(at, size);

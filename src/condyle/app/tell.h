@@ -12,8 +12,8 @@
 
 namespace condyle {
 
-/// Control characters (C0, DEL, C1) and bytes that are no UTF-8 as "\u001b", which JSON and TOML read, too. Line breaks
-/// and tabs stay.
+/// Control characters (C0, DEL, C1), marks that turn the direction of text and bytes that are no UTF-8 as "\u001b", which
+/// JSON and TOML read, too. Line breaks and tabs stay.
 [[nodiscard]] std::string printable(std::string_view text);
 /// The same on one line: of line breaks and tabs, too.
 [[nodiscard]] std::string printable_line(std::string_view text);

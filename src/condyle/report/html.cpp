@@ -5,13 +5,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/control_characters.h"
 #include "condyle/report/embedded.h"
 
 namespace condyle {
 
 std::string escaped(std::string_view text) {
   std::string out;
-  for (const char c : text) {
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (const unsigned mark = turning_mark(text, at)) {
+      out += fmt::format("\\u{:04x}", mark);
+      at += 2;
+      continue;
+    }
     switch (c) {
       case '&':
         out += "&amp;";
