@@ -110,6 +110,7 @@ TEST_F(CalibrateCommand, SaysItAllAsJson) {
   for (const char* part : {"\"command\": \"calibrate\"", "\"name\": \"aACL.reference_strain\"",
                            "\"agreements\"", "\"counts\"", "\"reduced_chi_square\""})
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part;
+  EXPECT_NE(outcome.out.find("\"sample_sd\": null"), std::string::npos) << "there are no samples";
 }
 
 TEST_F(CalibrateCommand, AnInterruptKeepsTheBestSoFarAndResumeGoesOn) {
@@ -162,6 +163,9 @@ TEST_F(CalibrateCommand, RefusesBadInputInOneLineAndWritesNothing) {
                    "fit.h5.journal: is no journal of a calibration, expected this name to be free "
                    "for one");
   fs::remove(folder_ / "fit.h5.journal");
+  expect_bad_input(run("calibrate knee.toml -o fit.h5 --posterior p.csv --samples 0"),
+                   "--posterior p.csv: there are no samples to write, expected samples > 0 in "
+                   "[calibrate] or by --samples");
   write("plain.toml", kScene);
   expect_bad_input(run("calibrate plain.toml -o fit.h5"),
                    "plain.toml: [calibrate] is missing, expected the table of measurements");

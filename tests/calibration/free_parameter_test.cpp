@@ -11,6 +11,7 @@
 #include "condyle/calibration/bone_triad.h"
 #include "condyle/equilibrium/build_model.h"
 #include "condyle/equilibrium/drive.h"
+#include "condyle/math/rotation.h"
 #include "condyle/scene/start_pose.h"
 
 namespace condyle::test {
@@ -116,12 +117,24 @@ TEST(BoneTriad, ANormalIsTheMeanOfTrianglesNearby) {
   EXPECT_LT((bone_normal(roof, {0, 5, 0}).value() - Vector3d::UnitY()).norm(), 1e-12);
 }
 
-TEST(BoneTriad, IsRightHandedAndOrthonormal) {
+TEST(BoneTriad, IsOrthonormalAndOfTheHandednessOfItsAxes) {
   const Vector3d n = Vector3d(0.3, -0.8, 0.1).normalized();
-  const Eigen::Matrix3d triad = triad_about(n);
-  EXPECT_LT((triad.transpose() * triad - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity(), triad = triad_about(n, axes);
+  EXPECT_LT((triad.transpose() * triad - axes).norm(), 1e-14);
   EXPECT_NEAR(triad.determinant(), 1, 1e-14);
   EXPECT_EQ(triad.col(2), n);
+  EXPECT_EQ(triad.col(0).dot(Vector3d::UnitX()), 0);  // the axis most at right angles is z
+}
+
+// Whichever way the bone lies in its file, and on either side.
+TEST(BoneTriad, OfAKneeAndItsMirrorImageElsewhereAreImagesOfEachOther) {
+  const Vector3d n = Vector3d(0.3, -0.8, 0.1).normalized();
+  Eigen::Matrix3d axes;  // anterior, proximal, lateral
+  axes << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  const Eigen::Matrix3d turn = exp_rotation(Vector3d(0.4, -1.1, 0.7)),
+                        mirror = Vector3d(-1, 1, 1).asDiagonal();
+  for (const Eigen::Matrix3d& moved : {turn, Eigen::Matrix3d(turn * mirror)})
+    EXPECT_LT((triad_about(moved * n, moved * axes) - moved * triad_about(n, axes)).norm(), 1e-14);
 }
 
 TEST(BoneTriad, AMeshWithoutAreaHasNoNormal) {

@@ -125,6 +125,27 @@ TEST(MeasurementTable, RelativeCurvesAreToldFromTheirUnloadedRowWhichIsThenLeftO
   EXPECT_FALSE(table.rows[2].zero_flexion.has_value());
 }
 
+// A row that is held out may not reach what is fitted through the zero of its curve.
+TEST(MeasurementTable, WhatIsFittedIsToldFromUnloadedRowsThatAreFitted) {
+  const auto drawer_of = [](const std::string& use_of_zero, const std::string& use_of_row) {
+    Scene scene =
+        scene_beside(table_folder(),
+                     "test,flexion,load,level,coordinate,value,sd,use\n"
+                     "a,30,none,0,anterior_drawer,2,0.3," +
+                         use_of_zero + "\n" + "a,30,anterior,88,anterior_drawer,7,0.4," +
+                         use_of_row + "\n" + "b,30,anterior,88,anterior_drawer,7,0.4,fit\n");
+    scene.calibration->relative = {"a"};
+    const MeasurementTable table = read_measurements(scene);
+    EXPECT_EQ(table.rows.size(), 2u);
+    EXPECT_EQ(table.warnings.size(), use_of_zero == "test" && use_of_row == "fit" ? 1u : 0u);
+    return table.rows.at(0).value;
+  };
+  EXPECT_EQ(drawer_of("fit", "fit"), 5);
+  EXPECT_EQ(drawer_of("test", "fit"), 7);
+  EXPECT_EQ(drawer_of("fit", "test"), 5);
+  EXPECT_EQ(drawer_of("test", "test"), 5);
+}
+
 // A robot does not hold a flexion to the last digit: what is taken off stands at the nearest one.
 TEST(MeasurementTable, TheUnloadedRowOfARelativeCurveMayStandBesideItsFlexion) {
   Scene scene = scene_beside(table_folder(),

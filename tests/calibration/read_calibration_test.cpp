@@ -42,6 +42,17 @@ TEST(ReadCalibration, LoadsAreThoseOfTheSceneOrConditionsThatHold) {
   EXPECT_EQ(read.loads[2].index, 1);
 }
 
+TEST(ReadCalibration, TheSizeOfALoadThatTestsSetIsNoFreeNumber) {
+  const std::string fitted = calibrated_scene_with(
+      "of = [\"aACL\", \"pACL\"]\nwhat = \"reference_strain\"\nprior_sd = 0.03\nbounds = [-0.4, "
+      "0.2]",
+      "of = \"drawer\"\nwhat = \"load\"\nprior_sd = 0.03");
+  EXPECT_NE(message_of(fitted).find("fits the size of load \"drawer\", which [[calibrate.load]] "
+                                    "\"anterior\" takes from the table"),
+            std::string::npos)
+      << message_of(fitted);
+}
+
 TEST(ReadCalibration, AStarMeansAllWhoseLawHasTheNumber) {
   const CalibrationDescription read = calibration_of(kCalibratedScene);
   ASSERT_EQ(read.parameters.size(), 3u);

@@ -170,8 +170,42 @@ TEST(Laxity, NamesWhatIsWrongInItsTable) {
       "mean \"aACL\"?");
   EXPECT_EQ(message_about_laxity("[laxity]\nflexion = [0]\ncut = [\"aACL\", \"aACL\"]\n"),
             "knee.toml:62: [laxity]: cut = \"aACL\", expected each ligament once");
+  EXPECT_EQ(message_about_laxity("[laxity]\nflexion = [30, 0, 30]\n"),
+            "knee.toml:61: [laxity]: flexion = [30, 0, 30], expected each angle once");
   EXPECT_EQ(message_about_laxity("[laxity]\nflexion = [0]\ncuts = []\n"),
             "knee.toml:62: [laxity]: unknown key cuts = [], did you mean \"cut\"?");
+}
+
+TEST(Laxity, NeedsALoadAlongACoordinateThatIsFree) {
+  Scene scene = read_scene(kDrawer);
+  LoadDescription& load = scene.loads[scene.sweep->index];
+  load.moment = load.follows_body = true;
+  load.vector = 1000 * scene.joint->tibia.lateral;
+  load.body = scene.joint->tibia.body;
+  try {
+    check_laxity_scene(scene);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("acts along flexion, which condition "),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+// What a load that comes back to its first value says is a curve; from first to last is nothing.
+TEST(Laxity, OfALoadThatComesBackThereIsNone) {
+  Scene scene = read_scene(kDrawer);
+  scene.sweep->values = {0, 1, 0};
+  scene.laxity->flexions = {0};
+  scene.laxity->cut.clear();
+  LaxityResult result = test_laxity(scene, fit_surfaces(scene));
+  EXPECT_TRUE(std::isnan(laxity_of(scene, result.curves[0].ours)));
+  EXPECT_EQ(laxity_lines(scene, result)[2],
+            "intact    0                  -           -       3 of 3");
+  result.curves[0].ours.poses.pop_back();
+  result.curves[0].reference->poses[1].status = PoseStatus::kDiverged;
+  EXPECT_TRUE(laxity_lines(scene, result)[2].ends_with("2 of 2, reference 2 of 3"))
+      << laxity_lines(scene, result)[2];
 }
 
 TEST(Laxity, NeedsALoadThatIsSwept) {

@@ -72,6 +72,12 @@ class GlbReader {
     }
     return {};
   }
+  [[nodiscard]] std::vector<double> times_of(int node, const std::string& path) const {
+    for (const auto& channel : json["animations"][0]["channels"])
+      if (channel["target"]["node"] == node && channel["target"]["path"] == path)
+        return floats(json["animations"][0]["samplers"][channel["sampler"].get<int>()]["input"]);
+    return {};
+  }
   [[nodiscard]] std::vector<double> times() const {
     return floats(json["animations"][0]["samplers"][0]["input"]);
   }

@@ -113,6 +113,21 @@ TEST(GlbRun, HidesAContactOnTheWayThroughAJump) {
   EXPECT_EQ(scale, (std::vector<double>{1, 1, 1, 1, 1, 1, 0, 0, 0, 1, 1, 1}));
 }
 
+/// Keyframes are floats: late in a fast motion a thousandth of a frame is nothing to them.
+TEST(GlbRun, TimesOfKeyframesIncreaseAlsoWhereFloatsAreAsCoarseAsFrames) {
+  condyle::Run run = phantom_run();
+  run.sweep.events = {{0.6, EventKind::kJump, 1}};
+  for (const double start : {0.0, 20.0, 16000.0}) {
+    std::vector<ShownPose> shown = shown_poses(run, "run.h5");
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      shown[i].time = start + 1e-3 * static_cast<double>(i);
+    const GlbReader glb(glb_of_poses(run, shown));
+    const std::vector<double> times = glb.times_of(glb.node("contact lateral"), "scale");
+    EXPECT_EQ(times.size(), start < 1000 ? 4U : 3U) << start;  // at 16,000 s floats are 1 ms apart
+    for (std::size_t i = 1; i < times.size(); ++i) EXPECT_GT(times[i], times[i - 1]) << start;
+  }
+}
+
 TEST(GlbRun, MarksAPoseBeyondAnEdgeByADiamondAndItsStatus) {
   condyle::Run run = phantom_run();
   EXPECT_LT(GlbReader(glb_of_run(run, "run.h5")).node("contact medial beyond the edge"), 0);

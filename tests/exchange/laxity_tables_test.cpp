@@ -156,6 +156,19 @@ TEST_F(LaxityTables, APassivePathNeedsNoLoads) {
   EXPECT_NEAR(read.rows[1].flexion, 5.5 * M_PI / 180, 1e-12);
 }
 
+/// Loaded and unloaded at one flexion: a table of measurements has each row once.
+TEST_F(LaxityTables, StepsThatRepeatAFlexionAndALevelAreSkipped) {
+  write("Passive_Flexion_Kinematics_in_JCS.csv",
+        "Flexion Angle (deg),Knee JCS Flexion(deg),Knee JCS Valgus(deg)\n0,0.5,1\n5,5.5,2\n"
+        "0,0.5,1.5\n");
+  const LaxityTable table =
+      laxity_table({folder_ / "Passive_Flexion_Kinematics_in_JCS.csv"}, options_);
+  EXPECT_EQ(read_by_scene(table.text).rows.size(), 2u);
+  EXPECT_NE(table.text.find(",1.5,1,skip\n"), std::string::npos) << table.text;
+  EXPECT_EQ(table.notes[0].substr(table.notes[0].find(':')),
+            ": 1 steps repeat a flexion and a level: use = skip");
+}
+
 TEST_F(LaxityTables, WhatIsNotKnownIsNeverGuessed) {
   const std::string kinematics = "EI1_kinematics_in_JCS_experiment.csv";
   const std::string kinetics = "EI1_TibiaKinetics_in_TibiaCS_experiment.csv";

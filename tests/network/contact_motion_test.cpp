@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "condyle/math/rotation.h"
+#include "condyle/network/contact_changes.h"
 #include "condyle/network/integrate.h"
 #include "condyle/surface/exact_surfaces.h"
 #include "network/gravity.h"
@@ -64,6 +65,21 @@ TEST(ContactMotion, BeadLeavesTheSphereAtTwoThirds) {
   // The top is unstable: an error of 1e-10 at the start has grown a thousandfold.
   EXPECT_NEAR(again.frames.back().state.bodies[0].X.p.y() / path, 2.0 / 3 * std::cos(start), 1e-6);
   EXPECT_LT(motion.largest_imbalance, 1e-7 * motion.energy_scale);
+}
+
+// Which of them stay closed is found among all their subsets.
+TEST(ContactMotion, TooManyContactsAtOneMomentEndAMotionByName) {
+  for (const std::size_t contacts : {kMostTouching, kMostTouching + 1}) {
+    Ball ball(make_plane({0, 0, 0}, {0, 1, 0}), {0, 10, 0});
+    ball.touch_at({0, 0, 0});
+    ball.network.contacts.assign(contacts, ball.network.contacts.front());
+    ball.state.contacts.assign(contacts, ball.state.contacts.front());
+    ball.network.gravity = {0, 0, 0};
+    const Motion motion = integrate(ball.network, ball.state, options(0.01, 0.01, 1e-8));
+    const bool too_many = contacts > kMostTouching;
+    EXPECT_EQ(motion.completed, !too_many) << motion.reason;
+    EXPECT_EQ(motion.reason, too_many ? "at 0 s: more than 16 contacts touch at one moment" : "");
+  }
 }
 
 // Inside a cylinder without friction a ball is a pendulum of length R - r; too slow for the loop

@@ -62,6 +62,20 @@ TEST(FreeBody, AsymmetricBodyFollowsJacobisFunctions) {
   }
 }
 
+// A table of a driver may have more points than contacts may have events, in any order.
+TEST(FreeBody, GoesThroughAnyNumberOfJumpsInOneFrame) {
+  const Network network = one_body(asymmetric());
+  IntegrationOptions jumping = options(1, 1, 1e-10);
+  for (int k = 1500; k > 0; --k) jumping.breaks.push_back(k / 1600.0);
+  const Motion smooth = integrate(network, spinning({4, 0, 6}), options(1, 1, 1e-10)),
+               motion = integrate(network, spinning({4, 0, 6}), jumping);
+  ASSERT_TRUE(motion.completed) << motion.reason;
+  ASSERT_EQ(motion.frames.size(), 2U);
+  EXPECT_LT(
+      (motion.frames[1].state.bodies[0].omega - smooth.frames[1].state.bodies[0].omega).norm(),
+      1e-7);
+}
+
 // Close to the separatrix M² = 2 E I2: the body turns over again and again about its middle axis.
 TEST(FreeBody, TurnsOverAboutItsMiddleAxis) {
   const Network network = one_body(asymmetric());

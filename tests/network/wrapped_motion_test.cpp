@@ -74,7 +74,7 @@ TEST(WrappedMotion, AStretchThatIsRepeatedGoesOnFromHowStrandsLayBeforeIt) {
   MovingNetwork moving(knee.network, thrown_sideways(model), options(0.2, 0.005, 1e-9));
   std::vector<ContactEvent> events;
   moving.check_start();
-  moving.change_contacts({}, {}, events);
+  ASSERT_TRUE(moving.change_contacts({}, {}, events));
   moving.restart(0);
   const auto paths_at = [&](double from, double to) {
     for (double t = from; t < to;) (void)moving.ode().advance(t, to, to);

@@ -21,6 +21,18 @@ TEST(SweepTable, HasAColumnForEverythingInItsUnit) {
             "   11.46   11.46   17.19    4.00    5.00    6.00    70.0    14.0     3     5\n");
 }
 
+TEST(SweepTable, ValuesThatLieCloseAreToldApart) {
+  const condyle::Run run = made_up_run();
+  const auto first_of = [&](const std::vector<double>& values) {
+    const std::string row =
+        SweepTable(run.scene, swept_quantity(run), values).row(run.sweep.poses[2]);
+    return row.substr(0, row.find(' ', row.find_first_not_of(' ')));
+  };
+  EXPECT_EQ(first_of({0, 0.1, 0.2}), "   11.46");
+  EXPECT_EQ(first_of({0, 1e-4, 2e-4}), "   11.459");        // 0.0057 degrees
+  EXPECT_EQ(first_of({0.2, 0.2 + 1e-12}), "   11.459156");  // no more than six
+}
+
 TEST(SweepTable, NumbersThatFillTheirColumnsStandApart) {
   condyle::Run run = made_up_run();
   run.sweep.poses[2].iterations = 90;

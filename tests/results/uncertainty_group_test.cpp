@@ -20,8 +20,17 @@ MeshUncertainty made_up() {
 
 TEST(UncertaintyGroup, TellsTheGreatestSpreadInWords) {
   EXPECT_EQ(uncertainty_words(made_up()),
-            "mesh noise of 0.20 mm rms: in 20 sweeps a standard deviation of up to 0 deg, 0.3 mm, "
-            "contact forces 4 N, ligament forces 0 N; 37 of 40 poses solved, fits that failed: 1");
+            "mesh noise of 0.20 mm rms: in 20 sweeps a standard deviation of up to - deg, 0.3 mm, "
+            "contact forces 4 N, ligament forces - N; 37 of 40 poses solved, fits that failed: 1");
+}
+
+TEST(UncertaintyGroup, SaysWhereTheShapeOfTheBoneIsInTheNoise) {
+  MeshUncertainty all = made_up();
+  all.surfaces.push_back({"lateral plateau", {0.3, 4.92, 0.06}});
+  EXPECT_TRUE(uncertainty_words(all).ends_with(
+      "; at most so much: what is left beside \"lateral plateau\" is as broad as the smoothing, so "
+      "that the bone's own shape is in it"))
+      << uncertainty_words(all);
 }
 
 TEST(UncertaintyGroup, FindsAnOutputByItsPlace) {

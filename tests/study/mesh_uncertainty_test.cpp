@@ -65,6 +65,20 @@ TEST_F(UncertainPhantom, IsTheSameForAnyNumberOfThreadsAndAnotherForAnotherSeed)
   EXPECT_NE(one->sd, other->sd);
 }
 
+TEST_F(UncertainPhantom, APatchThatIsTooNarrowIsNamedBeforeTheSweep) {
+  Scene narrow = scene;
+  narrow.surfaces[0].patch.region_box = {{{-12, -60, -28.4}, {26, 60, -18.8}}};
+  try {
+    check_noise(narrow, fit_surfaces(narrow));
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("surface \"" + narrow.surfaces[0].name + "\": "),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_NO_THROW(check_noise(scene, surfaces));
+}
+
 TEST_F(UncertainPhantom, StopsWhenItIsTold) {
   StudyProgress stop([](const std::string&, int, int) { return false; });
   EXPECT_EQ(mesh_uncertainty(scene, surfaces, poses, {6, 1, 0}, stop), nullptr);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/study/rough_mesh.h"
@@ -64,7 +66,24 @@ TEST_F(KnownTexture, IsMoreThanTheFitLeavesOfABroadOne) {
   EXPECT_NEAR(texture.correlation, 3, 0.6);
 }
 
-TEST(PatchTexture, OfNothingIsNothing) { EXPECT_EQ(texture_beside({}, {}, {}).rms, 0); }
+std::vector<VertexOverPatch> vertices_at(const std::vector<double>& edge_distances) {
+  std::vector<VertexOverPatch> vertices;
+  for (const double distance : edge_distances)
+    vertices.push_back(
+        {0, Eigen::Vector3d(distance, 0, 0), Eigen::Vector3d::UnitZ(), 0.1, distance});
+  return vertices;
+}
+
+TEST(PatchTexture, FewVerticesTellNone) {
+  EXPECT_TRUE(std::isnan(texture_beside({}, {}, {}).rms));
+  EXPECT_TRUE(std::isnan(
+      texture_beside(vertices_at(std::vector<double>(kFewestOfTexture - 1, 5)), {}, {}).rms));
+}
+
+TEST(PatchTexture, TheMiddleOfANarrowPatchBeginsHalfWay) {
+  EXPECT_EQ(vertices_that_tell(vertices_at({1, 3.9, 4.1, 9})), 2u);
+  EXPECT_EQ(vertices_that_tell(vertices_at({0.5, 0.9, 1.1, 2})), 2u);
+}
 
 }  // namespace
 }  // namespace condyle

@@ -147,6 +147,17 @@ sd = 0.1
   EXPECT_EQ(again.err, outcome.err);
 }
 
+/// A strand that is cut has the stiffness 0, whatever else of it varies.
+TEST_F(StudyCommandLine, AStrandThatIsCutTakesPart) {
+  const std::string knee = contents(folder_ / "knee.toml");
+  const std::size_t at = knee.find("stiffness = ");
+  write("knee.toml", knee.substr(0, at) + "stiffness = 0" + knee.substr(knee.find('\n', at)));
+  write("study.toml", with(kStudy, "samples = 300", "samples = 3"));
+  const Outcome outcome = study("-o cut.h5");
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  EXPECT_EQ(outcome.out.find("not computed"), std::string::npos) << outcome.out;
+}
+
 TEST_F(StudyCommandLine, ResumeOfWhatIsCompleteComputesNothing) {
   ASSERT_EQ(study("-o s.h5 --quiet").code, 0);
   const std::string before = contents(folder_ / "s.h5");

@@ -212,6 +212,10 @@ std::vector<fs::path> write_tables(const CalibrateCommand& command,
   return written;
 }
 
+int samples_of(const CalibrateCommand& command, const Scene& scene) {
+  return command.samples.value_or(scene.calibration->samples);
+}
+
 int run_calibrate(const CalibrateCommand& command) {
   const Talk& talk = command.talk;
   CommandClock clock;
@@ -222,6 +226,10 @@ int run_calibrate(const CalibrateCommand& command) {
           throw InputError(s.file.string() +
                            ": [calibrate] is missing, expected the table of measurements");
         check_files(command, s);
+        if (!command.posterior.empty() && samples_of(command, s) == 0)
+          throw InputError("--posterior " + command.posterior +
+                           ": there are no samples to write, expected samples > 0 in [calibrate] "
+                           "or by --samples");
         table = read_measurements(s);  // before the surfaces are fitted
         if (!talk.quiet)
           for (const std::string& warning : table.warnings)

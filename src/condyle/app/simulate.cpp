@@ -36,9 +36,11 @@ struct SimulateCommand {
 
 /// At most some thirty rows of the table that a sweep prints.
 void print_rows(const Scene& scene, const std::vector<PoseResult>& poses) {
-  const SweepTable table(scene, quantity_of_motion());
-  tell("{}", table.head());
   const std::size_t step = std::max<std::size_t>(1, poses.size() / 30);
+  std::vector<double> times;
+  for (std::size_t i = 0; i < poses.size(); i += step) times.push_back(poses[i].value);
+  const SweepTable table(scene, quantity_of_motion(), times);
+  tell("{}", table.head());
   for (std::size_t i = 0; i < poses.size(); i += step) tell("{}", table.row(poses[i]));
 }
 

@@ -91,7 +91,7 @@ SweepResult sweep_aloud(const Talk& talk,
                         const std::vector<FittedSurface>& surfaces,
                         std::vector<KnownPose> known,
                         KeptPoses& kept) {
-  const SweepTable table(scene, quantity_of_sweep(scene));
+  const SweepTable table(scene, quantity_of_sweep(scene), scene.sweep->values);
   say(talk, "{}", table.head());
   int done = 0, tried = 0;
   const int total = scene.sweep->arc_length ? 0 : static_cast<int>(scene.sweep->values.size());
@@ -154,6 +154,7 @@ int run_sweep(const SweepCommand& command) {
   override_range(command.scene, command.range, scene);
   const std::vector<InputFile> meshes = mesh_files(scene);
   const std::vector<FittedSurface> surfaces = fit_aloud(talk, scene);
+  if (more_sweeps > 0) check_noise(scene, surfaces);
   Run run = make_run(scene, surfaces);
   expect_same(meshes, run.inputs);
   tell_warnings(talk, run);

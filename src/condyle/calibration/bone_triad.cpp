@@ -73,12 +73,14 @@ std::optional<Vector3d> bone_normal(const TriangleMesh& mesh, const Vector3d& p)
   return (one_side ? sum : nearest_area).normalized();
 }
 
-Eigen::Matrix3d triad_about(const Vector3d& n) {
+Eigen::Matrix3d triad_about(const Vector3d& n, const Eigen::Matrix3d& axes) {
+  const Vector3d along = axes.transpose() * n;
   Eigen::Index axis = 0;
-  n.cwiseAbs().minCoeff(&axis);
+  along.cwiseAbs().minCoeff(&axis);
   Eigen::Matrix3d triad;
-  triad.col(0) = (Vector3d::Unit(axis) - n[axis] * n).normalized();
+  triad.col(0) = (axes.col(axis) - along[axis] * n).normalized();
   triad.col(1) = n.cross(triad.col(0));
+  if (axes.col(0).cross(axes.col(1)).dot(axes.col(2)) < 0) triad.col(1) *= -1;
   triad.col(2) = n;
   return triad;
 }

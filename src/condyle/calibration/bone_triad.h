@@ -15,8 +15,9 @@ namespace condyle {
 [[nodiscard]] std::optional<Eigen::Vector3d> bone_normal(const TriangleMesh& mesh,
                                                          const Eigen::Vector3d& p);
 
-/// A right-handed triad: tangent, tangent, the unit normal n. The first tangent lies along the axis of
-/// the body that is most at right angles to n.
-[[nodiscard]] Eigen::Matrix3d triad_about(const Eigen::Vector3d& n);
+/// Tangent, tangent, the unit normal n. The first tangent lies along the axis, of the columns of `axes`, that is
+/// most at right angles to n; the triad has the handedness of the axes: along the anatomical axes of a bone, whose lateral
+/// one is turned round in a left knee, a knee and its mirror image have mirror images of tangents.
+[[nodiscard]] Eigen::Matrix3d triad_about(const Eigen::Vector3d& n, const Eigen::Matrix3d& axes);
 
 }  // namespace condyle

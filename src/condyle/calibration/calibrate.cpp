@@ -203,7 +203,7 @@ void find_samples(const CalibrationOptions& options,
       problem, result.fit.theta, options.samples.value_or(asked.samples), asked.seed, progress);
   result.samples = std::move(samples.theta);
   result.lost_samples = samples.lost;
-  result.sample_sd = std::move(samples.sd);
+  if (result.samples.rows() > 1) result.sample_sd = std::move(samples.sd);  // else there is none
 }
 
 /// What is found beside the fit, as long as nobody says stop.

@@ -172,6 +172,15 @@ class Maker {
     return one_side ? std::optional<Vector3d>(sum.normalized()) : std::nullopt;
   }
 
+  /// Anterior, proximal, lateral of a bone; x, y, z of a body without anatomical axes.
+  [[nodiscard]] Eigen::Matrix3d axes_of(int body) const {
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+    if (scene_.joint)
+      for (const AnatomicalFrame& frame : {scene_.joint->femur, scene_.joint->tibia})
+        if (frame.body == body) axes << frame.anterior, frame.proximal, frame.lateral;
+    return axes;
+  }
+
   void add_insertions(const CalibrationParameter& asked) {
     if (asked.together) return add_insertion(asked, asked.of, owners(scene_, asked));
     for (const int of : asked.of)
@@ -183,7 +192,7 @@ class Maker {
                      const std::string& owner) {
     const std::optional<Vector3d> n = normal_at(of, asked.body);
     const Eigen::Matrix3d triad =
-        n ? triad_about(*n) : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+        n ? triad_about(*n, axes_of(asked.body)) : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
     for (int i = 0; i < 3; ++i) {
       FreeParameter& made = parameters.emplace_back();
       constexpr const char* kOnBone[] = {"tangent_1", "tangent_2", "normal"};

@@ -93,9 +93,15 @@ bool same_curve(const Measurement& a, const Measurement& b) {
   return a.test == b.test && a.index == b.index;
 }
 
+/// What is fitted is told from what is fitted: a row that is held out says nothing there.
+bool may_tell(const Measurement& zero, const Measurement& row) {
+  return row.use != MeasuredUse::kFit || zero.use == MeasuredUse::kFit;
+}
+
 constexpr const char* kNoUnloadedRow =
     ": its curve is told from its unloaded pose (relative), and has no unloaded row within "
-    "2 degrees of this one: it is taken as it stands, and so are others like it";
+    "2 degrees of this one (of a row to fit: one to fit): it is taken as it stands, and so are "
+    "others like it";
 
 /// The unloaded row of the same curve and coordinate whose flexion is nearest to that of a row; null
 /// where none is near: a robot holds a flexion to a degree or so. Of two as near it is that of less flexion.
@@ -105,7 +111,7 @@ const Measurement* unloaded_of(const Measurement& row, const std::vector<Measure
   double least = kNear;
   for (const Measurement& other : unloaded) {
     const double away = std::abs(other.flexion - row.flexion);
-    if (!same_curve(row, other) || away > kNear) continue;
+    if (!same_curve(row, other) || away > kNear || !may_tell(other, row)) continue;
     const bool as_near = nearest != nullptr && std::abs(away - least) < kSame;
     if (as_near ? other.flexion >= nearest->flexion : away >= least && nearest != nullptr) continue;
     nearest = &other;

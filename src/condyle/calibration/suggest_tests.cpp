@@ -42,14 +42,22 @@ std::optional<double> coordinate_sd(const MeasurementTable& table, std::size_t c
   });
 }
 
+/// Whether a load of tests is a condition that prescribes that coordinate.
+bool is_held(const Scene& scene, int load, std::size_t coordinate) {
+  if (load < 0) return false;
+  const CalibrationLoad& tested = scene.calibration->loads[static_cast<std::size_t>(load)];
+  return tested.displacement_control &&
+         static_cast<std::size_t>(scene.conditions[static_cast<std::size_t>(tested.index)].kind) ==
+             coordinate;
+}
+
 /// What one measures in each candidate: rows with their sd, flexion and load to be set.
-std::vector<Measurement> measured_in(const MeasurementTable& table,
-                                     const CalibrationDescription& asked,
-                                     int load) {
+std::vector<Measurement> measured_in(const MeasurementTable& table, const Scene& scene, int load) {
+  const CalibrationDescription& asked = *scene.calibration;
   std::vector<Measurement> rows;
   for (std::size_t i = 0; i < kJointCoordinates.size(); ++i) {
     const std::optional<double> sd = coordinate_sd(table, i);
-    if (i == kFlexionCoordinate || !sd) continue;
+    if (i == kFlexionCoordinate || is_held(scene, load, i) || !sd) continue;
     rows.push_back(predicted_row(0, MeasuredKind::kJointCoordinate, i));
     const double zero = asked.curve_sd ? (*asked.curve_sd)[kJointCoordinates[i].angle ? 1 : 0] : 0;
     rows.back().sd = std::hypot(*sd, zero);
@@ -93,12 +101,12 @@ std::vector<Candidate> candidates_of(const Scene& scene,
   const CalibrationDescription& asked = *scene.calibration;
   for (const double degrees : kFlexions) {
     const double flexion = degrees * M_PI / 180;
-    add_candidate({flexion, -1, 0, 0, 0, {}}, measured_in(measured, asked, -1), table, candidates);
+    add_candidate({flexion, -1, 0, 0, 0, {}}, measured_in(measured, scene, -1), table, candidates);
     for (int load = 0; load < static_cast<int>(asked.loads.size()); ++load) {
       const double level = largest_level(measured, load);
       if (level == 0) continue;
       for (const double sign : {1., -1.})
-        add_candidate({flexion, load, sign * level, 0, 0, {}}, measured_in(measured, asked, load),
+        add_candidate({flexion, load, sign * level, 0, 0, {}}, measured_in(measured, scene, load),
                       table, candidates);
     }
   }

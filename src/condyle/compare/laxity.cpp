@@ -146,6 +146,14 @@ void check_laxity_scene(const Scene& scene) {
   if (scene.sweep && scene.sweep->arc_length)
     throw InputError(scene.file.string() +
                      ": [sweep]: path = \"arc length\", expected \"steps\" for a test of laxity");
+  const std::size_t along = loaded_coordinate(scene);
+  for (std::size_t i = 0; i < scene.conditions.size(); ++i)
+    if (static_cast<std::size_t>(scene.conditions[i].kind) == along)
+      throw InputError(fmt::format(
+          "{}: [laxity]: load \"{}\" acts along {}, which condition \"{}\" holds, expected a load "
+          "along a coordinate that is free",
+          scene.file.string(), scene.loads.at(scene.sweep->index).name,
+          kJointCoordinates[along].words, scene.conditions[i].name));
 }
 
 LaxityResult test_laxity(const Scene& scene,
@@ -199,7 +207,8 @@ std::vector<double> displacements(const Scene& scene, const SweepResult& sweep) 
 }
 
 double laxity_of(const Scene& scene, const SweepResult& sweep) {
-  if (sweep.poses.empty()) return kNoNumber;
+  if (sweep.poses.empty() || sweep.poses.back().value == sweep.poses.front().value)
+    return kNoNumber;
   return coordinate(scene, sweep.poses.back()) - coordinate(scene, sweep.poses.front());
 }
 
@@ -213,13 +222,21 @@ std::vector<std::string> laxity_lines(const Scene& scene, const LaxityResult& re
                   size * scene.sweep->values.back(), load.moment ? "N mm" : "N", load.name),
       fmt::format("{:<10}{:<10}{:>10}{:>12}{:>12}", "knee", "flexion", "ours", "reference",
                   "poses")};
+  const auto told = [&](const SweepResult& sweep) {
+    const double laxity = laxity_of(scene, sweep);
+    return std::isfinite(laxity) ? fmt::format("{:.2f}", laxity) : "-";
+  };
   for (const LaxityCurve& curve : result.curves) {
-    const std::string reference =
-        curve.reference ? fmt::format("{:.2f}", laxity_of(scene, *curve.reference)) : "-";
+    const bool lost = curve.reference && curve.reference->count_converged() <
+                                             static_cast<int>(curve.reference->poses.size());
     lines.push_back(
-        fmt::format("{:<10}{:<10g}{:>10.2f}{:>12}{:>8} of {}", curve.cut ? "cut" : "intact",
-                    std::round(1e6 * curve.flexion / kDegree) / 1e6, laxity_of(scene, curve.ours),
-                    reference, curve.ours.count_converged(), curve.ours.poses.size()));
+        fmt::format("{:<10}{:<10g}{:>10}{:>12}{:>8} of {}{}", curve.cut ? "cut" : "intact",
+                    std::round(1e6 * curve.flexion / kDegree) / 1e6, told(curve.ours),
+                    curve.reference ? told(*curve.reference) : "-", curve.ours.count_converged(),
+                    curve.ours.poses.size(),
+                    lost ? fmt::format(", reference {} of {}", curve.reference->count_converged(),
+                                       curve.reference->poses.size())
+                         : std::string()));
   }
   return lines;
 }

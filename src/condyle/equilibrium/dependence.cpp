@@ -81,7 +81,9 @@ std::string in_words(const Linearization& at, const Dependence& dependence) {
   if (dependence.culprits.empty()) return {};
   const std::string names = name_constraints(at, dependence.culprits);
   if (dependence.culprits.size() == 1) return names + " prevents no motion here";
-  return names + " depend on each other" + (dependence.contradiction ? " and cannot all hold" : "");
+  const bool one_contact = names == name_constraints(at, {dependence.culprits.front()});
+  return (one_contact ? "points of " : "") + names + " depend on each other" +
+         (dependence.contradiction ? " and cannot all hold" : "");
 }
 
 std::string dependent_constraints(const Linearization& at) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "condyle/exchange/glb_solids.h"
 #include "condyle/results/contact_path.h"
@@ -46,6 +47,14 @@ GlbMesh glb_mesh(const RunShape& shape) {
                               static_cast<std::uint32_t>(t[2])});
   }
   return mesh;
+}
+
+/// A little after the first of two keyframes; none where no float, which keyframes are, lies between.
+std::optional<double> moment_after(double first, double second) {
+  const auto begin = static_cast<float>(first), end = static_cast<float>(second);
+  const float moment =
+      std::max(static_cast<float>(first + kMoment * (second - first)), std::nextafter(begin, end));
+  return moment < end ? std::optional<double>(moment) : std::nullopt;
 }
 
 /// The point that lies farthest beyond the edge of what is known; null where all lie within.
@@ -258,7 +267,8 @@ class GlbRun {
       if (!shown || i + 1 == shown_.size() || opens_before(i + 1, index) ||
           joined(path, shown_[i].index, shown_[i + 1].index))
         continue;
-      steps.push_back({shown_[i].time + kMoment * (shown_[i + 1].time - shown_[i].time), 0});
+      if (const auto moment = moment_after(shown_[i].time, shown_[i + 1].time))
+        steps.push_back({*moment, 0});
     }
     return steps;
   }

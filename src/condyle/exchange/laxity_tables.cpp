@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "condyle/calibration/csv_file.h"
 #include "condyle/control_characters.h"
@@ -201,20 +202,28 @@ void write_test(const std::string& test,
   std::array<double, 6> signs{};
   const std::array<int, 6> columns = columns_of(kinematics, signs);
   // A passive path holds no load: each of its rows is a pose.
+  std::set<std::string> seen;
+  int repeated = 0;
   for (const auto& step : steps_of(kinematics.columns[0], passive ? 0 : options.held)) {
     const auto coordinate = [&](std::size_t c) {
       const auto& column = kinematics.columns[static_cast<std::size_t>(columns[c])];
       return signs[c] * value_of(column, step, options.mean) + offsets[c];
     };
     const double level = passive ? 0 : value_of(kinematics.columns[0], step, options.mean);
+    const std::string at = fmt::format("{:.6g},{},{:.6g}", coordinate(0), load.name, level);
+    const bool fresh = seen.insert(at).second;
+    repeated += fresh ? 0 : 1;
     for (std::size_t c = 1; c < 6; ++c) {
       if (columns[c] < 0) continue;
-      table.text += fmt::format("{},{},{:.6g},{},{:.6g},{},{:.6g},{:.6g},fit\n",
-                                quoted(options.specimen), quoted(test), coordinate(0), load.name,
-                                level, kJointCoordinates[c].name, coordinate(c),
-                                kJointCoordinates[c].angle ? options.sd_angle : options.sd_length);
+      table.text += fmt::format("{},{},{},{},{:.6g},{:.6g},{}\n", quoted(options.specimen),
+                                quoted(test), at, kJointCoordinates[c].name, coordinate(c),
+                                kJointCoordinates[c].angle ? options.sd_angle : options.sd_length,
+                                fresh ? "fit" : "skip");
     }
   }
+  if (repeated > 0)
+    table.notes.push_back(
+        fmt::format("{}: {} steps repeat a flexion and a level: use = skip", test, repeated));
 }
 
 }  // namespace

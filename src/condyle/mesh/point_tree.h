@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <nanoflann.hpp>
+#include <utility>
 #include <vector>
 
 namespace condyle {
@@ -37,6 +38,15 @@ struct NearestPoint {
   result.init(&nearest.index, &nearest.square);
   tree.findNeighbors(result, p.data(), nanoflann::SearchParams());
   return nearest;
+}
+
+/// Those nearer to p than `radius`, with the squares of their distances, in no order.
+inline void points_within(const PointTree& tree,
+                          const Eigen::Vector3d& p,
+                          double radius,
+                          std::vector<std::pair<std::size_t, double>>& found) {
+  nanoflann::RadiusResultSet<double, std::size_t> result(radius * radius, found);
+  tree.findNeighbors(result, p.data(), nanoflann::SearchParams());
 }
 
 }  // namespace condyle

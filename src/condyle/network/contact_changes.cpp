@@ -115,12 +115,12 @@ bool choose_closed(NetworkEquations& equations,
 
 }  // namespace
 
-double change_contacts(NetworkEquations& equations,
-                       NetworkState& state,
-                       const std::vector<int>& struck,
-                       const std::vector<int>& released,
-                       const IntegrationOptions& options,
-                       std::vector<ContactEvent>& events) {
+std::optional<double> change_contacts(NetworkEquations& equations,
+                                      NetworkState& state,
+                                      const std::vector<int>& struck,
+                                      const std::vector<int>& released,
+                                      const IntegrationOptions& options,
+                                      std::vector<ContactEvent>& events) {
   const double at_rest = 1e-6 / 30 * equations.network().length;  // [mm/s]
   std::vector<bool> was_closed;
   for (const MovingContact& contact : state.contacts) was_closed.push_back(contact.closed);
@@ -128,6 +128,7 @@ double change_contacts(NetworkEquations& equations,
   equations.solve();
   const double energy_before = equations.energies().kinetic;
   std::vector<int> list = touching(equations.network(), equations, state, struck);
+  if (list.size() > kMostTouching) return std::nullopt;
   std::vector<double> before(state.contacts.size());
   for (std::size_t i = 0; i < before.size(); ++i) before[i] = equations.gap_rate(i);
   const bool impact =

@@ -30,11 +30,13 @@ class Integration {
         keeping_(keeping),
         detect_(std::move(detect)),
         touch_(1e-5 / 30 * network.length),
-        moving_(network, std::move(start), options) {}
+        moving_(network, std::move(start), options) {
+    std::sort(options_.breaks.begin(), options_.breaks.end());
+  }
 
   Motion run() {
     moving_.check_start();
-    moving_.change_contacts({}, {}, motion_.events);
+    const bool begins = moving_.change_contacts({}, {}, motion_.events);
     if (detect_) detect_(moving_.state());
     double t = moving_.state().t;
     const double start = t;
@@ -43,6 +45,7 @@ class Integration {
     store(t);
     frames_ = static_cast<long>(std::ceil(options_.end / options_.interval - 1e-9));
     motion_.completed = true;
+    if (!begins) end_at_touch(t);
     begin_stretch();
     take_over();
     t = moving_.state().t;
@@ -150,17 +153,20 @@ class Integration {
 
   bool advance(double& t, double to) {
     constexpr int kMostEvents = 1000;
-    for (int events = 0; t < to - 2 * kBeforeJump; ++events) {
-      if (events == kMostEvents) return end_here(t, "contacts open and close without end");
+    for (int events = 0; t < to - 2 * kBeforeJump;) {
       if (steps_are_spent()) return end_here(t, "too many steps for one frame");
       const double jump = next_jump(t), stop = std::min(end_, jump - kBeforeJump);
       if (stop <= t) {  // just before a jump: go on behind it
         t = jump;
+        events = 0;
         if (!handle_event(t, {}, {})) return false;
         continue;
       }
       const OdeOutcome outcome = moving_.ode().advance(t, std::min(to, stop), stop);
-      if (outcome == OdeOutcome::kEvent && !handle_root(t)) return false;
+      if (outcome == OdeOutcome::kEvent) {
+        if (++events > kMostEvents) return end_here(t, "contacts open and close without end");
+        if (!handle_root(t)) return false;
+      }
       if (outcome != OdeOutcome::kFailed) continue;
       if (steps_are_spent()) return end_here(t, moving_.ode().reason());
       return give_up(t, moving_.lost_contact().value_or(moving_.ode().reason()));
@@ -172,10 +178,8 @@ class Integration {
 
   /// The next time after t at which a driver jumps, or never.
   [[nodiscard]] double next_jump(double t) const {
-    double next = INFINITY;
-    for (const double jump : options_.breaks)
-      if (jump > t) next = std::min(next, jump);
-    return next;
+    const auto next = std::upper_bound(options_.breaks.begin(), options_.breaks.end(), t);
+    return next == options_.breaks.end() ? INFINITY : *next;
   }
 
   bool give_up(double t, const std::string& reason) {
@@ -187,6 +191,10 @@ class Integration {
   bool end_here(double t, const std::string& reason) {
     hopeless_ = true;
     return give_up(t, reason);
+  }
+
+  bool end_at_touch(double t) {
+    return end_here(t, fmt::format("more than {} contacts touch at one moment", kMostTouching));
   }
 
   /// The state at t exactly on the constraints: between steps it is interpolated.
@@ -203,7 +211,7 @@ class Integration {
   /// Contacts change where a root was found, or may where a driver jumps.
   bool handle_event(double t, const std::vector<int>& struck, const std::vector<int>& released) {
     if (!land(t)) return false;
-    moving_.change_contacts(struck, released, motion_.events);
+    if (!moving_.change_contacts(struck, released, motion_.events)) return end_at_touch(t);
     moving_.restart(t);
     return true;
   }
@@ -220,7 +228,7 @@ class Integration {
     Clock::time_point time = {};
   };
 
-  IntegrationOptions options_;
+  IntegrationOptions options_;  ///< its breaks in order
   const MotionKeeping& keeping_;
   ContactDetection detect_;
   double touch_;  ///< overlap of a contact that opened for nothing [mm]

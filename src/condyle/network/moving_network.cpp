@@ -122,10 +122,13 @@ bool MovingNetwork::land(double t) {
   return condyle::project(equations_, state_);
 }
 
-void MovingNetwork::change_contacts(const std::vector<int>& struck,
+bool MovingNetwork::change_contacts(const std::vector<int>& struck,
                                     const std::vector<int>& released,
                                     std::vector<ContactEvent>& events) {
-  dissipated_ += condyle::change_contacts(equations_, state_, struck, released, options_, events);
+  const std::optional<double> lost =
+      condyle::change_contacts(equations_, state_, struck, released, options_, events);
+  dissipated_ += lost.value_or(0);
+  return lost.has_value();
 }
 
 void MovingNetwork::restart(double t) {

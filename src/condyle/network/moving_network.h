@@ -48,9 +48,9 @@ class MovingNetwork {
   /// The state from the present numbers, put onto the constraints. False where that fails.
   bool land(double t);
   /// Of the state; then restart() has to follow.
-  void change_contacts(const std::vector<int>& struck,
-                       const std::vector<int>& released,
-                       std::vector<ContactEvent>& events);
+  [[nodiscard]] bool change_contacts(const std::vector<int>& struck,
+                                     const std::vector<int>& released,
+                                     std::vector<ContactEvent>& events);
   /// From the state.
   void restart(double t);
   /// From a frame alone: what is computed from now on does not depend on anything before it.

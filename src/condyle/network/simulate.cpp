@@ -12,6 +12,7 @@
 #include "condyle/equilibrium/equilibrium_solver.h"
 #include "condyle/equilibrium/model_covers.h"
 #include "condyle/input_error.h"
+#include "condyle/math/degree.h"
 #include "condyle/network/contact_detection.h"
 #include "condyle/network/drive.h"
 #include "condyle/network/integrate.h"
@@ -74,8 +75,11 @@ EquilibriumState find_start(const Scene& scene,
     pose = solver.solve(angle.with(drive_of(solver.model()), *scene.simulation->flexion));
   }
   if (!pose.converged())
-    fail(scene, "the knee has no position of equilibrium to start from: " +
-                    (pose.reason.empty() ? std::string(name(pose.status)) : pose.reason));
+    fail(scene, fmt::format("the knee has no position of equilibrium to start from{}: {}",
+                            flexion >= 0 ? fmt::format(" at flexion = {:g} deg",
+                                                       *scene.simulation->flexion / kDegree)
+                                         : "",
+                            pose.reason.empty() ? name(pose.status) : pose.reason));
   return solver.state();
 }
 

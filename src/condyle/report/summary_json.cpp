@@ -8,6 +8,7 @@
 #include "condyle/calibration/told_parameter.h"
 #include "condyle/calibration/told_units.h"
 #include "condyle/compare/laxity.h"
+#include "condyle/elements/joint_table.h"
 #include "condyle/results/motion_view.h"
 #include "condyle/results/run_layout.h"
 #include "condyle/results/run_view.h"
@@ -126,9 +127,12 @@ Json patches_of(const Run& run) {
 
 Json laxity_of_run(const Run& run) {
   Json curves = Json::array();
+  const JointCoordinate& along = kJointCoordinates[loaded_coordinate(run.scene)];
   for (const LaxityCurve& curve : run.laxity()->curves) {
     Json row = {{"flexion_deg", in_unit(curve.flexion, {"deg", kDegree})},
                 {"knee", curve.cut ? "cut" : "intact"},
+                {"coordinate", along.name},
+                {"unit", along.angle ? "deg" : "mm"},
                 {"laxity", laxity_of(run.scene, curve.ours)},
                 {"counts", counts_of(curve.ours)}};
     if (curve.reference) {

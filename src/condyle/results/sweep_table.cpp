@@ -25,13 +25,28 @@ double largest_gap(const SweepResult& sweep) {
   return largest;
 }
 
+/// Two, or up to six where values lie closer.
+int decimals_of(const std::vector<double>& values, const Unit& unit) {
+  constexpr int kFewest = 2, kMost = 6;
+  double least = INFINITY;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (const double step = std::abs(values[i] - values[i - 1]) / unit.factor; step > 0)
+      least = std::min(least, step);
+  int decimals = kFewest;
+  while (decimals < kMost && least * std::pow(10, decimals) < 1 - 1e-6) ++decimals;
+  return decimals;
+}
+
 }  // namespace
 
-SweepTable::SweepTable(const Scene& scene, const SweptQuantity& swept) : unit_(swept.unit) {
-  cells_.push_back(
-      {swept.name, unit_.name, 2, [](const SweepTable& t, const PoseResult& p, std::size_t) {
-         return p.value / t.unit_.factor;
-       }});
+SweepTable::SweepTable(const Scene& scene,
+                       const SweptQuantity& swept,
+                       const std::vector<double>& values)
+    : unit_(swept.unit) {
+  cells_.push_back({swept.name, unit_.name, decimals_of(values, unit_),
+                    [](const SweepTable& t, const PoseResult& p, std::size_t) {
+                      return p.value / t.unit_.factor;
+                    }});
   add_coordinates(scene.joint.has_value(), swept.flexion);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     cells_.push_back({scene.contacts[i].name, "N", 1,
@@ -84,7 +99,8 @@ void SweepTable::add_coordinates(bool joint, bool flexion_is_swept) {
 }
 
 int SweepTable::width(const Cell& cell) {
-  const std::size_t least = cell.decimals == 0 ? 6 : 8;
+  const std::size_t least =
+      cell.decimals == 0 ? 6 : 8 + static_cast<std::size_t>(std::max(0, cell.decimals - 2));
   return static_cast<int>(std::max(least, cell.name.size() + 1));
 }
 

@@ -14,7 +14,10 @@ namespace condyle {
 
 class SweepTable {
  public:
-  SweepTable(const Scene& scene, const SweptQuantity& swept);
+  /// `values`: those to come, in units used inside, which are told with as many decimals as tell them apart.
+  SweepTable(const Scene& scene,
+             const SweptQuantity& swept,
+             const std::vector<double>& values = {});
   /// Two lines: names and units.
   [[nodiscard]] std::string head() const;
   [[nodiscard]] std::string row(const PoseResult& pose) const;

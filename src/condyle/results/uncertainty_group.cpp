@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 
+#include "condyle/math/no_number.h"
+
 namespace condyle {
 namespace {
 
@@ -73,14 +75,19 @@ std::vector<RoughSurface> read_surfaces(const Hdf5Group& group) {
 
 /// Greatest standard deviation of the outputs whose place begins so and whose unit is that.
 double greatest_sd(const MeshUncertainty& all, const char* begin, const char* unit) {
-  double greatest = 0;
+  double greatest = kNoNumber;
   for (std::size_t i = 0; i < all.outputs.size(); ++i) {
     const SensitivityOutput& output = all.outputs[i];
     if (output.place.rfind(begin, 0) != 0 || output.unit.name != unit) continue;
     for (const double sd : all.sd[i])
-      if (std::isfinite(sd)) greatest = std::max(greatest, sd / output.unit.factor);
+      if (std::isfinite(sd)) greatest = std::fmax(greatest, sd / output.unit.factor);
   }
   return greatest;
+}
+
+/// "-" for none.
+std::string two_digits(double number) {
+  return std::isfinite(number) ? fmt::format("{:.2g}", number) : "-";
 }
 
 }  // namespace
@@ -125,21 +132,29 @@ double interval_of(int sweeps) {
 }
 
 std::string uncertainty_words(const MeshUncertainty& uncertainty) {
-  std::string noise;
-  for (const RoughSurface& surface : uncertainty.surfaces)
+  std::string noise, broad;
+  for (const RoughSurface& surface : uncertainty.surfaces) {
     noise += fmt::format("{}{:.2f}", noise.empty() ? "" : ", ", surface.texture.rms);
+    if (is_broad(surface.texture))
+      broad += fmt::format("{}\"{}\"", broad.empty() ? "" : ", ", surface.surface);
+  }
+  const auto greatest = [&](const char* begin, const char* unit) {
+    return two_digits(greatest_sd(uncertainty, begin, unit));
+  };
   int solved = 0;
   for (const int count : uncertainty.converged) solved += count;
   const std::size_t poses =
       uncertainty.converged.size() * static_cast<std::size_t>(uncertainty.sweeps);
   return fmt::format(
-      "mesh noise of {} mm rms: in {} sweeps a standard deviation of up to {:.2g} deg, {:.2g} mm, "
-      "contact forces {:.2g} N, ligament forces {:.2g} N; {} of {} poses solved{}",
-      noise, uncertainty.sweeps, greatest_sd(uncertainty, "joint/", "deg"),
-      greatest_sd(uncertainty, "joint/", "mm"), greatest_sd(uncertainty, "contacts/", "N"),
-      greatest_sd(uncertainty, "ligaments/", "N"), solved, poses,
+      "mesh noise of {} mm rms: in {} sweeps a standard deviation of up to {} deg, {} mm, "
+      "contact forces {} N, ligament forces {} N; {} of {} poses solved{}{}",
+      noise, uncertainty.sweeps, greatest("joint/", "deg"), greatest("joint/", "mm"),
+      greatest("contacts/", "N"), greatest("ligaments/", "N"), solved, poses,
       uncertainty.failed_fits > 0 ? fmt::format(", fits that failed: {}", uncertainty.failed_fits)
-                                  : std::string());
+                                  : std::string(),
+      broad.empty() ? std::string()
+                    : "; at most so much: what is left beside " + broad +
+                          " is as broad as the smoothing, so that the bone's own shape is in it");
 }
 
 }  // namespace condyle

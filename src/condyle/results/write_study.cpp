@@ -50,8 +50,10 @@ std::string spread_in_words(const StudyParameter& parameter) {
   if (spread.kind == Spread::Kind::kUniform)
     return fmt::format("{}uniform, {} to {}", log, told(low), told(high));
   std::string words = fmt::format("{}normal, sd {:.6g}", log, spread.sd);
-  if (low > -kNoBound || high < kNoBound)
+  if (low > -kNoBound && high < kNoBound)
     words += fmt::format(", cut at {} and {}", told(low), told(high));
+  else if (low > -kNoBound || high < kNoBound)
+    words += low > -kNoBound ? ", cut below " + told(low) : ", cut above " + told(high);
   return words;
 }
 

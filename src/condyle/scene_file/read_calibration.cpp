@@ -117,6 +117,20 @@ CalibrationLoad read_tested_load(const Section& section,
   return tested;
 }
 
+/// A test says how large its load is: a factor on it would be gone from the fitted scene.
+void refuse_sizes_of_tests(const Section& section,
+                           const Scene& scene,
+                           const CalibrationDescription& calibration) {
+  for (const CalibrationParameter& parameter : calibration.parameters)
+    for (const CalibrationLoad& load : calibration.loads)
+      if (parameter.what == ParameterKind::kLoadScale && !load.displacement_control &&
+          std::find(parameter.of.begin(), parameter.of.end(), load.index) != parameter.of.end())
+        section.fail_with(fmt::format(
+            "fits the size of load \"{}\", which [[calibrate.load]] \"{}\" takes from the table, "
+            "expected a load that no test sets (level_sd says how far levels are trusted)",
+            scene.loads[static_cast<std::size_t>(load.index)].name, load.name));
+}
+
 }  // namespace
 
 std::vector<CalibrationParameter> read_fitted_numbers(const Section& calibrate,
@@ -153,6 +167,7 @@ void read_calibration(const Section& root, Scene& scene) {
   for (const Section& load : section.sections("load"))
     calibration.loads.push_back(read_tested_load(load, scene, calibration));
   calibration.parameters = read_fitted_numbers(section, scene);
+  refuse_sizes_of_tests(section, scene, calibration);
   section.finish();
   scene.calibration = calibration;
 }

@@ -19,6 +19,10 @@ void read_laxity(const Section& root, Scene& scene) {
     section.fail_with("needs a [sweep] with vary = \"NAME.scale\", the load that pulls");
   LaxityDescription laxity;
   laxity.flexions = section.numbers("flexion", "angles [f1, f2, ...]");
+  std::vector<double> sorted = laxity.flexions;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+    section.fail("flexion", "each angle once");
   for (double& flexion : laxity.flexions) flexion *= scene.angle_to_rad;
   if (!std::all_of(laxity.flexions.begin(), laxity.flexions.end(), is_usable_angle))
     section.fail("flexion", "angles of at most one turn (suspect [units] angle)");

@@ -60,9 +60,17 @@ SmoothKnee smooth_knee(const Scene& scene, const std::vector<FittedSurface>& sur
       patch.vertices.push_back(v);
       patch.closest.push_back(v.closest);
     }
-    patch.texture = texture_beside(patch.vertices, surface.patch, *surfaces[i].report);
     knee.patches.push_back(std::move(patch));
   }
+  return knee;
+}
+
+SmoothKnee with_noise(SmoothKnee knee,
+                      const Scene& scene,
+                      const std::vector<FittedSurface>& surfaces) {
+  for (SmoothPatch& patch : knee.patches)
+    patch.texture = texture_beside(patch.vertices, scene.surfaces[patch.surface].patch,
+                                   *surfaces[patch.surface].report);
   return knee;
 }
 
@@ -168,6 +176,15 @@ void check_uncertainty(const Scene& scene, const UncertaintyOptions& options) {
                     scene.file.string()));
 }
 
+void check_noise(const Scene& scene, const std::vector<FittedSurface>& surfaces) {
+  for (const SmoothPatch& patch : smooth_knee(scene, surfaces).patches)
+    if (const std::size_t tell = vertices_that_tell(patch.vertices); tell < kFewestOfTexture)
+      throw InputError(fmt::format(
+          "{}: surface \"{}\": {} vertices lie over its middle, expected at least {} to tell the "
+          "noise of its mesh for --uncertainty: a wider region or a finer mesh",
+          scene.file.string(), scene.surfaces[patch.surface].name, tell, kFewestOfTexture));
+}
+
 std::vector<SensitivityOutput> uncertain_outputs(const Scene& scene) {
   std::vector<SensitivityOutput> outputs = sensitivity_outputs(scene);
   std::erase_if(outputs, [](const SensitivityOutput& output) {
@@ -187,7 +204,8 @@ std::shared_ptr<const MeshUncertainty> mesh_uncertainty(const Scene& scene,
                                                         const UncertaintyOptions& options,
                                                         StudyProgress& progress) {
   check_uncertainty(scene, options);
-  const SmoothKnee knee = smooth_knee(scene, surfaces);
+  check_noise(scene, surfaces);
+  const SmoothKnee knee = with_noise(smooth_knee(scene, surfaces), scene, surfaces);
   const auto all = std::make_shared<MeshUncertainty>();
   all->sweeps = options.sweeps;
   all->outputs = uncertain_outputs(scene);

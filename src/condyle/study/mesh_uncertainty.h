@@ -52,7 +52,10 @@ struct MeshUncertainty {
 /// their own.
 void check_uncertainty(const Scene& scene, const UncertaintyOptions& options);
 
-/// `poses`: of the sweep itself. Throws as check_uncertainty does; null where it was stopped.
+/// Throws InputError for a patch with too few vertices to tell the noise of its mesh.
+void check_noise(const Scene& scene, const std::vector<FittedSurface>& surfaces);
+
+/// `poses`: of the sweep itself. Throws as both do; null where it was stopped.
 [[nodiscard]] std::shared_ptr<const MeshUncertainty> mesh_uncertainty(
     const Scene& scene,
     const std::vector<FittedSurface>& surfaces,

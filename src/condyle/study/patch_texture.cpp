@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "condyle/math/no_number.h"
 #include "condyle/mesh/mesh_measures.h"
+#include "condyle/mesh/point_tree.h"
 #include "condyle/surface/fit_patch.h"
 
 namespace condyle {
@@ -21,24 +24,34 @@ struct MeasuredCovariance {
   Covariance weight{};  ///< pairs for each vertex, 1 at most: lags shorter than edges have few
 };
 
-constexpr double kCore = 4;  // from the edge [mm]
+constexpr double kLongestTexture = 5, kTextureRatio = 1.06;  // [mm]
 
+/// Those in the middle: more than 4 mm from the edge, or half as far as any where the patch is narrow.
 std::vector<const VertexOverPatch*> core_of(const std::vector<VertexOverPatch>& vertices) {
+  constexpr double kCore = 4;  // [mm]
+  double farthest = 0;
+  for (const VertexOverPatch& v : vertices) farthest = std::max(farthest, v.edge_distance);
+  const double least = std::min(kCore, farthest / 2);
   std::vector<const VertexOverPatch*> core;
   for (const VertexOverPatch& v : vertices)
-    if (v.edge_distance > kCore) core.push_back(&v);
+    if (v.edge_distance > least) core.push_back(&v);
   return core;
 }
 
 MeasuredCovariance covariance_of(const std::vector<const VertexOverPatch*>& core) {
   Covariance sum{}, count{};
   constexpr double kFarthest = (kLags - 0.5) * kLagStep;
+  std::vector<Eigen::Vector3d> places;
+  for (const VertexOverPatch* v : core) places.push_back(v->closest);
+  const PointCloud cloud{places};
+  const PointTree tree(3, cloud);
+  std::vector<std::pair<std::size_t, double>> near;
   for (std::size_t i = 0; i < core.size(); ++i) {
     sum[0] += core[i]->height * core[i]->height;
     count[0] += 1;
-    for (std::size_t j = i + 1; j < core.size(); ++j) {
-      const double d2 = (core[i]->closest - core[j]->closest).squaredNorm();
-      if (d2 >= kFarthest * kFarthest) continue;
+    points_within(tree, places[i], kFarthest, near);
+    for (const auto& [j, d2] : near) {
+      if (j <= i) continue;
       // NOLINTNEXTLINE(bugprone-incorrect-roundings): it is never negative, and lround is slow.
       const auto lag = static_cast<std::size_t>(std::sqrt(d2) / kLagStep + 0.5);
       if (lag == 0) continue;
@@ -104,18 +117,26 @@ std::vector<VertexOverPatch> vertices_over_patch(const TriangleMesh& mesh,
   return over;
 }
 
+std::size_t vertices_that_tell(const std::vector<VertexOverPatch>& vertices) {
+  return core_of(vertices).size();
+}
+
+bool is_broad(const PatchTexture& texture) {
+  return texture.correlation * kTextureRatio >= kLongestTexture;
+}
+
 PatchTexture texture_beside(const std::vector<VertexOverPatch>& vertices,
                             const PatchDescription& surface,
                             const FitReport& report) {
   const std::vector<const VertexOverPatch*> core = core_of(vertices);
   PatchTexture texture;
-  if (core.size() < 2) return texture;
+  if (core.size() < kFewestOfTexture) return {kNoNumber, kNoNumber, kNoNumber};
   const MeasuredCovariance measured = covariance_of(core);
   texture.left = std::sqrt(measured.value[0]);
   const double smoothing = mean_smoothing(core, surface, report.smoothing_length);
-  constexpr double kShortest = 0.3, kLongest = 5, kRatio = 1.06;
+  constexpr double kShortest = 0.3;
   double least = std::numeric_limits<double>::infinity();
-  for (double l = kShortest; l < kLongest; l *= kRatio) {
+  for (double l = kShortest; l < kLongestTexture; l *= kTextureRatio) {
     const Covariance expected = left_of_texture(l, smoothing);
     double both = 0, square = 0, misfit = 0;
     for (std::size_t k = 0; k < kLags; ++k) {

@@ -6,9 +6,11 @@
 /// A fit of smoothing length ℓ follows H(k) = 1/(1 + (ℓk)⁶) of a wave, so of a texture with correlation
 /// σ² exp(-d²/2l²) it leaves heights of covariance
 ///     C(d) = σ² ∫ l² exp(-k²l²/2) (1 - H)² J0(kd) k dk.
-/// σ and l are those for which it comes nearest to the covariance of the heights farther than 4 mm from
-/// the edge of what is known, over lags up to 5 mm.
+/// σ and l are those for which it comes nearest to the covariance of the heights over the middle of the
+/// patch, over lags up to 5 mm: more than 4 mm from the edge of what is known, or half as far from it as
+/// any where a patch is narrower than 16 mm.
 
+#include <cstddef>
 #include <vector>
 
 #include "condyle/mesh/triangle_mesh.h"
@@ -39,7 +41,15 @@ struct PatchTexture {
   double left = 0;                  ///< rms of the heights that the fit left [mm]
 };
 
-/// `surface`: how the patch was asked for; `report`: its smoothing length.
+/// Fewer vertices over the middle of a patch tell no texture.
+inline constexpr std::size_t kFewestOfTexture = 50;
+[[nodiscard]] std::size_t vertices_that_tell(const std::vector<VertexOverPatch>& vertices);
+
+/// The longest correlation that is looked for, 5 mm, comes nearest: what is left is the shape of the
+/// bone that the smoothing flattened, as well, and the strength is an upper bound.
+[[nodiscard]] bool is_broad(const PatchTexture& texture);
+
+/// `surface`: how the patch was asked for; `report`: its smoothing length. NaN where too few tell.
 [[nodiscard]] PatchTexture texture_beside(const std::vector<VertexOverPatch>& vertices,
                                           const PatchDescription& surface,
                                           const FitReport& report);
