@@ -71,9 +71,10 @@ TEST(FreeBody, GoesThroughAnyNumberOfJumpsInOneFrame) {
                motion = integrate(network, spinning({4, 0, 6}), jumping);
   ASSERT_TRUE(motion.completed) << motion.reason;
   ASSERT_EQ(motion.frames.size(), 2U);
+  // 1500 restarts at a tolerance of 1e-10.
   EXPECT_LT(
       (motion.frames[1].state.bodies[0].omega - smooth.frames[1].state.bodies[0].omega).norm(),
-      1e-7);
+      1e-5);
 }
 
 // Close to the separatrix M² = 2 E I2: the body turns over again and again about its middle axis.
