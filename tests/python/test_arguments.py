@@ -38,6 +38,12 @@ class Arguments(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, 'did you mean "flexion"'):
             solver.solve(flexio=3)
 
+    def test_an_unknown_keyword_is_told_by_its_name_alone(self):
+        for function in (condyle.calibrate, condyle.compare, condyle.fit, condyle.laxity, condyle.simulate, condyle.study,
+                         condyle.sweep, condyle.open_run, condyle.open_study):
+            with self.assertRaisesRegex(TypeError, rf"^{function.__name__}\(\) got an unexpected keyword argument 'foo'$"):
+                function(None, foo=1)
+
     def test_a_number_that_is_given_twice_is_refused(self):
         solver = condyle.Solver(knees.phantom())
         for solve in (solver.solve, knees.phantom().solve):

@@ -22,9 +22,13 @@ from ._condyle import (Group, InputError, Model, Pose, Run, Solver, Study, Surfa
 from .described import (Body, Calibrate, CalibrateLoad, CalibrateParameter, Condition, Contact, Damper, Drive, End, Fit, Frame,
                         Joint, Laxity, Ligament, Load, Region, Simulate, Start, Surface, Sweep, Units, Wrap)
 from .made_scenes import fitted_scene, new_scene
+from .keywords import named as _named
 from .scene import Scene, read_scene
 from .sweeps import sweep
 from .tables import Table, Tables
+
+calibrate, compare, fit, laxity, simulate, study = map(_named, (calibrate, compare, fit, laxity, simulate, study))
+open_run, open_study = map(_named, (open_run, open_study))
 
 Status = _IntEnum("Status", {name.upper().replace(" ", "_"): i for i, name in enumerate(_status_names)}, module=__name__)
 Status.__doc__ = """How the search for a pose ended: CONVERGED is 0, the others say why there is no pose.
