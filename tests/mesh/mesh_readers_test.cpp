@@ -178,7 +178,12 @@ TEST(Polygon, ThatIsNotConvexIsCutInside) {
     for (std::size_t i = 0; i < corners.size(); ++i)
       turned.push_back(corners[(first + i) % corners.size()]);
     std::vector<std::array<int, 3>> triangles;
-    ASSERT_TRUE(triangulate(turned, triangles));
+    std::int64_t work = 1000;
+    ASSERT_TRUE(triangulate(turned, triangles, work));
+    EXPECT_LT(work, 1000);
+    std::int64_t none = 3;
+    EXPECT_FALSE(triangulate(turned, triangles, none));
+    ASSERT_TRUE(triangulate(turned, triangles, work));
     ASSERT_EQ(triangles.size(), 4u);
     double area = 0;
     for (const auto& [a, b, c] : triangles) {
@@ -194,7 +199,8 @@ TEST(Polygon, ThatIsNotConvexIsCutInside) {
 TEST(Polygon, AQuadWithADentIsCutAtTheDent) {
   const std::vector<Vector3d> dart = {{-2, -1, 5}, {0, 3, 5}, {2, -1, 5}, {0, 0, 5}};
   std::vector<std::array<int, 3>> triangles;
-  ASSERT_TRUE(triangulate(dart, triangles));
+  std::int64_t work = 100;
+  ASSERT_TRUE(triangulate(dart, triangles, work));
   double area = 0;
   for (const auto& [a, b, c] : triangles)
     area += (dart[b] - dart[a]).cross(dart[c] - dart[a]).norm() / 2;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "condyle/input_error.h"
 #include "condyle/scene_file/read_scene.h"
@@ -85,6 +86,19 @@ TEST(FitHeights, MeasuresWhatAQuarticLeavesOfASphere) {
   EXPECT_GT(quartic[0].max, quartic[0].rms);
   EXPECT_FALSE(quartic[2].fitted);  // the plateaus are planes: exact
   EXPECT_EQ(quartic[2].degree, 0);
+}
+
+// Any of its points names a plane without end.
+TEST(FitHeights, APlaneWithoutEndIsTheSameWhicheverPointNamesIt) {
+  Scene scene = read_scene(CONDYLE_SOURCE_DIR "/data/wismans-type/knee.toml");
+  SurfaceDescription& plateau = scene.surfaces[2];
+  ASSERT_EQ(plateau.kind, SurfaceKind::kPlane);
+  plateau.known_radius = std::numeric_limits<double>::infinity();
+  const Vector3d near = fit_heights(scene, fit_surfaces(scene), 4)[2].surface.origin;
+  plateau.point += 300 * plateau.direction.unitOrthogonal();
+  const Vector3d far = fit_heights(scene, fit_surfaces(scene), 4)[2].surface.origin;
+  EXPECT_LT((far - near).norm(), 1e-10);
+  EXPECT_LT((near - scene.joint->tibia.origin).norm(), 100);
 }
 
 }  // namespace

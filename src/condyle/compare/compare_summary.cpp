@@ -120,6 +120,11 @@ void add_differences(const Scene& scene, const Comparison& comparison, Lines& li
   }
 }
 
+/// "-" where no pose has it.
+std::string one_decimal(double number) {
+  return std::isfinite(number) ? fmt::format("{:.1f}", number) : "-";
+}
+
 }  // namespace
 
 Lines summary_lines(const Scene& scene,
@@ -150,10 +155,11 @@ Lines summary_lines(const Scene& scene,
       "in each compartment, from the reference's.)");
   lines.emplace_back();
   lines.push_back(fmt::format(
-      "per pose (means and medians): ours {:.1f} iterations, {:.1f} us; reference {:.1f} "
-      "iterations of 16 equations, {:.1f} us",
-      comparison.iterations_ours, 1e6 * comparison.seconds_ours, comparison.iterations_reference,
-      1e6 * comparison.seconds_reference));
+      "per pose (means and medians): ours {} iterations, {} us; reference {} "
+      "iterations of 16 equations, {} us",
+      one_decimal(comparison.iterations_ours), one_decimal(1e6 * comparison.seconds_ours),
+      one_decimal(comparison.iterations_reference),
+      one_decimal(1e6 * comparison.seconds_reference)));
   return lines;
 }
 

@@ -74,6 +74,7 @@ struct Shell {
   std::vector<int> members;
   double volume = 0;
   bool outward = true;  ///< as it shall be
+  Eigen::AlignedBox3d box = {};
 };
 
 /// Solid angle of a triangle seen from the origin, signed [van Oosterom and Strackee 1983].
@@ -105,11 +106,15 @@ void orient_shells(const TriangleMesh& mesh,
     return std::abs(a.volume) > std::abs(b.volume);
   });
   const std::vector<bool> in_file = turned;
+  for (Shell& shell : shells)
+    for (const int t : shell.members)
+      for (const int v : mesh.triangles[t]) shell.box.extend(mesh.vertices[v]);
   for (std::size_t i = 0; i < shells.size(); ++i) {
     Shell& shell = shells[i];
     const Vector3d& p = mesh.vertices[mesh.triangles[shell.members.front()][0]];
     for (std::size_t k = i; k-- > 0;) {  // the least that may hold it first
-      if ((shells[k].volume < 0) == (shell.volume < 0) || !contains(mesh, in_file, shells[k], p))
+      if ((shells[k].volume < 0) == (shell.volume < 0) || !shells[k].box.contains(p) ||
+          !contains(mesh, in_file, shells[k], p))
         continue;
       shell.outward = !shells[k].outward;
       break;

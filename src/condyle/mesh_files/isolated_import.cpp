@@ -79,9 +79,13 @@ class Child {
     static std::mutex one_at_a_time;
     const std::lock_guard lock(one_at_a_time);
     std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) return;
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) {
+      error_ = errno;
+      return;
+    }
     id_ = fork();
     if (id_ == 0) answer(ends[1], file, limits);
+    if (id_ < 0) error_ = errno;
     close(ends[1]);
     pipe_ = ends[0];
   }
@@ -95,6 +99,8 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
+  /// That of the system where there is no child; else 0.
+  [[nodiscard]] int error() const { return error_; }
   /// Fills the buffer; false where the child ends, or the clock runs out, before it is full.
   bool receive(void* data, std::size_t size) {
     char* at = static_cast<char*>(data);
@@ -133,6 +139,7 @@ class Child {
   std::chrono::steady_clock::time_point deadline_;
   pid_t id_ = -1;
   int pipe_ = -1;
+  int error_ = 0;
 };
 
 TriangleMesh to_mesh(const std::vector<float>& coordinates, const std::vector<int>& corners) {
@@ -163,6 +170,8 @@ TriangleMesh import_isolated(const std::filesystem::path& file, const ChildLimit
     throw InputError(fmt::format("{}: mesh cannot be read: {}", file.string(), what));
   };
   Child child(file, limits);
+  if (child.error() != 0)
+    fail(fmt::format("no process can be started for it: {}", std::strerror(child.error())));
   Answer head;
   const bool answered = child.receive(&head, sizeof head) && head.mark == kMark;
   if (answered && head.reason > 0) {

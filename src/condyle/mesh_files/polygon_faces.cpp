@@ -59,7 +59,9 @@ bool is_ear(const std::vector<Vector2d>& flat, const std::vector<int>& left, std
 
 }  // namespace
 
-bool triangulate(std::span<const Vector3d> corners, std::vector<std::array<int, 3>>& triangles) {
+bool triangulate(std::span<const Vector3d> corners,
+                 std::vector<std::array<int, 3>>& triangles,
+                 std::int64_t& work) {
   assert(corners.size() >= 3);
   triangles.clear();
   const int n = static_cast<int>(corners.size());
@@ -74,6 +76,7 @@ bool triangulate(std::span<const Vector3d> corners, std::vector<std::array<int, 
   for (std::size_t at = 0, tried = 0; left.size() > 3;) {
     const std::size_t m = left.size();
     at %= m;
+    if ((work -= static_cast<std::int64_t>(m)) < 0) return false;
     // A polygon that crosses itself may have no ear: any corner will do.
     if (tried++ < m && !is_ear(flat, left, at)) {
       ++at;
@@ -102,13 +105,15 @@ void PolygonFaces::add(std::span<const int> corners) {
 void PolygonFaces::move_to(TriangleMesh& mesh, const MeshBytes& bytes) {
   std::vector<Vector3d> points;
   std::vector<std::array<int, 3>> cut;
+  std::int64_t work = kMostWork;
   for (const Polygon& polygon : polygons_) {
     const int* corners = corners_.data() + polygon.first_corner;
     points.clear();
     for (std::size_t i = 0; i < polygon.corners; ++i) points.push_back(mesh.vertices[corners[i]]);
-    if (!triangulate(points, cut))
-      bytes.fail(fmt::format("face {} has {} corners and is not convex, expected at most {}",
-                             polygon.face, polygon.corners, kMostConcave));
+    if (!triangulate(points, cut, work))
+      bytes.fail(fmt::format("face {} has {} corners and is not convex, expected at most {}{}",
+                             polygon.face, polygon.corners, kMostConcave,
+                             work < 0 ? ", and fewer such faces that have no ear to cut" : ""));
     for (std::size_t i = 0; i < cut.size(); ++i)
       for (std::size_t k = 0; k < 3; ++k)
         triangles_[polygon.first_triangle + i][k] = corners[cut[i][k]];

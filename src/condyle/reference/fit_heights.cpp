@@ -106,7 +106,7 @@ class HeightFitter {
   [[nodiscard]] HeightFit fit(std::size_t index, std::size_t opposite) const {
     const SurfaceDescription& description = scene_.surfaces[index];
     if (description.kind == SurfaceKind::kPlane || description.kind == SurfaceKind::kPolynomial)
-      return as_it_is(description);
+      return as_it_is(description, middle_of(index));
     const Facing toward = is_femoral(index) ? femoral_facing(opposite) : own_facing(index);
     return fit_points(facing(points_of(surfaces_[index]), toward.direction, toward.angle),
                       description, toward.direction);
@@ -139,12 +139,21 @@ class HeightFitter {
     return {-(R_FT * own_facing(opposite).direction), std::min(range_.half + kMargin, kWidest)};
   }
 
-  /// A plane or a polynomial of the scene needs no fit.
-  static HeightFit as_it_is(const SurfaceDescription& description) {
+  /// The joint's origin in the frame of the surface's body.
+  [[nodiscard]] const Vector3d& middle_of(std::size_t index) const {
+    return is_femoral(index) ? scene_.joint->femur.origin : scene_.joint->tibia.origin;
+  }
+
+  /// A plane or a polynomial of the scene needs no fit. Of a plane without end the point that is nearest to the middle stands
+  /// for it, whichever names it.
+  static HeightFit as_it_is(const SurfaceDescription& description, const Vector3d& middle) {
     HeightFit fit;
     HeightSurface& surface = fit.surface;
     surface.origin = description.point;
     if (description.kind == SurfaceKind::kPlane) {
+      const Vector3d& n = description.direction;
+      if (!std::isfinite(description.known_radius))
+        surface.origin = middle + n.dot(description.point - middle) * n;
       surface.axes.col(2) = description.direction;
       surface.axes.col(0) = description.direction.unitOrthogonal();
       surface.axes.col(1) = surface.axes.col(2).cross(surface.axes.col(0));

@@ -20,6 +20,11 @@ std::string yes_of(const LaxityCurve& curve) {
   return fmt::format("{} of {}", curve.ours.count_converged(), curve.ours.poses.size());
 }
 
+/// "-" where no pose has it.
+std::string three_digits(double number) {
+  return std::isfinite(number) ? fmt::format("{:.3g}", number) : "-";
+}
+
 }  // namespace
 
 std::string comparison_section(const Run& run) {
@@ -31,15 +36,16 @@ std::string comparison_section(const Run& run) {
                   {0, 1}};
   for (const ComparedQuantity& quantity : comparison.quantities) {
     const Difference d = difference(quantity.of(Variant::kOurs), quantity.of(Variant::kReference));
-    table.rows.push_back({quantity.name, quantity.units, short_number(d.rms), short_number(d.max)});
+    table.rows.push_back({quantity.name, quantity.units, d.count > 0 ? short_number(d.rms) : "-",
+                          d.count > 0 ? short_number(d.max) : "-"});
   }
   const std::string lead = fmt::format(
       "<p>Wismans' model converged at {} of {} poses; polynomials of degree {}. A pose takes ours "
-      "{:.3g} µs and "
-      "{:.3g} iterations, Wismans' model {:.3g} µs and {:.3g}.</p>\n",
+      "{} µs and {} iterations, Wismans' model {} µs and {}.</p>\n",
       comparison.reference.count_converged(), comparison.reference.poses.size(),
-      comparison.options.degree, 1e6 * comparison.seconds_ours, comparison.iterations_ours,
-      1e6 * comparison.seconds_reference, comparison.iterations_reference);
+      comparison.options.degree, three_digits(1e6 * comparison.seconds_ours),
+      three_digits(comparison.iterations_ours), three_digits(1e6 * comparison.seconds_reference),
+      three_digits(comparison.iterations_reference));
   return section("comparison", "Comparison", lead + html(table));
 }
 

@@ -259,7 +259,13 @@ std::vector<FittedSurface> fit_surfaces(const Scene& scene,
 
 TriangleMesh load_body_mesh(const BodyDescription& body) {
   if (!body.mesh) return {};
-  return clean_mesh(load_mesh(*body.mesh)).mesh;
+  TriangleMesh mesh = clean_mesh(load_mesh(*body.mesh)).mesh;
+  if (mesh.triangles.empty())
+    throw InputError(fmt::format(
+        "{}: no triangle of any area is left when vertices that coincide are merged, expected "
+        "those of one bone",
+        body.mesh->path.string()));
+  return mesh;
 }
 
 TriangleMesh body_mesh(const Scene& scene, int body, const std::vector<FittedSurface>& surfaces) {

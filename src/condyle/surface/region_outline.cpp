@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <unordered_map>
 #include <utility>
 
 #include "condyle/mesh/mesh_measures.h"
@@ -16,21 +17,30 @@ using Eigen::Vector3d;
 
 constexpr double kMaskStep = 1;  // [mm of parameter]
 
-/// Closed chains of boundary vertices.
+/// Closed chains of boundary vertices. Where two touch at a vertex each is one of its own, wherever the walk along them
+/// began: what comes back to a vertex is a loop.
 std::vector<std::vector<int>> boundary_loops(const TriangleMesh& region) {
   std::multimap<int, int> next;
   for (const MeshEdge& e : mesh_edges(region))
     if (e.count == 1) next.emplace(e.forward[0] ? e.a : e.b, e.forward[0] ? e.b : e.a);
   std::vector<std::vector<int>> loops;
   while (!next.empty()) {
-    std::vector<int> loop;
-    for (auto step = next.begin(); step != next.end(); step = next.find(loop.back())) {
-      if (loop.empty()) loop.push_back(step->first);
-      loop.push_back(step->second);
+    std::vector<int> walk = {next.begin()->first};
+    std::unordered_map<int, std::size_t> place = {
+        {walk.front(), 0}};  // in the walk, of each vertex
+    for (auto step = next.begin(); step != next.end(); step = next.find(walk.back())) {
+      const int to = step->second;
       next.erase(step);
-      if (loop.back() == loop.front()) break;
+      const auto [met, fresh] = place.try_emplace(to, walk.size());
+      walk.push_back(to);
+      if (fresh) continue;
+      const auto begin = walk.begin() + static_cast<std::ptrdiff_t>(met->second);
+      loops.emplace_back(begin, walk.end());
+      for (auto vertex = begin + 1; vertex + 1 < walk.end(); ++vertex) place.erase(*vertex);
+      walk.erase(begin + 1, walk.end());
     }
-    loops.push_back(std::move(loop));
+    if (walk.size() > 1)
+      loops.push_back(std::move(walk));  // an end of triangles that face each other
   }
   return loops;
 }

@@ -26,8 +26,8 @@ TriangleMesh unchanged_mesh(const Run& run,
       if (sha256_of_file(file.path) == input.sha256)
         return clean_mesh(load_mesh(file.path, file.to_mm)).mesh;
       missing.push_back(input.file + " has changed since: its mesh is not looked at");
-    } catch (const InputError&) {
-      missing.push_back(input.file + " is not there any more: its mesh is not looked at");
+    } catch (const InputError& error) {
+      missing.push_back(fmt::format("{} is not looked at: {}", input.file, error.what()));
     }
     return {};
   }
@@ -43,12 +43,12 @@ MeshCheck::MeshCheck(const Run& run, std::vector<std::string>& not_checked) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
       if (scene.bodies[i].name == body.name)
         add(fmt::format("mesh of \"{}\"", body.name), moving(static_cast<int>(i)), body.mesh);
-  std::vector<std::string> loaded;
+  std::vector<std::pair<std::string, int>> loaded;  // by file and body
   for (const SurfaceDescription& surface : scene.surfaces) {
     if (!surface.patch.mesh) continue;
-    const std::string file = surface.patch.mesh->path.string();
-    if (std::find(loaded.begin(), loaded.end(), file) != loaded.end()) continue;
-    loaded.push_back(file);
+    std::pair key(surface.patch.mesh->path.string(), surface.body);
+    if (std::find(loaded.begin(), loaded.end(), key) != loaded.end()) continue;
+    loaded.push_back(std::move(key));
     add(surface.patch.mesh->path.filename().string(), moving(surface.body),
         unchanged_mesh(run, *surface.patch.mesh, not_checked));
   }
