@@ -145,7 +145,7 @@ TEST_F(CommandLine, SaysWhatIsWrongInAScene) {
 }
 
 TEST_F(CommandLine, NamesASceneThatIsNotThere) {
-  write("flat.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n3 0 1 2\n3 1 2 3\n");
+  write("flat.off", "OFF\n4 2 0\n0 0 0\n10 0 0\n20 0 0\n30 0 0\n3 0 1 2\n3 1 2 3\n");
   write("flat.toml", with(kScene, "name = \"tibia\"", "name = \"tibia\"\nmesh = \"flat.off\""));
   const Outcome flat = run("check flat.toml");
   EXPECT_EQ(flat.code, 1);

@@ -146,7 +146,7 @@ def _file_items(table: Table, place: str, functions_too: bool) -> Iterator[tuple
     """What a file says of a table. Functions are put in once it is read: till then a law is 0, a load nothing."""
     own_load = isinstance(table, Load) and table.function is not None
     if own_load:
-        beside = [key for key in ("kind", "vector", "at", "follows") if getattr(table, key) is not None]
+        beside = [key for key in ("at", "follows") if getattr(table, key) is not None]
         if beside:
             raise InputError(f"{place}: function is given, expected no {beside[0]} = {getattr(table, beside[0])!r} beside it")
     if isinstance(table, Ligament) and _is_function(table.law):
@@ -163,8 +163,8 @@ def _file_items(table: Table, place: str, functions_too: bool) -> Iterator[tuple
         elif not own:
             yield key, value
     if own_load:
-        yield "kind", "force"
-        yield "vector", [0.0, 0.0, 0.0]
+        yield from ((key, value) for key, value in (("kind", "force"), ("vector", [0.0, 0.0, 0.0]))
+                    if getattr(table, key) is None)
 
 
 def _working_folder() -> str:
