@@ -212,13 +212,6 @@ class Loads(unittest.TestCase):
         scene.sweep = None
         return scene
 
-    def test_a_place_and_what_it_follows_beside_a_function_are_refused(self):
-        for key, value in (("at", [0, 0, 1]), ("follows", "body")):
-            scene = self.scene(lambda a, R: (np.zeros(3), np.zeros(3)))
-            setattr(scene.loads[0], key, value)
-            with self.assertRaisesRegex(condyle.InputError, f"function is given, expected no {key} = "):
-                condyle.Model(scene)
-
     def test_with_derivatives_without_and_in_c_it_is_the_same(self):
         derivatives = np.zeros((6, 6))
         derivatives[:3, :3] = -self.K * np.eye(3)

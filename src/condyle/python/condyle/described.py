@@ -204,7 +204,7 @@ class Load(Table):
     """[[load]] on the moving body: name, body, kind "force" or "moment", vector (3,) [force, or force times length], at (3,)
     [length], follows "ground" or "body", scale.
 
-    Or function, a load of your own in place of kind and vector: function(translation, rotation) -> (force, moment) or
+    Or function, a load of your own in place of kind, vector, at and follows: function(translation, rotation) -> (force, moment) or
     (force, moment, derivatives): translation (3,) [mm] and rotation (3, 3) of the moving body in the ground frame; force
     (3,) [N] and moment (3,) [N mm] about its origin, ground frame; derivatives (6, 6) of (force, moment) by translation and
     rotation vector, else taken by differences. As C: void f(const double pose[12], double out[42], void* user), with them.

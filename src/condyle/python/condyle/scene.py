@@ -145,10 +145,6 @@ def _lines(table: Any, place: str, functions_too: bool) -> str:
 def _file_items(table: Table, place: str, functions_too: bool) -> Iterator[tuple[str, Any]]:
     """What a file says of a table. Functions are put in once it is read: till then a law is 0, a load nothing."""
     own_load = isinstance(table, Load) and table.function is not None
-    if own_load:
-        beside = [key for key in ("at", "follows") if getattr(table, key) is not None]
-        if beside:
-            raise InputError(f"{place}: function is given, expected no {beside[0]} = {getattr(table, beside[0])!r} beside it")
     if isinstance(table, Ligament) and _is_function(table.law):
         beside = [key for key in _NUMBERS_OF_LAWS if getattr(table, key) is not None]
         if beside:
