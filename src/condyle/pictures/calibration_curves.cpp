@@ -42,31 +42,44 @@ struct Group {
   }
 };
 
-bool over_flexion(const MeasurementTable& table, const std::string& test, int load) {
-  std::map<double, std::set<double>> levels;
-  for (const Measurement& row : table.rows)
-    if (row.test == test && row.load == load) levels[row.flexion].insert(row.level);
-  return load < 0 ||
-         (levels.size() > 1 && std::all_of(levels.begin(), levels.end(),
-                                           [](const auto& at) { return at.second.size() == 1; }));
-}
+/// How the rows of a table are drawn, found in one pass over them.
+class RowLayout {
+ public:
+  explicit RowLayout(const MeasurementTable& table) {
+    std::map<std::pair<std::string, int>, std::map<double, std::set<double>>> levels;
+    for (const Measurement& row : table.rows)
+      levels[{row.test, row.load}][row.flexion].insert(row.level);
+    for (const auto& [curve, at_flexion] : levels)
+      if (at_flexion.size() > 1 &&
+          std::all_of(at_flexion.begin(), at_flexion.end(),
+                      [](const auto& at) { return at.second.size() == 1; }))
+        over_flexion_.insert(curve);
+    for (const Measurement& row : table.rows)
+      if (row.load >= 0 && !over_flexion(row.test, row.load))
+        loads_[{row.test, row.flexion}].insert(row.load);
+  }
 
-/// Loads under which an unloaded row stands as level 0: those of its test at its flexion.
-std::vector<int> loads_of(const MeasurementTable& table, const Measurement& row) {
-  if (row.load >= 0) return {row.load};
-  std::set<int> loads;
-  for (const Measurement& other : table.rows)
-    if (other.test == row.test && other.flexion == row.flexion && other.load >= 0 &&
-        !over_flexion(table, row.test, other.load))
-      loads.insert(other.load);
-  if (loads.empty()) return {-1};
-  return {loads.begin(), loads.end()};
-}
+  [[nodiscard]] bool over_flexion(const std::string& test, int load) const {
+    return load < 0 || over_flexion_.contains({test, load});
+  }
 
-RowCurve named_curve(const Scene& scene, const MeasurementTable& table, const Group& group) {
+  /// Loads under which an unloaded row stands as level 0: those of its test at its flexion.
+  [[nodiscard]] std::vector<int> loads_of(const Measurement& row) const {
+    if (row.load >= 0) return {row.load};
+    const auto loads = loads_.find({row.test, row.flexion});
+    if (loads == loads_.end()) return {-1};
+    return {loads->second.begin(), loads->second.end()};
+  }
+
+ private:
+  std::set<std::pair<std::string, int>> over_flexion_;
+  std::map<std::pair<std::string, double>, std::set<int>> loads_;  // over levels, by flexion
+};
+
+RowCurve named_curve(const Scene& scene, const RowLayout& layout, const Group& group) {
   const auto& [test, flexion, load, kind, laxity, index] = group;
   RowCurve curve;
-  if (over_flexion(table, test, load)) {
+  if (layout.over_flexion(test, load)) {
     curve.title = load < 0 ? test : test + ", " + load_name(scene, load);
     curve.x_label = "Flexion [°]";
   } else {
@@ -81,17 +94,18 @@ RowCurve named_curve(const Scene& scene, const MeasurementTable& table, const Gr
 std::vector<std::pair<Group, RowCurve>> row_curves(const Scene& scene,
                                                    const CalibrationResult& result) {
   const MeasurementTable& table = result.table;
+  const RowLayout layout(table);
   std::vector<std::pair<Group, RowCurve>> curves;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const Measurement& row = table.rows[i];
-    for (const int load : loads_of(table, row)) {
-      const bool flexed = over_flexion(table, row.test, load);
+    for (const int load : layout.loads_of(row)) {
+      const bool flexed = layout.over_flexion(row.test, load);
       const Group group{row.test, flexed ? std::nan("") : row.flexion, load, row.kind, row.laxity,
                         row.index};
       auto found = std::find_if(curves.begin(), curves.end(),
                                 [&](const auto& known) { return known.first == group; });
       if (found == curves.end())
-        found = curves.insert(curves.end(), {group, named_curve(scene, table, group)});
+        found = curves.insert(curves.end(), {group, named_curve(scene, layout, group)});
       const double x =
           flexed ? row.flexion * kAngle : row.level / unit_of_level(scene, load).factor;
       found->second.points.emplace_back(x, i);
