@@ -83,6 +83,29 @@ TEST_F(ForeignHdf5, GroupsBehindLinksAreNotFollowed) {
   EXPECT_EQ(message(), ": /: sweep is a link into another file, expected what it names");
 }
 
+/// A group that holds one that it lies in would be read without end.
+TEST_F(ForeignHdf5, AGroupWithinItselfIsRefused) {
+  const std::string words = " stands in the file at several places, expected a group of its own";
+  replace("/sweep/joint", "flexion", [&](hid_t group, const char*) {
+    H5Lcreate_hard(group, "/sweep", group, "again", H5P_DEFAULT, H5P_DEFAULT);
+  });
+  EXPECT_EQ(message(), ": /: sweep" + words);
+  for (const ReadBy by : {ReadBy::kThisProcess, ReadBy::kProcessOfItsOwn}) {
+    const Hdf5Reader reader(run_, by);
+    EXPECT_THROW((void)read_columns(reader.root()), InputError);
+  }
+}
+
+TEST_F(ForeignHdf5, TheRootWithinItselfIsRefused) {
+  replace("/sweep/joint", "flexion", [&](hid_t group, const char* name) {
+    H5Lcreate_hard(group, "/", group, name, H5P_DEFAULT, H5P_DEFAULT);
+  });
+  for (const ReadBy by : {ReadBy::kThisProcess, ReadBy::kProcessOfItsOwn}) {
+    const Hdf5Reader reader(run_, by);
+    EXPECT_THROW((void)read_columns(reader.root()), InputError);
+  }
+}
+
 /// 24 bytes of another file would be the numbers.
 TEST_F(ForeignHdf5, ExternalStorageIsNotRead) {
   const std::vector<double> secret = {0.1, 0.2, 0.3};

@@ -94,7 +94,10 @@ Hdf5Group Hdf5Group::open(const std::string& name) const {
   if (process_) return {process_, ask(Hdf5Asked::kOpen, name).number, place_ + name + "/"};
   check_link("group", name);
   const hid_t id = H5Gopen2(handle_.id(), name.c_str(), H5P_DEFAULT);
-  return {checked(id, H5Gclose, fmt::format("{} is no group", name)), place_ + name + "/"};
+  Hdf5Handle group = checked(id, H5Gclose, fmt::format("{} is no group", name));
+  if (links_to(group.id()) != 1)
+    fail(fmt::format("{} stands in the file at several places, expected a group of its own", name));
+  return {std::move(group), place_ + name + "/"};
 }
 
 }  // namespace condyle

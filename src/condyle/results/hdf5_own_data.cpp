@@ -112,4 +112,14 @@ void* TextMemory::allocate(std::size_t size, void* memory) {
 
 void TextMemory::keep(void*, void*) {}
 
+unsigned links_to(std::int64_t object) {
+#if H5_VERSION_GE(1, 12, 0)
+  H5O_info2_t info{};
+  return H5Oget_info3(object, &info, H5O_INFO_BASIC) < 0 ? 0 : info.rc;
+#else
+  H5O_info_t info{};
+  return H5Oget_info2(object, &info, H5O_INFO_BASIC) < 0 ? 0 : info.rc;
+#endif
+}
+
 }  // namespace condyle

@@ -31,4 +31,7 @@ class TextMemory {
   std::vector<std::unique_ptr<char[]>> pieces_;
 };
 
+/// Hard links to an object: one, or it stands in the file at several places, perhaps within itself.
+[[nodiscard]] unsigned links_to(std::int64_t object);
+
 }  // namespace condyle

@@ -164,16 +164,31 @@ DataColumn read_column(const Hdf5Group& group, const std::string& name) {
   return column;
 }
 
-ColumnTree read_columns(const Hdf5Group& group) {
+namespace {
+
+/// A damaged file may say that a group has one place and have it within itself.
+ColumnTree read_columns_within(const Hdf5Group& group, int depth, long& groups) {
+  constexpr int kDeepest = 16;
+  constexpr long kMostGroups = 200000;
+  if (depth > kDeepest || ++groups > kMostGroups)
+    group.fail(fmt::format("groups lie {} deep, expected at most {}, and {} in all", depth,
+                           kDeepest, kMostGroups));
   ColumnTree tree;
   for (const std::string& name : group.names()) {
     if (group.is_group(name)) {
-      tree.make_group(name) = read_columns(group.open(name));
+      tree.make_group(name) = read_columns_within(group.open(name), depth + 1, groups);
     } else if (group.kind(name) != DatasetKind::kOther) {
       tree.add(name, read_column(group, name));
     }
   }
   return tree;
+}
+
+}  // namespace
+
+ColumnTree read_columns(const Hdf5Group& group) {
+  long groups = 0;
+  return read_columns_within(group, 0, groups);
 }
 
 }  // namespace condyle
