@@ -212,10 +212,6 @@ std::vector<fs::path> write_tables(const CalibrateCommand& command,
   return written;
 }
 
-int samples_of(const CalibrateCommand& command, const Scene& scene) {
-  return command.samples.value_or(scene.calibration->samples);
-}
-
 int run_calibrate(const CalibrateCommand& command) {
   const Talk& talk = command.talk;
   CommandClock clock;
@@ -226,7 +222,7 @@ int run_calibrate(const CalibrateCommand& command) {
           throw InputError(s.file.string() +
                            ": [calibrate] is missing, expected the table of measurements");
         check_files(command, s);
-        if (!command.posterior.empty() && samples_of(command, s) == 0)
+        if (!command.posterior.empty() && command.samples.value_or(s.calibration->samples) == 0)
           throw InputError("--posterior " + command.posterior +
                            ": there are no samples to write, expected samples > 0 in [calibrate] "
                            "or by --samples");

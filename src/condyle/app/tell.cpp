@@ -28,7 +28,7 @@ std::string shown(std::string_view text, std::string_view kept) {
     const std::size_t size = letter_size(text, at);
     const unsigned first = byte(text, at);
     const bool c1 = size == 2 && first == 0xc2U && byte(text, at + 1) < 0xa0U;
-    const bool control = size == 1 && (first < 0x20U || first == 0x7fU);
+    const bool control = size == 1 && is_control(text[at]);
     if (const unsigned mark = turning_mark(text, at))
       out += fmt::format("\\u{:04x}", mark);
     else if (size == 0 || c1 || (control && kept.find(text[at]) == std::string_view::npos))

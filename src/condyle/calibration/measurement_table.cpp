@@ -9,17 +9,23 @@
 
 namespace condyle {
 
+const ConditionDescription* held_condition(int load, const Scene& scene) {
+  if (load < 0) return nullptr;
+  const CalibrationLoad& tested = scene.calibration->loads[static_cast<std::size_t>(load)];
+  if (!tested.displacement_control) return nullptr;
+  return &scene.conditions[static_cast<std::size_t>(tested.index)];
+}
+
 std::string name_of(const Measurement& row, const MeasurementTable& table, const Scene& scene) {
   std::string name =
       fmt::format("{}:{}: {}, {:.6g} {}", table.file.string(), row.line, one_line(row.test),
                   row.flexion / scene.angle_to_rad, scene.angle_to_rad == 1 ? "rad" : "deg");
   if (row.load < 0) return name;
   const CalibrationLoad& load = scene.calibration->loads[static_cast<std::size_t>(row.load)];
-  const auto index = static_cast<std::size_t>(load.index);
   double unit = scene.force_to_n;
-  if (load.displacement_control)
-    unit = is_angle(scene.conditions[index].kind) ? scene.angle_to_rad : scene.length_to_mm;
-  else if (scene.loads[index].moment)
+  if (const ConditionDescription* held = held_condition(row.load, scene))
+    unit = is_angle(held->kind) ? scene.angle_to_rad : scene.length_to_mm;
+  else if (scene.loads[static_cast<std::size_t>(load.index)].moment)
     unit = scene.calibration->moment_to_nmm;
   return name + fmt::format(", {} {:.6g}", load.name, row.level / unit);
 }

@@ -60,6 +60,9 @@ struct MeasurementTable {
 /// scene's units (angles beyond 180 deg, displacements beyond 200 mm), no row to fit.
 [[nodiscard]] MeasurementTable read_measurements(const Scene& scene);
 
+/// The condition that a load of the tests is; null for one that pulls, and for none (-1).
+[[nodiscard]] const ConditionDescription* held_condition(int load, const Scene& scene);
+
 /// How a row is called in messages: "knee.csv:7: ap30, 30 deg, anterior 88".
 [[nodiscard]] std::string name_of(const Measurement& row,
                                   const MeasurementTable& table,

@@ -66,15 +66,8 @@ double sized(const CsvRow& row,
   return value;
 }
 
-const ConditionDescription* held_condition(const Measurement& measured, const Scene& scene) {
-  if (measured.load < 0) return nullptr;
-  const CalibrationLoad& load = scene.calibration->loads[static_cast<std::size_t>(measured.load)];
-  if (!load.displacement_control) return nullptr;
-  return &scene.conditions[static_cast<std::size_t>(load.index)];
-}
-
 Scale level_scale(const Measurement& measured, const Scene& scene) {
-  if (const ConditionDescription* held = held_condition(measured, scene))
+  if (const ConditionDescription* held = held_condition(measured.load, scene))
     return is_angle(held->kind) ? angle_scale(scene) : length_scale(scene);
   const CalibrationLoad& load = scene.calibration->loads[static_cast<std::size_t>(measured.load)];
   return scene.loads[static_cast<std::size_t>(load.index)].moment ? moment_scale(scene)
@@ -141,7 +134,7 @@ void check_free(const CsvRow& row,
   const auto kind = static_cast<ConditionKind>(measured.index);
   if (kind == ConditionKind::kFlexion)
     columns.fail(row, "coordinate", "another coordinate: flexion is prescribed in every test");
-  const ConditionDescription* held = held_condition(measured, scene);
+  const ConditionDescription* held = held_condition(measured.load, scene);
   if (held != nullptr && held->kind == kind)
     columns.fail(row, "coordinate",
                  fmt::format("another coordinate, or reaction: load {} prescribes it",
@@ -171,7 +164,7 @@ void read_coordinate(const CsvRow& row,
     return check_free(row, columns, scene, measured);
   }
   if (name != "reaction") return read_force(row, columns, scene, measured);
-  const ConditionDescription* held = held_condition(measured, scene);
+  const ConditionDescription* held = held_condition(measured.load, scene);
   if (held == nullptr)
     columns.fail(row, "coordinate",
                  "a coordinate: a reaction is of loads that are conditions, which hold one");

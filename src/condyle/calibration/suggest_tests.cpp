@@ -42,22 +42,15 @@ std::optional<double> coordinate_sd(const MeasurementTable& table, std::size_t c
   });
 }
 
-/// Whether a load of tests is a condition that prescribes that coordinate.
-bool is_held(const Scene& scene, int load, std::size_t coordinate) {
-  if (load < 0) return false;
-  const CalibrationLoad& tested = scene.calibration->loads[static_cast<std::size_t>(load)];
-  return tested.displacement_control &&
-         static_cast<std::size_t>(scene.conditions[static_cast<std::size_t>(tested.index)].kind) ==
-             coordinate;
-}
-
 /// What one measures in each candidate: rows with their sd, flexion and load to be set.
 std::vector<Measurement> measured_in(const MeasurementTable& table, const Scene& scene, int load) {
   const CalibrationDescription& asked = *scene.calibration;
+  const ConditionDescription* held = held_condition(load, scene);
   std::vector<Measurement> rows;
   for (std::size_t i = 0; i < kJointCoordinates.size(); ++i) {
+    if (held != nullptr && static_cast<std::size_t>(held->kind) == i) continue;
     const std::optional<double> sd = coordinate_sd(table, i);
-    if (i == kFlexionCoordinate || is_held(scene, load, i) || !sd) continue;
+    if (i == kFlexionCoordinate || !sd) continue;
     rows.push_back(predicted_row(0, MeasuredKind::kJointCoordinate, i));
     const double zero = asked.curve_sd ? (*asked.curve_sd)[kJointCoordinates[i].angle ? 1 : 0] : 0;
     rows.back().sd = std::hypot(*sd, zero);

@@ -40,8 +40,8 @@ std::string escaped(std::string_view text) {
         out += c;
         break;
       default:  // a page may hold no other control characters
-        if (const auto byte = static_cast<unsigned char>(c); byte < 0x20 || byte == 0x7f)
-          out += fmt::format("\\u{:04x}", static_cast<unsigned>(byte));
+        if (is_control(c))
+          out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
         else
           out += c;
     }

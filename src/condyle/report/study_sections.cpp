@@ -20,11 +20,6 @@ std::string yes_of(const LaxityCurve& curve) {
   return fmt::format("{} of {}", curve.ours.count_converged(), curve.ours.poses.size());
 }
 
-/// "-" where no pose has it.
-std::string three_digits(double number) {
-  return std::isfinite(number) ? fmt::format("{:.3g}", number) : "-";
-}
-
 }  // namespace
 
 std::string comparison_section(const Run& run) {
@@ -43,9 +38,9 @@ std::string comparison_section(const Run& run) {
       "<p>Wismans' model converged at {} of {} poses; polynomials of degree {}. A pose takes ours "
       "{} µs and {} iterations, Wismans' model {} µs and {}.</p>\n",
       comparison.reference.count_converged(), comparison.reference.poses.size(),
-      comparison.options.degree, three_digits(1e6 * comparison.seconds_ours),
-      three_digits(comparison.iterations_ours), three_digits(1e6 * comparison.seconds_reference),
-      three_digits(comparison.iterations_reference));
+      comparison.options.degree, short_number(1e6 * comparison.seconds_ours),
+      short_number(comparison.iterations_ours), short_number(1e6 * comparison.seconds_reference),
+      short_number(comparison.iterations_reference));
   return section("comparison", "Comparison", lead + html(table));
 }
 

@@ -65,13 +65,22 @@ SmoothKnee smooth_knee(const Scene& scene, const std::vector<FittedSurface>& sur
   return knee;
 }
 
-SmoothKnee with_noise(SmoothKnee knee,
-                      const Scene& scene,
-                      const std::vector<FittedSurface>& surfaces) {
+/// Where too few vertices tell the noise of a mesh.
+void refuse_silent_patches(const SmoothKnee& knee, const Scene& scene) {
+  for (const SmoothPatch& patch : knee.patches)
+    if (const std::size_t tell = vertices_that_tell(patch.vertices); tell < kFewestOfTexture)
+      throw InputError(fmt::format(
+          "{}: surface \"{}\": {} vertices lie over its middle, expected at least {} to tell the "
+          "noise of its mesh for --uncertainty: a wider region or a finer mesh",
+          scene.file.string(), scene.surfaces[patch.surface].name, tell, kFewestOfTexture));
+}
+
+void measure_noise(const Scene& scene,
+                   const std::vector<FittedSurface>& surfaces,
+                   SmoothKnee& knee) {
   for (SmoothPatch& patch : knee.patches)
     patch.texture = texture_beside(patch.vertices, scene.surfaces[patch.surface].patch,
                                    *surfaces[patch.surface].report);
-  return knee;
 }
 
 std::vector<FittedMesh> noisy_meshes(const SmoothKnee& knee, std::uint64_t seed, int draw) {
@@ -177,12 +186,7 @@ void check_uncertainty(const Scene& scene, const UncertaintyOptions& options) {
 }
 
 void check_noise(const Scene& scene, const std::vector<FittedSurface>& surfaces) {
-  for (const SmoothPatch& patch : smooth_knee(scene, surfaces).patches)
-    if (const std::size_t tell = vertices_that_tell(patch.vertices); tell < kFewestOfTexture)
-      throw InputError(fmt::format(
-          "{}: surface \"{}\": {} vertices lie over its middle, expected at least {} to tell the "
-          "noise of its mesh for --uncertainty: a wider region or a finer mesh",
-          scene.file.string(), scene.surfaces[patch.surface].name, tell, kFewestOfTexture));
+  refuse_silent_patches(smooth_knee(scene, surfaces), scene);
 }
 
 std::vector<SensitivityOutput> uncertain_outputs(const Scene& scene) {
@@ -204,8 +208,9 @@ std::shared_ptr<const MeshUncertainty> mesh_uncertainty(const Scene& scene,
                                                         const UncertaintyOptions& options,
                                                         StudyProgress& progress) {
   check_uncertainty(scene, options);
-  check_noise(scene, surfaces);
-  const SmoothKnee knee = with_noise(smooth_knee(scene, surfaces), scene, surfaces);
+  SmoothKnee knee = smooth_knee(scene, surfaces);
+  refuse_silent_patches(knee, scene);
+  measure_noise(scene, surfaces, knee);
   const auto all = std::make_shared<MeshUncertainty>();
   all->sweeps = options.sweeps;
   all->outputs = uncertain_outputs(scene);
