@@ -110,6 +110,28 @@ TEST(Compare, SpheresOnPlanesDifferByTheLawOfTheSpringsAboveAll) {
   EXPECT_GT(all.comparison.seconds_reference, 0);
 }
 
+TEST(Compare, DifferencesThatNobodyComputedAreDashes) {
+  Compared all = compare_scene(read_scene(kKnee));
+  const auto line_of = [&all](const std::string& name) {
+    for (const std::string& line : summary_lines(all.scene, all.surfaces, all.ours, all.comparison))
+      if (line.starts_with(name + ' ')) return line;
+    return std::string();
+  };
+  const auto forget = [&all](std::size_t quantity, Variant v) {
+    std::vector<double>& values =
+        all.comparison.quantities[quantity].values[static_cast<std::size_t>(v)];
+    values.assign(values.size(), std::nan(""));
+  };
+  const std::string first = all.comparison.quantities[0].name;
+  EXPECT_EQ(line_of(first).find(" - "), std::string::npos) << line_of(first);
+  forget(0, Variant::kSurfaces);
+  EXPECT_NE(line_of(first).find("|         -"), std::string::npos) << line_of(first);
+  forget(0, Variant::kAllThree);
+  EXPECT_TRUE(line_of(first).ends_with("          -")) << line_of(first);
+  forget(0, Variant::kReference);
+  EXPECT_TRUE(line_of(first).ends_with("no pose of both")) << line_of(first);
+}
+
 // The reference and the steps towards it are rigid; ours differs from rigid ones held closed by its
 // layers, and half as much with layers four times as stiff.
 TEST(Compare, LayersDifferFromRigidContactsByTheirDepth) {

@@ -1,6 +1,7 @@
 #include "condyle/mesh_files/isolated_import.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <filesystem>
 #include <fstream>
@@ -114,6 +115,20 @@ TEST_F(IsolatedImport, ReadsGltfWithItsTransforms) {
   const auto box = bounds(mesh.vertices);
   EXPECT_NEAR((box.min() - Vector3d(100, 0, 0)).norm(), 0, 1e-4);
   EXPECT_NEAR((box.max() - Vector3d(120, 20, 0)).norm(), 0, 1e-4);
+}
+
+// No file can be opened any more, so there is no pipe to a process.
+TEST_F(IsolatedImport, WithoutAProcessSaysSo) {
+  const fs::path file = write("triangle.gltf", kPart);
+  rlimit files{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &files), 0);
+  const rlimit none{3, files.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+  const std::string said = complaint(file);
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &files), 0);
+  EXPECT_EQ(said, file.string() +
+                      ": mesh cannot be read: no process can be started for it: Too many open "
+                      "files");
 }
 
 // Numbers of other files are none of a mesh's: neither by a path nor by a link.

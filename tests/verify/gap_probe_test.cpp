@@ -58,6 +58,25 @@ TEST(GapProbe, KnowsWhereASurfaceEnds) {
   EXPECT_NEAR(GapProbe(*ground, *ball).lowest(Y.inverse()).gap, std::sqrt(20.0) - 5, 1e-3);
 }
 
+// A cap that is known over 10 mm says nothing of what its bone is like 11 mm below it, unless something pushes in from above.
+TEST(GapProbe, TakesABoneForSolidAsDeepAsItsSurfaceIsWide) {
+  SurfaceDescription polynomial = described(SurfaceKind::kPolynomial);
+  polynomial.terms = {{2, 0, -1. / 60}, {0, 2, -1. / 60}};
+  polynomial.known_radius = 10;
+  const auto cap = make_exact_side(polynomial), ground = floor_of(3);
+  const RigidTransform same{Eigen::Matrix3d::Identity(), Vector3d(0, 0, -11)},
+      opposed{exp_rotation({M_PI, 0, 0}), same.p},
+      shallow{Eigen::Matrix3d::Identity(), Vector3d(0, 0, -9)};
+  const LowestGap behind = GapProbe(*ground, *cap).lowest(same);
+  EXPECT_TRUE(behind.behind);
+  EXPECT_GE(behind.gap, 0);
+  for (const RigidTransform& X : {opposed, shallow}) {
+    const LowestGap overlap = GapProbe(*ground, *cap).lowest(X);
+    EXPECT_FALSE(overlap.behind);
+    EXPECT_NEAR(overlap.gap, X.p.z(), 0.01 * std::abs(X.p.z()));
+  }
+}
+
 TEST(GapProbe, SeesBallsInSocketsAndToriFromAllSides) {
   SurfaceDescription socket = described(SurfaceKind::kEllipsoid);
   socket.semi_axes = {25, 22, 20};

@@ -10,10 +10,12 @@
 
 #include "condyle/input_error.h"
 #include "condyle/math/rotation.h"
+#include "condyle/results/digest.h"
 #include "condyle/results/line_file.h"
 #include "condyle/results/run_columns.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/verify/verify.h"
+#include "support/mesh_shapes.h"
 #include "verify/computed_run.h"
 
 namespace condyle {
@@ -340,6 +342,27 @@ TEST(VerifyCatches, BonesThatPassedThroughEachOther) {
   }
   EXPECT_WORDS(fault_of(run, Check::kMesh), "bones passed through each other");
   EXPECT_WORDS(fault_of(run, Check::kGap), "overlap by ");
+}
+
+// One file may hold both bones: a cube of 60 mm that either body has, the other's corner at its centre.
+TEST(VerifyCatches, BonesOfOneFileThatPassedThroughEachOther) {
+  const std::filesystem::path file =
+      test::fresh_folder("condyle verify one mesh") / "both bones.off";
+  const TriangleMesh cube = test::cube(60);
+  {
+    std::ofstream off(file);
+    off << "OFF\n" << cube.vertices.size() << ' ' << cube.triangles.size() << " 0\n";
+    for (const Vector3d& v : cube.vertices) off << v.transpose() << '\n';
+    for (const auto& [a, b, c] : cube.triangles) off << "3 " << a << ' ' << b << ' ' << c << '\n';
+  }
+  condyle::Run run = test::phantom_poses();
+  run.bodies.clear();
+  run.inputs.push_back({file.string(), sha256_of_file(file)});
+  for (SurfaceDescription& surface : run.scene.surfaces)
+    surface.patch.mesh = MeshFile{.path = file, .named_at = {}};
+  pose_of(run).X_BA = {.R = Eigen::Matrix3d::Identity(), .p = Vector3d(30, 30, 30)};
+  EXPECT_WORDS(fault_of(run, Check::kMesh, false),
+               "30.00 mm of both bones.off lie inside both bones.off");
 }
 
 TEST(VerifyCatches, AnEdgeThatWasPassed) {

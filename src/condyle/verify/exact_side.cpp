@@ -244,6 +244,7 @@ class HeightSide final : public SurfaceSide {
     return cells;
   }
   [[nodiscard]] double longest_way() const override { return 2 * radius_; }
+  [[nodiscard]] double solid_depth() const override { return radius_; }
   [[nodiscard]] ChartPoint at(int, double u, double v) const override {
     const Height h = height(u, v);
     return {origin_ + axes_ * Vector3d(u, v, h.z), axes_ * Vector3d(1, 0, h.x),

@@ -37,6 +37,7 @@ GapCheck::FoundGap GapCheck::find_lowest(const Pair& pair, const RigidTransform&
   const LowestGap moving = std::isnan(fixed.gap) ? fixed : pair.from_moving.lowest(X_BA, wanted);
   const bool on_fixed = std::isnan(fixed.gap) || fixed.gap < moving.gap;
   LowestGap lowest = on_fixed ? fixed : moving;
+  lowest.behind = fixed.behind || moving.behind;
   lowest.exact = (fixed.exact && moving.exact) || !(lowest.gap >= wanted - GapProbe::kNoise);
   return {lowest, on_fixed};
 }
@@ -53,6 +54,11 @@ void GapCheck::check(const PoseResult& pose, Ledger& ledger) const {
     const std::string between =
         fmt::format("surfaces \"{}\" and \"{}\"", name(pair.sides.fixed_surface),
                     name(pair.sides.moving_surface));
+    if (lowest.behind)
+      ledger.leave_out(fmt::format(
+          "what of {} lies behind the other's back, where its bone may have ended: deeper than "
+          "that reaches from its middle",
+          between));
     if (!lowest.exact) {
       ledger.leave_out(fmt::format("the gap of {}: too many places to look at", between));
       continue;

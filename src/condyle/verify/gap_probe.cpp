@@ -69,8 +69,16 @@ GapProbe::Reading GapProbe::read(
   const ClosestPoint closest = near != nullptr ? other_.closest_near(p, *near) : other_.closest(p);
   const Vector3d n = X.R.transpose() * closest.n, normal = at.p_u.cross(at.p_v).normalized();
   const bool known = closest.edge >= 0 && sampled_.edge(chart, u, v) >= 0;
+  const bool behind =
+      closest.distance < -other_.solid_depth() && n.dot(sampled_.closest(at.p).n) > 0;
   const double slope = (n - n.dot(normal) * normal).norm();
-  return {closest.distance, known, at.p, {n.dot(at.p_u), n.dot(at.p_v)}, slope, closest};
+  return {closest.distance,
+          known && !behind,
+          known && behind,
+          at.p,
+          {n.dot(at.p_u), n.dot(at.p_v)},
+          slope,
+          closest};
 }
 
 /// By differences of gradients over kStep [1/mm].
@@ -178,6 +186,8 @@ void GapProbe::look_into(const Node& node, const Reading& at, Search& search) co
   if (at.known) keep({at.gap, at.point}, search.best);
   // Below what is not known of the other side nothing is said.
   if (at.gap < 0 && at.closest.edge < -3 * r) return;
+  search.behind |= at.behind;
+  if (at.behind && at.gap + r < -other_.solid_depth()) return;
   double bound = at.gap - r;
   if (std::abs(at.gap) * at.closest.curvature < 0.5)
     bound = std::max(
@@ -260,6 +270,7 @@ LowestGap GapProbe::lowest(const RigidTransform& X, double wanted) const {
     break;
   }
   for (const Seen& one : seen) look_into(*one.node, one.at, search);
+  search.best.behind = search.behind;
   search.best.exact = search.left >= 0 || search.best.gap < wanted - kNoise;
   return search.best;
 }

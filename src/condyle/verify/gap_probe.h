@@ -17,6 +17,9 @@ struct LowestGap {
   double gap = std::numeric_limits<double>::infinity();
   Vector3d point;     ///< in the frame of the sampled side
   bool exact = true;  ///< false: nothing is found, and there were too many places to look at all
+  /// Some of the sampled side faces the same way as the other, deeper behind it than that is solid for certain. That is no
+  /// gap: either's bone may end between them.
+  bool behind = false;
 };
 
 /// Samples one side; the sides must outlive it.
@@ -44,7 +47,8 @@ class GapProbe {
   };
   struct Reading {
     double gap;
-    bool known;  ///< on both sides
+    bool known;   ///< on both sides
+    bool behind;  ///< as LowestGap::behind; not known then
     Vector3d point;
     Eigen::Vector2d gradient;  ///< per unit of parameter
     double slope;              ///< of the gap along the surface, per mm
@@ -72,6 +76,7 @@ class GapProbe {
     const RigidTransform& X;
     double wanted = 0;  ///< as of lowest()
     LowestGap best = {};
+    bool behind = false;
     int left =
         120000;  ///< closest points that may still be asked for; below 0 not all was looked at
   };

@@ -46,6 +46,11 @@ class SurfaceSide {
   /// The longest way round or across it [mm]: of a torus round the outside, of a ball a quarter round; infinite
   /// without bounds, 0 of a spline.
   [[nodiscard]] virtual double longest_way() const = 0;
+  /// How deep behind its known part all is solid for certain [mm]. A patch, or a polynomial that stands for one, tells
+  /// that to as far as it reaches from its middle: deeper its bone may end. Others tell it to any depth.
+  [[nodiscard]] virtual double solid_depth() const {
+    return std::numeric_limits<double>::infinity();
+  }
   [[nodiscard]] virtual ChartPoint at(int chart, double u, double v) const = 0;
   /// As ClosestPoint::edge, of a point of a chart.
   [[nodiscard]] virtual double edge(int chart, double u, double v) const = 0;

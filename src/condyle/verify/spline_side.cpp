@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "condyle/verify/nearest_point.h"
 #include "condyle/verify/parts.h"
@@ -47,6 +48,9 @@ class SplineSide final : public SurfaceSide {
         spline_point(patch_, (box_.u0 + box_.u1) / 2, (box_.v0 + box_.v1) / 2);
     per_mm_ = {1 / middle.c_u.norm(), 1 / middle.c_v.norm()};
     lay_grid();
+    const Vector3d center = std::accumulate(points_.begin(), points_.end(), Vector3d(0, 0, 0)) /
+                            static_cast<double>(points_.size());
+    for (const Vector3d& p : points_) half_width_ = std::max(half_width_, (p - center).norm());
     tree_ = std::make_unique<NearestPoint>(points_);
   }
 
@@ -63,6 +67,7 @@ class SplineSide final : public SurfaceSide {
   }
 
   [[nodiscard]] double longest_way() const override { return 0; }
+  [[nodiscard]] double solid_depth() const override { return half_width_; }
   [[nodiscard]] ChartPoint at(int, double u, double v) const override {
     const SplinePoint at = spline_point(patch_, u, v);
     return {at.c, at.c_u, at.c_v};
@@ -192,7 +197,8 @@ class SplineSide final : public SurfaceSide {
   std::vector<Eigen::Vector2d> places_;
   std::vector<Vector3d> points_, normals_;
   std::vector<double> curvatures_;
-  double reach_ = 0;  ///< no point of the known part is farther from a point of the grid [mm]
+  double half_width_ = 0;  ///< how far the known part reaches from its middle [mm]
+  double reach_ = 0;       ///< no point of the known part is farther from a point of the grid [mm]
   std::unique_ptr<NearestPoint> tree_;
 };
 
