@@ -40,7 +40,7 @@ class Arguments(unittest.TestCase):
 
     def test_an_unknown_keyword_is_told_by_its_name_alone(self):
         for function in (condyle.calibrate, condyle.compare, condyle.fit, condyle.laxity, condyle.simulate, condyle.study,
-                         condyle.sweep, condyle.open_run, condyle.open_study):
+                         condyle.sweep, condyle.open_run, condyle.open_study, condyle.Model, condyle.Solver):
             with self.assertRaisesRegex(TypeError, rf"^{function.__name__}\(\) got an unexpected keyword argument 'foo'$"):
                 function(None, foo=1)
 

@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 
 #include "condyle/mesh/triangle_mesh.h"
@@ -47,6 +49,14 @@ inline TriangleMesh cube(double side, const Eigen::Vector3d& corner = Eigen::Vec
   mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   return mesh;
+}
+
+inline void write_off(const std::filesystem::path& file, const TriangleMesh& mesh) {
+  std::ofstream off(file);
+  off.precision(17);
+  off << "OFF\n" << mesh.vertices.size() << ' ' << mesh.triangles.size() << " 0\n";
+  for (const Eigen::Vector3d& v : mesh.vertices) off << v.transpose() << '\n';
+  for (const auto& [a, b, c] : mesh.triangles) off << "3 " << a << ' ' << b << ' ' << c << '\n';
 }
 
 inline double enclosed_volume(const TriangleMesh& mesh) {

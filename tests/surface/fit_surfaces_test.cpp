@@ -18,6 +18,8 @@
 #include "phantom/phantom_shape.h"
 #include "phantom/split_triangles.h"
 #include "scene/small_scene.h"
+#include "support/mesh_shapes.h"
+#include "support/scratch_folder.h"
 #include "surface/fitted_knee.h"
 
 namespace condyle {
@@ -157,6 +159,21 @@ TEST(FitSurfaces, KeepTheMeshOfTheirBody) {
     EXPECT_EQ(kept.vertices, loaded.vertices);
     EXPECT_EQ(kept.triangles, loaded.triangles);
   }
+}
+
+// Bones without patches are cleaned, too, and what that took is told with their name.
+TEST(LoadBodyMesh, TellsWhatWasMended) {
+  TriangleMesh bone = test::cube(60);
+  test::append(bone, test::cube(1, Vector3d(80, 0, 0)));
+  test::append(bone, test::cube(1, Vector3d(90, 0, 0)));
+  BodyDescription body;
+  body.name = "femur";
+  body.mesh = MeshFile{.path = test::fresh_folder("stray pieces") / "femur.off", .named_at = {}};
+  test::write_off(body.mesh->path, bone);
+  std::vector<std::string> told;
+  EXPECT_EQ(load_body_mesh(body, &told).triangles.size(), 12U);
+  EXPECT_EQ(told,
+            std::vector<std::string>{"body \"femur\": 2 stray pieces (24 triangles) dropped"});
 }
 
 // A left knee is charted through its own lateral direction: same regions, mirrored.

@@ -348,13 +348,7 @@ TEST(VerifyCatches, BonesThatPassedThroughEachOther) {
 TEST(VerifyCatches, BonesOfOneFileThatPassedThroughEachOther) {
   const std::filesystem::path file =
       test::fresh_folder("condyle verify one mesh") / "both bones.off";
-  const TriangleMesh cube = test::cube(60);
-  {
-    std::ofstream off(file);
-    off << "OFF\n" << cube.vertices.size() << ' ' << cube.triangles.size() << " 0\n";
-    for (const Vector3d& v : cube.vertices) off << v.transpose() << '\n';
-    for (const auto& [a, b, c] : cube.triangles) off << "3 " << a << ' ' << b << ' ' << c << '\n';
-  }
+  test::write_off(file, test::cube(60));
   condyle::Run run = test::phantom_poses();
   run.bodies.clear();
   run.inputs.push_back({file.string(), sha256_of_file(file)});

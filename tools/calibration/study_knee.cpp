@@ -59,8 +59,7 @@ StudyKnee study_knee(const std::filesystem::path& file) {
   add_load(scene, "varus", side * tibia.anterior, true);
   add_load(scene, "internal", side * tibia.proximal, true);
   knee.surfaces = fit_surfaces(scene);
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    knee.meshes.push_back(body_mesh(scene, static_cast<int>(i), knee.surfaces));
+  knee.meshes = body_meshes(scene, knee.surfaces);
   return knee;
 }
 

@@ -80,12 +80,14 @@ int run_check(const CheckOptions& options) {
   }
 #endif
   const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
-  const std::vector<TriangleMesh> bones = body_meshes(scene, surfaces);
+  std::vector<std::string> remarks;
+  const std::vector<TriangleMesh> bones = body_meshes(scene, surfaces, &remarks);
   fit_wraps(scene, bones);
   tell("{}", describe(scene));
   print_meshes(scene, bones);
   for (const std::string& line : describe_wrap_fits(scene)) tell("{}\n", line);
-  const std::vector<std::string> remarks = start_warnings(scene, surfaces, bones);
+  for (std::string& line : start_warnings(scene, surfaces, bones))
+    remarks.push_back(std::move(line));
   std::vector<const FitReport*> reports;
   for (const FittedSurface& surface : surfaces)
     if (surface.report) reports.push_back(&*surface.report);

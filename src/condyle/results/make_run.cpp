@@ -28,10 +28,9 @@ std::vector<RunPatch> patches_of(const Scene& scene, const std::vector<FittedSur
 
 Run make_run(const Scene& scene, const std::vector<FittedSurface>& surfaces) {
   Run run{scene, {}, patches_of(scene, surfaces), {}, {}};
-  std::vector<TriangleMesh> bones;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    bones.push_back(body_mesh(scene, static_cast<int>(b), surfaces));
-  run.start = start_warnings(scene, surfaces, bones);
+  std::vector<TriangleMesh> bones = body_meshes(scene, surfaces, &run.start);
+  for (std::string& line : start_warnings(scene, surfaces, bones))
+    run.start.push_back(std::move(line));
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     if (scene.bodies[b].mesh) run.bodies.push_back({scene.bodies[b].name, std::move(bones[b])});
   run.inputs = mesh_files(scene);

@@ -31,6 +31,12 @@ namespace {
 /// but for limits that the scene sets: an area spreads from where a point would be [mm].
 constexpr double kAreaBeyondPoint = 4;
 
+/// What was mended of a body's mesh; "warning: " stays in front.
+std::string of_body(const std::string& body, const std::string& note) {
+  const std::string warning = note.starts_with("warning: ") ? "warning: " : "";
+  return fmt::format("{}body \"{}\": {}", warning, body, note.substr(warning.size()));
+}
+
 ArticularRegion find_region(const Scene& scene,
                             const PatchSource& source,
                             const PatchDescription& patch,
@@ -257,29 +263,35 @@ std::vector<FittedSurface> fit_surfaces(const Scene& scene,
   return surfaces;
 }
 
-TriangleMesh load_body_mesh(const BodyDescription& body) {
+TriangleMesh load_body_mesh(const BodyDescription& body, std::vector<std::string>* told) {
   if (!body.mesh) return {};
-  TriangleMesh mesh = clean_mesh(load_mesh(*body.mesh)).mesh;
-  if (mesh.triangles.empty())
+  CleanMesh clean = clean_mesh(load_mesh(*body.mesh));
+  if (clean.mesh.triangles.empty())
     throw InputError(fmt::format(
         "{}: no triangle of any area is left when vertices that coincide are merged, expected "
         "those of one bone",
         body.mesh->path.string()));
-  return mesh;
+  if (told != nullptr)
+    for (const std::string& line : describe(clean.report))
+      told->push_back(of_body(body.name, line));
+  return std::move(clean.mesh);
 }
 
-TriangleMesh body_mesh(const Scene& scene, int body, const std::vector<FittedSurface>& surfaces) {
+TriangleMesh body_mesh(const Scene& scene,
+                       int body,
+                       const std::vector<FittedSurface>& surfaces,
+                       std::vector<std::string>* told) {
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     if (surfaces[i].bone && scene.surfaces[i].body == body) return *surfaces[i].bone;
-  return load_body_mesh(scene.bodies[body]);
+  return load_body_mesh(scene.bodies[body], told);
 }
 
 std::vector<TriangleMesh> body_meshes(const Scene& scene,
-                                      const std::vector<FittedSurface>& surfaces) {
+                                      const std::vector<FittedSurface>& surfaces,
+                                      std::vector<std::string>* told) {
   std::vector<TriangleMesh> meshes;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    meshes.push_back(scene.bodies[b].mesh ? body_mesh(scene, static_cast<int>(b), surfaces)
-                                          : TriangleMesh{});
+    meshes.push_back(body_mesh(scene, static_cast<int>(b), surfaces, told));
   return meshes;
 }
 

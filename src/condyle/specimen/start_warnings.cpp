@@ -170,10 +170,7 @@ std::vector<std::string> start_warnings(const Scene& scene,
 std::vector<std::string> start_warnings(const Scene& scene,
                                         const std::vector<FittedSurface>& surfaces,
                                         const StartLimits& limits) {
-  std::vector<TriangleMesh> bones;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    bones.push_back(body_mesh(scene, static_cast<int>(b), surfaces));
-  return start_warnings(scene, surfaces, bones, limits);
+  return start_warnings(scene, surfaces, body_meshes(scene, surfaces), limits);
 }
 
 }  // namespace condyle

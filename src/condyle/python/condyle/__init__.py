@@ -29,6 +29,8 @@ from .tables import Table, Tables
 
 calibrate, compare, fit, laxity, simulate, study = map(_named, (calibrate, compare, fit, laxity, simulate, study))
 open_run, open_study = map(_named, (open_run, open_study))
+for _class in (Model, Solver):
+    _class.__init__ = _named(_class.__init__, _class.__name__)
 
 Status = _IntEnum("Status", {name.upper().replace(" ", "_"): i for i, name in enumerate(_status_names)}, module=__name__)
 Status.__doc__ = """How the search for a pose ended: CONVERGED is 0, the others say why there is no pose.
