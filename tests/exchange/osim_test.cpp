@@ -12,30 +12,18 @@
 #include "condyle/math/rotation.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
+#include "exchange/imported_model.h"
 #include "scene/small_scene.h"
 #include "support/scratch_folder.h"
 
 namespace condyle {
 namespace {
 
+using namespace test;
 namespace fs = std::filesystem;
 
-const fs::path kModel = CONDYLE_SOURCE_DIR "/tests/data/phantom_jam.osim";
-const fs::path kScene = CONDYLE_SOURCE_DIR "/tests/data/imported.toml";  // not written
-
-OsimScene imported(const fs::path& file, const fs::path& scene, const OsimOptions& options = {}) {
-  const OsimModel model = read_osim(file);
-  return osim_scene(model, find_knee(model, file.string(), options), file, scene);
-}
-
-bool has_note(const OsimScene& scene, const std::string& note) {
-  for (const std::string& line : scene.notes)
-    if (line == note) return true;
-  return false;
-}
-
 TEST(OsimImport, FindsTheLigamentsOfTheScene) {
-  const Scene scene = parse_scene(imported(kModel, kScene).text, kScene);
+  const Scene scene = parse_scene(imported(kPhantomModel, kUnwrittenScene).text, kUnwrittenScene);
   const Scene phantom = read_scene(CONDYLE_SOURCE_DIR "/data/phantom/knee.toml");
   ASSERT_EQ(scene.ligaments.size(), phantom.ligaments.size());
   for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
@@ -56,7 +44,7 @@ TEST(OsimImport, FindsTheLigamentsOfTheScene) {
 
 // JAM's contact is an elastic foundation, and so is that of the scene.
 TEST(OsimImport, TakesTheLayersOfTheModel) {
-  const Scene scene = parse_scene(imported(kModel, kScene).text, kScene);
+  const Scene scene = parse_scene(imported(kPhantomModel, kUnwrittenScene).text, kUnwrittenScene);
   for (const SurfaceDescription& surface : scene.surfaces) {
     ASSERT_TRUE(surface.elastic);
     EXPECT_DOUBLE_EQ(surface.elastic->modulus, 10);
@@ -70,7 +58,7 @@ TEST(OsimImport, TakesTheLayersOfTheModel) {
 }
 
 TEST(OsimImport, SweepsLikeTheSceneItStandsFor) {
-  Scene scene = parse_scene(imported(kModel, kScene).text, kScene);
+  Scene scene = parse_scene(imported(kPhantomModel, kUnwrittenScene).text, kUnwrittenScene);
   Scene phantom = read_scene(CONDYLE_SOURCE_DIR "/data/phantom/knee.toml");
   scene.loads = phantom.loads;  // a JAM model has muscles instead
   phantom.sweep->values = scene.sweep->values = {0, M_PI / 6, M_PI / 3, M_PI / 2};
@@ -98,7 +86,7 @@ TEST(OsimImport, SweepsLikeTheSceneItStandsFor) {
 }
 
 TEST(OsimImport, SaysWhatItLeavesOut) {
-  const OsimScene scene = imported(kModel, kScene);
+  const OsimScene scene = imported(kPhantomModel, kUnwrittenScene);
   for (const char* note : {
            "contact pf_contact: not between femur and tibia",
            "4 strands with a wrap object that is on another bone, not active or of another kind, "
@@ -113,28 +101,6 @@ TEST(OsimImport, SaysWhatItLeavesOut) {
     EXPECT_TRUE(has_note(scene, note)) << note;
     EXPECT_NE(scene.text.find(std::string("# - ") + note), std::string::npos) << note;
   }
-}
-
-/// `text` with every occurrence of `from` replaced.
-std::string with_all(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
-  return text;
-}
-
-/// The model, changed, and the scene of it.
-OsimScene imported_text(const std::string& text, const std::string& name) {
-  const fs::path folder = test::fresh_folder(name);
-  std::ofstream(folder / "model.osim")
-      << with_all(text, "../../meshes", CONDYLE_SOURCE_DIR "/meshes");
-  OsimScene scene = imported(folder / "model.osim", folder / "knee.toml");
-  fs::remove_all(folder);
-  return scene;
-}
-
-std::string text_of_model() {
-  std::ifstream stream(kModel);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 // Of the scene nobody has seen a line.
@@ -160,71 +126,6 @@ TEST(OsimImport, WritesNoLineThatANameBegins) {
   EXPECT_EQ(scene.text.find("\n[intruder]"), std::string::npos) << scene.text;
 }
 
-/// The model with a function of its own along the joint's y.
-OsimScene imported_with_function(const std::string& function) {
-  return imported_text(with(text_of_model(),
-                            "<coordinates>knee_ty_r</coordinates><axis>0 1 0</axis><LinearFunction "
-                            "name=\"function\"><coefficients> 1 0</coefficients></LinearFunction>",
-                            "<coordinates>knee_ty_r</coordinates><axis>0 1 0</axis>" + function),
-                       "osim_function");
-}
-
-TEST(OsimImport, ReadsTheFunctionsOfTheJoint) {
-  const fs::path nowhere = fs::path(testing::TempDir()) / "osim_function" / "knee.toml";
-  const auto start = [&](const OsimScene& scene) {
-    const Scene read = parse_scene(scene.text, nowhere, false);
-    return read.bodies[static_cast<std::size_t>(read.moving_body())].start_translation.y();
-  };
-  const double without = start(imported_with_function("<Constant><value>0</value></Constant>"));
-  const auto moved = [&](const std::string& function) {
-    return start(imported_with_function(function)) - without;
-  };
-  const double constant = moved("<Constant><value>0.004</value></Constant>");
-  EXPECT_NEAR(std::abs(constant), 4, 1e-9);  // [mm]
-  const std::string values = "<x> -1 0 1</x><y> 0.009 0.004 0.01</y>";
-  for (const std::string& function : {
-           std::string("<PolynomialFunction><coefficients> 3 0.004</coefficients>"
-                       "</PolynomialFunction>"),
-           "<GCVSpline>" + values + "</GCVSpline>",
-           "<SimmSpline>" + values + "</SimmSpline>",
-           std::string("<MultiplierFunction><scale>2</scale><function><Constant>"
-                       "<value>0.002</value></Constant></function></MultiplierFunction>"),
-       })
-    EXPECT_NEAR(moved(function), constant, 1e-9) << function;
-  const OsimScene unread = imported_with_function("<Sine><amplitude>1</amplitude></Sine>");
-  EXPECT_TRUE(has_note(unread, "a Sine of CustomJoint knee_r, taken as 0 in the start pose"));
-  for (const char* points : {"<x> 0 0</x><y> 1 2</y>", "<x> 0 1</x><y> 1</y>"})
-    EXPECT_TRUE(
-        has_note(imported_with_function("<SimmSpline>" + std::string(points) + "</SimmSpline>"),
-                 "a SimmSpline of CustomJoint knee_r, taken as 0 in the start pose"))
-        << points;
-}
-
-/// However deep, and however many bodies are welded to one another.
-TEST(OsimImport, TakesNestedFunctionsAndLongChains) {
-  std::string nested = "<Constant><value>0</value></Constant>";
-  const std::string open = "<MultiplierFunction><function>",
-                    shut = "</function></MultiplierFunction>";
-  std::string before, after;
-  for (int i = 0; i < 100000; ++i) before += open, after += shut;
-  EXPECT_NO_THROW((void)imported_with_function(before + nested + after));
-  std::string bodies, joints;
-  for (int i = 1000; i-- > 0;) {
-    const std::string name = "link" + std::to_string(i);
-    bodies += "<Body name=\"" + name + "\"><mass>1</mass></Body>";
-    joints += "<WeldJoint name=\"weld" + std::to_string(i) + "\"><socket_parent_frame>/bodyset/" +
-              (i == 0 ? "tibia_proximal_r" : "link" + std::to_string(i - 1)) +
-              "</socket_parent_frame><socket_child_frame>/bodyset/" + name +
-              "</socket_child_frame></WeldJoint>";
-  }
-  std::string text = with(text_of_model(), "<Body name=\"femur_distal_r\">",
-                          bodies + "<Body name=\"femur_distal_r\">");
-  text = with(text, "<CustomJoint name=\"knee_r\">", joints + "<CustomJoint name=\"knee_r\">");
-  const OsimScene scene = imported_text(text, "osim_chain");
-  for (const std::string& note : scene.notes)
-    EXPECT_EQ(note.find("link"), std::string::npos) << note;  // none is another body
-}
-
 /// Neither the file of an entity nor a billion of them.
 TEST(OsimImport, KnowsNoEntities) {
   const std::string entities =
@@ -233,15 +134,13 @@ TEST(OsimImport, KnowsNoEntities) {
   const std::string text = with(text_of_model(), "<OpenSimDocument", entities);
   const OsimScene scene =
       imported_text(with(text, "<Model name=\"phantom\"", "<Model name=\"&file;&c;\""), "osim_xml");
-  EXPECT_EQ(parse_scene(scene.text, kScene).title, "&file;&c;, right knee");
+  EXPECT_EQ(parse_scene(scene.text, kUnwrittenScene).title, "&file;&c;, right knee");
 }
 
 // Four strands of the model name an object that it does not hold. Here it does: an ellipsoid on the tibia
 // whose axes are turned about x, y and z, as turned so far, and a torus, by OpenSim's names of its radii.
 TEST(OsimImport, TakesWrapObjectsOver) {
-  std::ifstream stream(kModel);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  text = with_all(text, "../../meshes", CONDYLE_SOURCE_DIR "/meshes");
+  std::string text = with_all(text_of_model(), "../../meshes", CONDYLE_SOURCE_DIR "/meshes");
   text = with(text, "<mass>1</mass></Body>\n<Body name=\"tibia_r\">",
               "<WrapObjectSet name=\"wrapobjectset\"><objects>"
               "<WrapEllipsoid name=\"Med_Lig_r\"><active>true</active>"
@@ -288,8 +187,7 @@ class BrokenModel : public testing::Test {
  protected:
   void SetUp() override {
     fs::create_directories(folder_ / "deep" / "er");
-    std::ifstream stream(kModel);
-    text_ = {std::istreambuf_iterator<char>(stream), {}};
+    text_ = text_of_model();
   }
   void TearDown() override { fs::remove_all(folder_); }
 
@@ -359,7 +257,7 @@ TEST(OsimImport, AsksWhichJointAndWhichSideIsMeant) {
       return error.what();
     }
   };
-  OsimModel model = read_osim(kModel);
+  OsimModel model = read_osim(kPhantomModel);
   OsimOptions options;
   options.joint = "hip_r";
   EXPECT_EQ(message(model, options),
