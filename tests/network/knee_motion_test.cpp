@@ -48,6 +48,28 @@ TEST(KneeMotion, ComesToRestAtTheEnginesPose) {
   EXPECT_LT(motion.largest_imbalance, 1e-6 * motion.energy_scale);
 }
 
+// A point of contact that comes and goes between two frames is met all the same.
+TEST(KneeMotion, DoesNotDependOnHowManyFramesAreStored) {
+  Scene scene = read_scene(CONDYLE_SOURCE_DIR "/data/phantom/blow.toml");
+  scene.simulation->time = 0.3;
+  const std::vector<FittedSurface> surfaces = fit_surfaces(scene);
+  const auto with_rate = [&](double rate) {
+    scene.simulation->rate = rate;
+    return simulate(scene, surfaces);
+  };
+  const Simulation often = with_rate(500);
+  ASSERT_TRUE(often.motion.completed) << often.motion.reason;
+  for (const double rate : {2., 33.}) {
+    const Simulation seldom = with_rate(rate);
+    ASSERT_EQ(seldom.motion.events.size(), often.motion.events.size()) << rate;
+    for (std::size_t i = 0; i < often.motion.events.size(); ++i)
+      EXPECT_NEAR(seldom.motion.events[i].t, often.motion.events[i].t, 1e-6);
+    const RigidTransform &a = seldom.poses.back().X_BA, &b = often.poses.back().X_BA;
+    EXPECT_LT((a.p - b.p).norm(), 1e-5);
+    EXPECT_LT((a.R - b.R).norm(), 1e-6);
+  }
+}
+
 // The phantom, held at 20 degrees: compressed half as much again at first, it comes to rest where
 // the engine puts it.
 TEST(KneeMotion, ThePhantomComesToRestAtTheEnginesPose) {

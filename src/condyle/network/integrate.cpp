@@ -17,6 +17,7 @@ namespace condyle {
 namespace {
 
 constexpr double kBeforeJump = 1e-12;  // [s]: a step may not see a driver after its jump
+constexpr double kLook = 2e-3;         // [s]: between detections, however seldom frames are stored
 
 /// From frame to frame, and from event to event between them.
 class Integration {
@@ -39,8 +40,8 @@ class Integration {
     const bool begins = moving_.change_contacts({}, {}, motion_.events);
     if (detect_) detect_(moving_.state());
     double t = moving_.state().t;
-    const double start = t;
-    end_ = start + options_.end;
+    start_ = t;
+    end_ = start_ + options_.end;
     moving_.restart(t);
     store(t);
     frames_ = static_cast<long>(std::ceil(options_.end / options_.interval - 1e-9));
@@ -50,10 +51,9 @@ class Integration {
     take_over();
     t = moving_.state().t;
     for (long k = frames_known() + 1; k <= frames_ && motion_.completed; ++k) {
-      const double to = std::min(end_, start + static_cast<double>(k) * options_.interval);
+      const double to = std::min(end_, start_ + static_cast<double>(k) * options_.interval);
       steps_before_ = moving_.ode().steps();
-      attempts_ = 0;
-      if (detect_ ? advance_detecting(t, to, 0) : advance(t, to) && land(t)) store(t);
+      if (detect_ ? advance_by_looks(t, to) : advance(t, to) && land(t)) store(t);
       if (motion_.completed && k < frames_ && stretch_steps() >= options_.stretch) end_stretch();
       tell_frame(k);
     }
@@ -125,6 +125,19 @@ class Integration {
         "network: the frames to go on from are of another motion, expected those of an earlier run "
         "of "
         "this one");
+  }
+
+  [[nodiscard]] double next_look(double t) const {
+    constexpr double kRounding = 1e-6;
+    return start_ + kLook * (std::floor((t - start_) / kLook + kRounding) + 1);
+  }
+
+  bool advance_by_looks(double& t, double to) {
+    while (t < to - 2 * kBeforeJump) {
+      attempts_ = 0;
+      if (!advance_detecting(t, std::min(to, next_look(t)), 0)) return false;
+    }
+    return true;
   }
 
   /// Goes on in halves where the way led into an overlap that no contact saw, or where a contact
@@ -234,12 +247,12 @@ class Integration {
   double touch_;  ///< overlap of a contact that opened for nothing [mm]
   MovingNetwork moving_;
   Motion motion_;
-  double end_ = 0;
+  double start_ = 0, end_ = 0;
   long frames_ = 0;  ///< to come, after the first
   StretchBegin stretch_;
   long steps_of_others_ = 0, evaluations_of_others_ = 0;  ///< of an earlier run
   long steps_before_ = 0;                                 ///< this frame
-  int attempts_ = 0;                                      ///< at this frame
+  int attempts_ = 0;                                      ///< to come to this look
   bool hopeless_ = false;
 };
 
