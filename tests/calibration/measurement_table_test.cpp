@@ -99,6 +99,18 @@ TEST(MeasurementTable, OnlyTheSpecimenThatIsMeantIsRead) {
             "\"k1\"?");
 }
 
+// A condition that no test sets holds its coordinate in all of them.
+TEST(MeasurementTable, WhatTheSceneHoldsIsMeasuredInNoTest) {
+  const std::filesystem::path folder = table_folder();
+  std::ofstream(folder / "knee.csv") << kTable;
+  const Scene scene = parse_scene(
+      kCalibratedScene + "\n[[condition]]\nname = \"no twist\"\nkind = \"internal_rotation\"\n",
+      folder / "knee.toml");
+  EXPECT_EQ(told_of(scene),
+            "knee.csv:3: coordinate = internal_rotation, expected another coordinate: condition "
+            "\"no twist\", which is of no [[calibrate.load]], holds it in every test");
+}
+
 TEST(MeasurementTable, SkippedRowsMaySayAnything) {
   EXPECT_EQ(table_of(kTable + "k1,ap30,30,anterior,88,anterior_drawer,n/a,,skip\n").rows.size(),
             7u);

@@ -149,6 +149,8 @@ TEST_F(StudyOfSeveralTest, ExpectsTheSameSweep) {
       "same values: other.toml ";
   EXPECT_EQ(message_with(with(kSmallScene, "step = 5", "step = 10")),
             start + "has a [sweep] that visits other poses than that of knee.toml");
+  EXPECT_EQ(message_with(with(kSmallScene, "kind = \"flexion\"", "kind = \"internal_rotation\"")),
+            start + "has a [sweep] that visits other poses than that of knee.toml");
   EXPECT_EQ(message_with(with(kSmallScene, "step = 5", "step = 5\npath = \"arc length\"")),
             start + "has a [sweep] with path = \"arc length\"");
   EXPECT_EQ(message_with(kSmallScene.substr(0, kSmallScene.find("[sweep]"))),

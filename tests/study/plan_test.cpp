@@ -9,6 +9,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "condyle/calibration/csv_file.h"
+#include "condyle/calibration/csv_text.h"
 #include "condyle/elements/force_law.h"
 #include "condyle/input_error.h"
 #include "study/small_study.h"
@@ -72,6 +74,14 @@ TEST(StudyOutputs, AnUnknownWordIsNamed) {
     EXPECT_NE(message.find("aACL"), std::string::npos);
     EXPECT_EQ(message.find('\n'), std::string::npos);
   }
+}
+
+// "contact.force" is that of all contacts, whatever they are called.
+TEST(StudyOutputs, ANameThatIsAWordOfOutputsIsRefused) {
+  Scene scene = wismans();
+  scene.ligaments[0].name = "contact";
+  EXPECT_THROW((void)study_outputs(scene, {"contact.force"}, "study.toml"), InputError);
+  EXPECT_NO_THROW((void)study_outputs(scene, {"ligament.force"}, "study.toml"));
 }
 
 TEST(StudyPlan, ARangeIsUniformAndOfAFactorItsLogarithm) {
@@ -174,6 +184,22 @@ TEST(StudyPlan, ASpreadIsOneOfAllKnees) {
   }
 }
 
+TEST(StudyPlan, ARangeIsOneOfAllKnees) {
+  ReadStudy study = small_study("wismans-type/knee.toml", 50);
+  study.varied[0][0].range = {-0.01, 0.03};
+  study.scenes.push_back(study.scenes[0]);
+  study.varied.push_back(study.varied[0]);
+  EXPECT_NO_THROW((void)study_plan(study));
+  (*study.varied[1][0].range)[1] *= 10;
+  try {
+    (void)study_plan(study);
+    FAIL() << "expected an InputError";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("its range is -0.01 to 0.03 "), std::string::npos)
+        << error.what();
+  }
+}
+
 class StudyTable : public testing::Test {
  protected:
   StudyPlan plan_of(const std::string& text, bool values = false) {
@@ -210,6 +236,17 @@ TEST_F(StudyTable, HoldsChangesByTheNamesOfItsColumns) {
   std::vector<double> theta;
   plan.theta(0, theta);
   EXPECT_EQ(theta, (std::vector<double>{0.02, 0.01}));
+}
+
+// As tables are written for spreadsheets: an apostrophe before what they would take for a formula.
+TEST_F(StudyTable, AnApostropheBeforeAFormulaIsNoneOfTheName) {
+  const StudyPlan plan =
+      plan_of("\"'-1\",\"'kept\",pACL.reference_strain,aACL.reference_strain\n0,0,0.01,0.02\n");
+  EXPECT_EQ(plan.samples(), 1u);
+  const CsvFile csv = read_csv(folder_ / "points.csv", "a table");
+  EXPECT_EQ(csv.header.fields[0], "-1");
+  EXPECT_EQ(csv.header.fields[1], "'kept");
+  EXPECT_EQ(csv_text("-1"), "\"'-1\"");
 }
 
 TEST_F(StudyTable, MayHoldTheNumbersThemselves) {

@@ -165,6 +165,9 @@ TEST_F(StudyCommandLine, ResumeOfWhatIsCompleteComputesNothing) {
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_NE(again.out.find("s.h5 holds all of this study already\n"), std::string::npos);
   EXPECT_TRUE(there("b.csv"));
+  expect_bad_input(study("-o s.h5 --resume --table t.csv --quiet"),
+                   "s.h5: holds all of this study already, expected no --table: it is written from "
+                   "samples as they are computed (without --resume)");
   EXPECT_EQ(contents(folder_ / "s.h5"), before);
   EXPECT_EQ(study("-o s.h5 --resume --seed 2 --quiet").code, 0);
   EXPECT_NE(contents(folder_ / "s.h5"), before);

@@ -8,6 +8,7 @@
 #include "condyle/app/commands.h"
 #include "condyle/app/progress.h"
 #include "condyle/app/tell.h"
+#include "condyle/input_error.h"
 #include "condyle/report/study_json.h"
 #include "condyle/results/output_file.h"
 #include "condyle/results/study_file.h"
@@ -97,11 +98,16 @@ bool holds_chunks(const fs::path& folder) {
 }
 
 bool is_complete(const StudyWork& work) {
-  return work.command.resume && work.command.part.whole() && work.command.table.empty() &&
-         !holds_chunks(work.folder()) && holds_study(work.command.output, work.plan);
+  return work.command.resume && work.command.part.whole() && !holds_chunks(work.folder()) &&
+         holds_study(work.command.output, work.plan);
 }
 
 int complete_already(const StudyWork& work) {
+  if (!work.command.table.empty())
+    throw InputError(
+        fmt::format("{}: holds all of this study already, expected no --table: it is written from "
+                    "samples as they are computed (without --resume)",
+                    work.command.output));
   const StudyView view = read_study_file(work.command.output);
   say(work.talk(), "{} holds all of this study already\n", work.command.output);
   CommandSummary facts = told(work, view);

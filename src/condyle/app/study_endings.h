@@ -9,8 +9,9 @@ namespace condyle {
 /// Whether the folder holds chunks of a run that did not end.
 [[nodiscard]] bool holds_chunks(const std::filesystem::path& folder);
 
-/// --resume of a study that is complete. Its samples are told (--table) from chunks, which are gone.
+/// --resume of a study that is complete.
 [[nodiscard]] bool is_complete(const StudyWork& work);
+/// Throws InputError for --table: samples are told from chunks, which are gone.
 int complete_already(const StudyWork& work);
 
 int stopped_study(const StudyWork& work, const StudyJournals& journals);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <string_view>
 
 #include "condyle/input_error.h"
 #include "condyle/math/no_number.h"
@@ -55,6 +56,12 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+/// The apostrophe of csv_text.h, which is none of the text.
+bool guards_formula(const std::string& quoted) {
+  return quoted.size() > 1 && quoted[0] == '\'' &&
+         std::string_view("=+-@\t\r").find(quoted[1]) != std::string_view::npos;
+}
+
 /// The field that begins at `at`, which then stands behind the comma after it, or behind the end. False
 /// for a quote that is not closed, or with more than blanks after it.
 bool take_field(const std::string& line, std::size_t& at, std::string& field) {
@@ -73,6 +80,7 @@ bool take_field(const std::string& line, std::size_t& at, std::string& field) {
     if (doubled) ++at;
   }
   if (at >= line.size()) return false;
+  if (guards_formula(field)) field.erase(0, 1);
   const std::size_t end = std::min(line.find(',', at), line.size());
   const bool closed = trimmed(line.substr(at + 1, end - at - 1)).empty();
   at = end + 1;

@@ -125,6 +125,14 @@ void read_force(const CsvRow& row,
   measured.index = is_ligament ? ligament : contact;
 }
 
+bool holds_in_every_test(const ConditionDescription& condition, const Scene& scene) {
+  const std::vector<CalibrationLoad>& loads = scene.calibration->loads;
+  return std::none_of(loads.begin(), loads.end(), [&](const CalibrationLoad& load) {
+    return load.displacement_control &&
+           &scene.conditions[static_cast<std::size_t>(load.index)] == &condition;
+  });
+}
+
 /// Refuses what is prescribed in the test that is said to measure it.
 void check_free(const CsvRow& row,
                 const MeasurementColumns& columns,
@@ -139,6 +147,13 @@ void check_free(const CsvRow& row,
     columns.fail(row, "coordinate",
                  fmt::format("another coordinate, or reaction: load {} prescribes it",
                              columns.text(row, "load")));
+  for (const ConditionDescription& condition : scene.conditions)
+    if (condition.kind == kind && holds_in_every_test(condition, scene))
+      columns.fail(
+          row, "coordinate",
+          fmt::format("another coordinate: condition \"{}\", which is of no [[calibrate.load]], "
+                      "holds it in every test",
+                      condition.name));
   if (measured.laxity && !(measured.level > 0))
     columns.fail(row, "level", "a level > 0: a laxity is told at it and at the opposite one");
 }

@@ -70,6 +70,14 @@ void expect_new(const fs::path& scene,
                         other->second.string(), scene.string()));
 }
 
+/// Two sweeps of one name: do they vary the same kind of condition, or both a force or a moment?
+bool same_kind(const Scene& scene, const Scene& first) {
+  const auto i = static_cast<std::size_t>(scene.sweep->index),
+             k = static_cast<std::size_t>(first.sweep->index);
+  return scene.sweep->varies_load ? scene.loads[i].moment == first.loads[k].moment
+                                  : scene.conditions[i].kind == first.conditions[k].kind;
+}
+
 /// What keeps the scene's sweep from standing beside that of the first one; empty: nothing.
 std::string sweep_mistake(const Scene& scene, const Scene& first) {
   if (!scene.sweep) return "has no [sweep]";
@@ -78,7 +86,7 @@ std::string sweep_mistake(const Scene& scene, const Scene& first) {
   const SweepDescription &a = *scene.sweep, &b = *first.sweep;
   const auto same = [](double x, double y) { return std::abs(x - y) <= 1e-9 * (1 + std::abs(y)); };
   const bool alike =
-      a.vary == b.vary && a.varies_load == b.varies_load &&
+      a.vary == b.vary && a.varies_load == b.varies_load && same_kind(scene, first) &&
       std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(), same);
   return alike ? "" : "has a [sweep] that visits other poses than that of " + first.file.string();
 }

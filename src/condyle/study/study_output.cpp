@@ -38,11 +38,25 @@ class OutputList {
                        : owner == "ligament" ? add_of_ligaments(what)
                                              : add_of_one(owner, what);
     if (!found) refuse(word);
+    expect_no_name(owner, word);
   }
 
   std::vector<StudyOutput> outputs;
 
  private:
+  /// "contact.force" is that of all contacts, also where a ligament is called "contact".
+  void expect_no_name(const std::string& owner, const std::string& word) const {
+    const auto is_owner = [&owner](const auto& named) { return named.name == owner; };
+    const bool taken = (owner == "contact" || owner == "ligament" || owner == "joint") &&
+                       (std::any_of(scene_.contacts.begin(), scene_.contacts.end(), is_owner) ||
+                        std::any_of(scene_.ligaments.begin(), scene_.ligaments.end(), is_owner));
+    if (taken)
+      throw InputError(
+          fmt::format("{}: outputs: \"{}\": {} has a contact or ligament of that name, expected "
+                      "one that is none of contact, ligament and joint",
+                      study_, word, scene_.file.string()));
+  }
+
   void keep(const std::string& name, const Unit& unit, const PoseOutput& output) {
     const auto known = std::find_if(outputs.begin(), outputs.end(),
                                     [&](const StudyOutput& other) { return other.name == name; });
