@@ -189,11 +189,19 @@ TEST(StrandsInBone, AreNamedWithTheirDepthAndAWrapIsProposed) {
   EXPECT_NE(lines[0].find("warning: straight through \"tibia\""), std::string::npos);
   EXPECT_NE(lines[0].find("[[wrap]] body = \"tibia\", kind = \"ellipsoid\", fit = \"bone\""),
             std::string::npos);
-  // Of open sheets and of several parts nothing is said.
+  // A patella in the file of its femur is none of the bone.
   TriangleMesh two = bone;
   test::append(two, placed(ellipsoid_solid(Vector3d::Constant(4), 0.5),
                            {Eigen::Matrix3d::Identity(), {60, 0, 0}}));
-  EXPECT_TRUE(strands_in_bone(scene, {TriangleMesh{}, two}).empty());
+  const std::vector<StrandInBone> same = strands_in_bone(scene, {TriangleMesh{}, two});
+  ASSERT_EQ(same.size(), 1U);
+  EXPECT_DOUBLE_EQ(same[0].depth, strands[0].depth);
+  // Of an open sheet nothing is said but that.
+  const TriangleMesh sheet = test::height_sheet(40, 8, [](double, double) { return 0.; });
+  EXPECT_TRUE(strands_in_bone(scene, {TriangleMesh{}, sheet}).empty());
+  EXPECT_EQ(wrap_warnings(scene, {TriangleMesh{}, sheet}),
+            std::vector<std::string>{
+                "ligaments straight through \"tibia\" are not looked for: its mesh is open"});
 }
 
 std::vector<int> with_prefixes(const Scene& scene, const std::vector<std::string>& prefixes) {

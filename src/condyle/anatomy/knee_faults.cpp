@@ -156,10 +156,10 @@ double tell_unit(const KneeEnds& ends, const std::optional<double>& given) {
     if (!given && is_a_knee(to_mm)) return to_mm;
   throw InputError(fmt::format(
       "the ends of femur and tibia that face each other are {:.3g} and {:.3g} wide, in the unit of "
-      "the files: in {} that is no knee, which is {:.0f} to {:.0f} mm wide; {}",
+      "the files: in {} that is no knee of an adult, which is {:.0f} to {:.0f} mm wide; {}",
       ends.femur_width, ends.tibia_width, given ? "the unit of --units" : "mm, cm, inch and m",
       kNarrowest, kWidest,
-      given ? "without --units it is told from the width, where that is one of mm, cm, inch and m"
+      given ? "those of children and animals are not recognised"
             : "a unit said by --units has to make it one"));
 }
 
@@ -269,7 +269,10 @@ void check_both_sides(const TriangleMesh& cartilage,
                     name, medial < lateral ? "lateral" : "medial"));
 }
 
-void check_they_fit(const FemoralShape& femur, const TibialShape& tibia, const KneeEnds& ends) {
+void check_they_fit(const FemoralShape& femur,
+                    const TibialShape& tibia,
+                    const KneeEnds& ends,
+                    const std::string& unit) {
   const double w = femur.width, ratio = w / tibia.plateau.width;
   if (ratio < kLeastRatio || ratio > kMostRatio)
     throw InputError(
@@ -279,9 +282,10 @@ void check_they_fit(const FemoralShape& femur, const TibialShape& tibia, const K
   for (const auto& [name, width] : {std::pair("femur", w), std::pair("tibia", tibia.plateau.width)})
     if (width < kNarrowest || width > kWidest)
       throw InputError(
-          fmt::format("the {} is {:.0f} mm wide at the knee, expected {:.0f} to {:.0f} mm: say the "
-                      "unit by --units",
-                      name, width, kNarrowest, kWidest));
+          fmt::format("the {} is {:.1f} mm wide at the knee ({}), expected {:.0f} to {:.0f} mm, as "
+                      "those of adults "
+                      "are",
+                      name, width, unit, kNarrowest, kWidest));
   const Vector3d q = femur.frame.components(tibia.plateau.middle - femur.frame.origin);
   const double beside = std::abs(q.z()), ahead = std::abs(q.x()), below = -q.y();
   if (ends.gap > kMostGap || beside > 0.2 * w || ahead > 0.35 * w || below < 0.15 * w ||

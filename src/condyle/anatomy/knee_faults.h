@@ -38,7 +38,10 @@ void check_both_sides(const TriangleMesh& cartilage,
                       double width,
                       const char* name);
 
-/// Widths of one person, ends that face each other.
-void check_they_fit(const FemoralShape& femur, const TibialShape& tibia, const KneeEnds& ends);
+/// Widths of one person, ends that face each other. `unit`: in words, that of the files, and whether it was said.
+void check_they_fit(const FemoralShape& femur,
+                    const TibialShape& tibia,
+                    const KneeEnds& ends,
+                    const std::string& unit);
 
 }  // namespace condyle

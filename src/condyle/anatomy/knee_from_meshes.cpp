@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "condyle/anatomy/cartilage_doubts.h"
 #include "condyle/anatomy/new_scene_text.h"
 #include "condyle/anatomy/new_start.h"
 #include "condyle/input_error.h"
@@ -162,6 +163,10 @@ void choose_ligaments(NewKnee& knee) {
   if (knee.ligaments.empty())
     throw InputError(knee.files.template_scene.string() +
                      ": as a template, expected a ligament that is toe-linear or quadratic");
+  const auto layered = [](const ContactDescription& contact) { return contact.layer.has_value(); };
+  if (std::any_of(scene.contacts.begin(), scene.contacts.end(), layered))
+    knee.doubts.emplace_back(
+        "the template's layers of cartilage are not carried over: contacts are rigid here");
   if (wrapped > 0)
     knee.doubts.push_back(fmt::format(
         "{} of the template's ligaments wrap on surfaces of its own; they are straight here, with "
@@ -223,6 +228,11 @@ NewKnee knee_from_meshes(const NewKneeFiles& files, const RecogniseOptions& opti
     knee.doubts.push_back(file.string() + ": " + describe(seams, knee.shape.to_mm));
   scale(loaded.meshes.femur, knee.shape.to_mm);
   scale(loaded.meshes.tibia, knee.shape.to_mm);
+  for (std::optional<TriangleMesh>* cartilage :
+       {&loaded.meshes.femoral_cartilage, &loaded.meshes.tibial_cartilage})
+    if (*cartilage) scale(**cartilage, knee.shape.to_mm);
+  for (std::string& doubt : cartilage_doubts(loaded.meshes, knee.shape))
+    knee.doubts.push_back(std::move(doubt));
   if (loaded.tibial_centers.size() == 2) {
     const Vector3d across = loaded.tibial_centers[1] - loaded.tibial_centers[0];
     knee.tibial_file =

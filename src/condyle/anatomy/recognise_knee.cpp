@@ -15,6 +15,7 @@
 #include "condyle/anatomy/tibial_frame.h"
 #include "condyle/input_error.h"
 #include "condyle/math/degree.h"
+#include "condyle/scene_file/scene_words.h"
 
 namespace condyle {
 namespace {
@@ -155,6 +156,13 @@ void doubt_shafts(RecognisedKnee& knee) {
         "3 degrees");
 }
 
+std::string unit_in_words(double to_mm, bool said) {
+  const std::string unit = unit_name(to_mm);
+  const std::string name = unit.empty() ? "inches" : unit;
+  return said ? "in " + name + ", as --units says"
+              : "taken to be in " + name + "; --units says another";
+}
+
 }  // namespace
 
 RecognisedKnee recognise_knee(const KneeMeshes& meshes, const RecogniseOptions& options) {
@@ -178,7 +186,7 @@ RecognisedKnee recognise_knee(const KneeMeshes& meshes, const RecogniseOptions& 
   const FemoralShape femur =
       find_femoral_frame(femur_clean.mesh, condyles, ends, tibia.frame.proximal);
   check_shafts(femur_clean, femur, tibia_clean, tibia);
-  check_they_fit(femur, tibia, ends);
+  check_they_fit(femur, tibia, ends, unit_in_words(knee.to_mm, options.to_mm.has_value()));
 
   tell_side(knee, weigh_femur(femur), weigh_tibia(tibia, tibia_clean.mesh), options);
   const Vector3d origin = shift * knee.to_mm + femur.frame.origin;

@@ -200,14 +200,14 @@ bool asks_for(const Scene& scene, std::size_t body) {
 
 }  // namespace
 
-std::optional<TriangleMesh> solid_bone(const TriangleMesh& bone, bool alone) {
+std::optional<TriangleMesh> solid_bone(const TriangleMesh& bone) {
   if (bone.triangles.empty()) return std::nullopt;
   TriangleMesh mesh = bone;
   const TriangleLinks links(mesh);
   const std::vector<int> component = find_components(mesh, links);
   std::vector<bool> closed;
   orient_components(mesh, links, component, closed);
-  if (closed.empty() || !closed[0] || (alone && closed.size() > 1)) return std::nullopt;
+  if (closed.empty() || !closed[0]) return std::nullopt;
   if (closed.size() == 1) return mesh;
   std::vector<bool> largest;
   for (const int c : component) largest.push_back(c == 0);

@@ -42,8 +42,7 @@ void fit_wraps(Scene& scene, const std::vector<FittedSurface>& surfaces);
 /// differ from those over the mesh.
 [[nodiscard]] std::vector<std::string> describe_wrap_fits(const Scene& scene);
 
-/// The largest part of a cleaned mesh, turned outward; none where it does not enclose a volume, or where it
-/// should be `alone` and is not.
-[[nodiscard]] std::optional<TriangleMesh> solid_bone(const TriangleMesh& bone, bool alone = false);
+/// The largest part of a cleaned mesh, turned outward; none where it does not enclose a volume.
+[[nodiscard]] std::optional<TriangleMesh> solid_bone(const TriangleMesh& bone);
 
 }  // namespace condyle

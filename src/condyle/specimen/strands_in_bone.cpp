@@ -44,7 +44,12 @@ void warn_of_strands(const Scene& scene,
                      const std::vector<TriangleMesh>& bones,
                      double limit,
                      std::vector<std::string>& lines) {
-  const std::vector<StrandInBone> strands = strands_in_bone(scene, bones, limit);
+  std::vector<std::size_t> open;
+  const std::vector<StrandInBone> strands = strands_in_bone(scene, bones, limit, &open);
+  for (const std::size_t b : open)
+    lines.push_back(
+        fmt::format("ligaments straight through \"{}\" are not looked for: its mesh is open",
+                    scene.bodies[b].name));
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     std::string names;
     int count = 0;
@@ -94,12 +99,14 @@ void warn_of_fits(const Scene& scene, std::vector<std::string>& lines) {
 
 std::vector<StrandInBone> strands_in_bone(const Scene& scene,
                                           const std::vector<TriangleMesh>& bones,
-                                          double limit) {
+                                          double limit,
+                                          std::vector<std::size_t>* open) {
   std::vector<StrandInBone> strands;
   if (scene.moving_body() < 0) return strands;
   const std::vector<PresetPose> poses = preset_poses(scene);
   for (std::size_t b = 0; b < bones.size(); ++b) {
-    const std::optional<TriangleMesh> solid = solid_bone(bones[b], true);
+    const std::optional<TriangleMesh> solid = solid_bone(bones[b]);
+    if (!solid && open != nullptr && !bones[b].triangles.empty()) open->push_back(b);
     if (!solid) continue;
     const SmoothedMesh bone(*solid);
     for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {

@@ -18,14 +18,16 @@ struct StrandInBone {
 
 /// Ligaments whose straight line lies deeper by `limit` [mm] in the mesh of one of their bodies than
 /// their insertion there, and which do not wrap on it, at a preset pose (preset_flexion.h) in which the far end is outside it.
-/// `bones`: the mesh of each body. Meshes that are open, or of several parts, tell nothing.
+/// `bones`: the mesh of each body, whose largest part counts. Of one that is open nothing is told; its body is added to
+/// `open`.
 [[nodiscard]] std::vector<StrandInBone> strands_in_bone(const Scene& scene,
                                                         const std::vector<TriangleMesh>& bones,
-                                                        double limit = 1);
+                                                        double limit = 1,
+                                                        std::vector<std::size_t>* open = nullptr);
 
 /// One line for each fitted wrap whose strings differ much from those over the mesh, one for each
 /// bone, and one for each insertion that lies deeper than `limit` [mm] in a wrap of
-/// its own body and is moved to its surface.
+/// its own body and is moved to its surface. Bones of which strands cannot be told have a line without "warning: ".
 [[nodiscard]] std::vector<std::string> wrap_warnings(const Scene& scene,
                                                      const std::vector<TriangleMesh>& bones,
                                                      double limit = 1);
