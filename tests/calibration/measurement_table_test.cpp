@@ -106,9 +106,10 @@ TEST(MeasurementTable, WhatTheSceneHoldsIsMeasuredInNoTest) {
   const Scene scene = parse_scene(
       kCalibratedScene + "\n[[condition]]\nname = \"no twist\"\nkind = \"internal_rotation\"\n",
       folder / "knee.toml");
-  EXPECT_EQ(told_of(scene),
-            "knee.csv:3: coordinate = internal_rotation, expected another coordinate: condition "
-            "\"no twist\", which is of no [[calibrate.load]], holds it in every test");
+  EXPECT_EQ(
+      told_of(scene),
+      "knee.csv:3: coordinate = internal_rotation, expected another coordinate: condition "
+      "\"no twist\", which is of no [[calibrate.load]], holds it in every test (or use = skip)");
 }
 
 TEST(MeasurementTable, SkippedRowsMaySayAnything) {

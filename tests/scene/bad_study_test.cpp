@@ -157,6 +157,16 @@ TEST_F(StudyOfSeveralTest, ExpectsTheSameSweep) {
             start + "has no [sweep]");
 }
 
+// In a scene in cm a range of a length is ten times as wide.
+TEST_F(StudyOfSeveralTest, ExpectsOneUnitOfLengthForARange) {
+  const std::string cm = with(kSmallScene, "length = \"mm\"", "length = \"cm\"");
+  EXPECT_EQ(
+      message_with(cm),
+      "study.toml:16: [[vary]] number 2: range = [-1, 1], expected one that is the same in all "
+      "scenes, which have one unit of length: -1 to 1 mm in knee.toml are -10 to 10 mm in "
+      "other.toml");
+}
+
 TEST_F(StudyOfSeveralTest, ExpectsNamesOfTheirOwn) {
   write("knees/knee.toml", kSmallScene);
   EXPECT_EQ(message_of("\"knee.toml\"", "\"knee.toml\", \"knees/knee.toml\""),

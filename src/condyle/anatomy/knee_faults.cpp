@@ -159,7 +159,8 @@ double tell_unit(const KneeEnds& ends, const std::optional<double>& given) {
       "the files: in {} that is no knee of an adult, which is {:.0f} to {:.0f} mm wide; {}",
       ends.femur_width, ends.tibia_width, given ? "the unit of --units" : "mm, cm, inch and m",
       kNarrowest, kWidest,
-      given ? "those of children and animals are not recognised"
+      given ? "expected another --units, or none (it is told from the width); knees of children "
+              "and animals are not recognised"
             : "a unit said by --units has to make it one"));
 }
 

@@ -160,7 +160,7 @@ std::string unit_in_words(double to_mm, bool said) {
   const std::string unit = unit_name(to_mm);
   const std::string name = unit.empty() ? "inches" : unit;
   return said ? "in " + name + ", as --units says"
-              : "taken to be in " + name + "; --units says another";
+              : "taken to be in " + name + "; --units names another";
 }
 
 }  // namespace

@@ -112,6 +112,7 @@ int run_study(const StudyCommand& command, const StudyTeam& team) {
   for (const std::string& line : plan_lines(work.plan)) say(command.talk, "{}\n", line);
   if (command.resume && team.any(team.first() && is_complete(work))) {
     if (!team.first()) return 0;
+    expect_no_table(work);
     work.models = study_models(work.plan);  // whose own sweeps fail is told again
     return complete_already(work);
   }

@@ -102,12 +102,15 @@ bool is_complete(const StudyWork& work) {
          holds_study(work.command.output, work.plan);
 }
 
-int complete_already(const StudyWork& work) {
+void expect_no_table(const StudyWork& work) {
   if (!work.command.table.empty())
     throw InputError(
         fmt::format("{}: holds all of this study already, expected no --table: it is written from "
                     "samples as they are computed (without --resume)",
                     work.command.output));
+}
+
+int complete_already(const StudyWork& work) {
   const StudyView view = read_study_file(work.command.output);
   say(work.talk(), "{} holds all of this study already\n", work.command.output);
   CommandSummary facts = told(work, view);

@@ -11,7 +11,8 @@ namespace condyle {
 
 /// --resume of a study that is complete.
 [[nodiscard]] bool is_complete(const StudyWork& work);
-/// Throws InputError for --table: samples are told from chunks, which are gone.
+/// Of one that is complete: throws InputError for --table. Samples are told from chunks, which are gone.
+void expect_no_table(const StudyWork& work);
 int complete_already(const StudyWork& work);
 
 int stopped_study(const StudyWork& work, const StudyJournals& journals);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "condyle/input_error.h"
 #include "condyle/math/no_number.h"
@@ -57,9 +58,11 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 /// The apostrophe of csv_text.h, which is none of the text.
-bool guards_formula(const std::string& quoted) {
-  return quoted.size() > 1 && quoted[0] == '\'' &&
-         std::string_view("=+-@\t\r").find(quoted[1]) != std::string_view::npos;
+std::string without_guard(std::string field) {
+  if (field.size() > 1 && field[0] == '\'' &&
+      std::string_view("=+-@'\t\r").find(field[1]) != std::string_view::npos)
+    field.erase(0, 1);
+  return field;
 }
 
 /// The field that begins at `at`, which then stands behind the comma after it, or behind the end. False
@@ -68,7 +71,7 @@ bool take_field(const std::string& line, std::size_t& at, std::string& field) {
   const std::size_t first = std::min(line.find_first_not_of(" \t", at), line.size());
   if (first == line.size() || line[first] != '"') {
     const std::size_t end = std::min(line.find(',', at), line.size());
-    field = trimmed(line.substr(at, end - at));
+    field = without_guard(trimmed(line.substr(at, end - at)));
     at = end + 1;
     return true;
   }
@@ -80,7 +83,7 @@ bool take_field(const std::string& line, std::size_t& at, std::string& field) {
     if (doubled) ++at;
   }
   if (at >= line.size()) return false;
-  if (guards_formula(field)) field.erase(0, 1);
+  field = without_guard(std::move(field));
   const std::size_t end = std::min(line.find(',', at), line.size());
   const bool closed = trimmed(line.substr(at + 1, end - at - 1)).empty();
   at = end + 1;

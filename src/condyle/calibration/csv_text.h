@@ -8,7 +8,7 @@
 namespace condyle {
 
 /// Quoted where it holds a comma, a quote or a line's end. One that a spreadsheet would take for a formula, with = + - @
-/// or a tab in front, gets an apostrophe before it, which read_csv takes off again.
+/// or a tab in front, or that begins with an apostrophe, gets an apostrophe before it, which read_csv takes off again.
 [[nodiscard]] std::string csv_text(std::string_view text);
 
 }  // namespace condyle

@@ -152,7 +152,7 @@ void check_free(const CsvRow& row,
       columns.fail(
           row, "coordinate",
           fmt::format("another coordinate: condition \"{}\", which is of no [[calibrate.load]], "
-                      "holds it in every test",
+                      "holds it in every test (or use = skip)",
                       condition.name));
   if (measured.laxity && !(measured.level > 0))
     columns.fail(row, "level", "a level > 0: a laxity is told at it and at the opposite one");

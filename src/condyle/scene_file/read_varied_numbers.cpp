@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
+#include <optional>
+
 #include "condyle/input_error.h"
 #include "condyle/scene_file/read_numbers.h"
 #include "condyle/scene_file/read_sections.h"
@@ -112,6 +116,30 @@ void expect_same_names(const Section& root, const ReadStudy& read) {
     }
 }
 
+/// A range is read in the units of each scene.
+void expect_same_ranges(const std::vector<Section>& sections, const ReadStudy& read) {
+  std::size_t j = 0;
+  for (const Section& section : sections) {
+    if (is_roughness(section)) continue;
+    const std::optional<std::array<double, 2>>& first = read.varied.front()[j].range;
+    for (std::size_t i = 1; first && i < read.scenes.size(); ++i) {
+      const std::array<double, 2>& own = *read.varied[i][j].range;
+      const auto same = [&](std::size_t end) {
+        return std::abs(own[end] - (*first)[end]) <= 1e-12 * std::abs((*first)[end]);
+      };
+      if (same(0) && same(1)) continue;
+      section.fail(
+          "range",
+          fmt::format(
+              "one that is the same in all scenes, which have one unit of length: {:.6g} to "
+              "{:.6g} mm in {} are {:.6g} to {:.6g} mm in {}",
+              (*first)[0], (*first)[1], read.scenes.front().file.string(), own[0], own[1],
+              read.scenes[i].file.string()));
+    }
+    ++j;
+  }
+}
+
 }  // namespace
 
 void read_varied_numbers(const Section& root, ReadStudy& read) {
@@ -129,6 +157,7 @@ void read_varied_numbers(const Section& root, ReadStudy& read) {
       return sections.empty() ? fitted_numbers(first, knee) : numbers_of(sections, knee, table);
     }));
   expect_same_names(root, read);
+  if (!table) expect_same_ranges(sections, read);
 }
 
 }  // namespace condyle

@@ -40,16 +40,24 @@ StrandInBone deepest(const Scene& scene,
   return strand;
 }
 
+/// A file may hold both bones; which of its parts is which is not told.
+bool shares_mesh(const Scene& scene, std::size_t body) {
+  const std::optional<MeshFile>& mesh = scene.bodies[body].mesh;
+  for (std::size_t b = 0; mesh && b < scene.bodies.size(); ++b)
+    if (b != body && scene.bodies[b].mesh && scene.bodies[b].mesh->is(*mesh)) return true;
+  return false;
+}
+
 void warn_of_strands(const Scene& scene,
                      const std::vector<TriangleMesh>& bones,
                      double limit,
                      std::vector<std::string>& lines) {
-  std::vector<std::size_t> open;
-  const std::vector<StrandInBone> strands = strands_in_bone(scene, bones, limit, &open);
-  for (const std::size_t b : open)
-    lines.push_back(
-        fmt::format("ligaments straight through \"{}\" are not looked for: its mesh is open",
-                    scene.bodies[b].name));
+  std::vector<std::size_t> untold;
+  const std::vector<StrandInBone> strands = strands_in_bone(scene, bones, limit, &untold);
+  for (const std::size_t b : untold)
+    lines.push_back(fmt::format("ligaments straight through \"{}\" are not looked for: its mesh {}",
+                                scene.bodies[b].name,
+                                shares_mesh(scene, b) ? "holds another bone, too" : "is open"));
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     std::string names;
     int count = 0;
@@ -95,27 +103,40 @@ void warn_of_fits(const Scene& scene, std::vector<std::string>& lines) {
                       wrap.name, wrap.fit->length_max, kPoor));
 }
 
+/// Ligaments that end on a body and wrap on nothing of it.
+std::vector<int> straight_at(const Scene& scene, int body) {
+  std::vector<int> found;
+  for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
+    const LigamentDescription& ligament = scene.ligaments[i];
+    if ((ligament.ends[0].body == body || ligament.ends[1].body == body) &&
+        !wraps_on(scene, ligament, body))
+      found.push_back(static_cast<int>(i));
+  }
+  return found;
+}
+
 }  // namespace
 
 std::vector<StrandInBone> strands_in_bone(const Scene& scene,
                                           const std::vector<TriangleMesh>& bones,
                                           double limit,
-                                          std::vector<std::size_t>* open) {
+                                          std::vector<std::size_t>* untold) {
   std::vector<StrandInBone> strands;
   if (scene.moving_body() < 0) return strands;
   const std::vector<PresetPose> poses = preset_poses(scene);
   for (std::size_t b = 0; b < bones.size(); ++b) {
-    const std::optional<TriangleMesh> solid = solid_bone(bones[b]);
-    if (!solid && open != nullptr && !bones[b].triangles.empty()) open->push_back(b);
-    if (!solid) continue;
+    const auto body = static_cast<int>(b);
+    const std::vector<int> straight = straight_at(scene, body);
+    if (straight.empty() || bones[b].triangles.empty()) continue;
+    std::optional<TriangleMesh> solid;
+    if (!shares_mesh(scene, b)) solid = solid_bone(bones[b]);
+    if (!solid) {
+      if (untold != nullptr) untold->push_back(b);
+      continue;
+    }
     const SmoothedMesh bone(*solid);
-    for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
-      const LigamentDescription& ligament = scene.ligaments[i];
-      const auto body = static_cast<int>(b);
-      if ((ligament.ends[0].body != body && ligament.ends[1].body != body) ||
-          wraps_on(scene, ligament, body))
-        continue;
-      const StrandInBone strand = deepest(scene, poses, bone, limit, static_cast<int>(i), body);
+    for (const int ligament : straight) {
+      const StrandInBone strand = deepest(scene, poses, bone, limit, ligament, body);
       if (strand.depth > 0) strands.push_back(strand);
     }
   }

@@ -38,25 +38,11 @@ class OutputList {
                        : owner == "ligament" ? add_of_ligaments(what)
                                              : add_of_one(owner, what);
     if (!found) refuse(word);
-    expect_no_name(owner, word);
   }
 
   std::vector<StudyOutput> outputs;
 
  private:
-  /// "contact.force" is that of all contacts, also where a ligament is called "contact".
-  void expect_no_name(const std::string& owner, const std::string& word) const {
-    const auto is_owner = [&owner](const auto& named) { return named.name == owner; };
-    const bool taken = (owner == "contact" || owner == "ligament" || owner == "joint") &&
-                       (std::any_of(scene_.contacts.begin(), scene_.contacts.end(), is_owner) ||
-                        std::any_of(scene_.ligaments.begin(), scene_.ligaments.end(), is_owner));
-    if (taken)
-      throw InputError(
-          fmt::format("{}: outputs: \"{}\": {} has a contact or ligament of that name, expected "
-                      "one that is none of contact, ligament and joint",
-                      study_, word, scene_.file.string()));
-  }
-
   void keep(const std::string& name, const Unit& unit, const PoseOutput& output) {
     const auto known = std::find_if(outputs.begin(), outputs.end(),
                                     [&](const StudyOutput& other) { return other.name == name; });
@@ -147,6 +133,23 @@ class OutputList {
   const std::string& study_;
 };
 
+/// "contact.force" is that of all contacts, and of a ligament called "contact".
+void expect_one_meaning(const std::string& word, const Scene& scene, const std::string& study) {
+  const auto is_named = [](const auto& all, const char* name) {
+    return std::any_of(all.begin(), all.end(),
+                       [name](const auto& one) { return one.name == name; });
+  };
+  const bool contact = word == "contact.force" && is_named(scene.ligaments, "contact"),
+             ligament = word == "ligament.force" && is_named(scene.contacts, "ligament");
+  if (!contact && !ligament) return;
+  const char* named = contact ? "ligament" : "contact";
+  throw InputError(fmt::format(
+      "{}: outputs: \"{}\" is that of all {}s and of a {} of that name in {}, expected another "
+      "name of "
+      "the {}",
+      study, word, contact ? "contact" : "ligament", named, scene.file.string(), named));
+}
+
 }  // namespace
 
 std::vector<StudyOutput> study_outputs(const Scene& scene,
@@ -154,7 +157,10 @@ std::vector<StudyOutput> study_outputs(const Scene& scene,
                                        const std::string& study) {
   OutputList list(scene, study);
   if (!words.empty()) {
-    for (const std::string& word : words) list.add(word);
+    for (const std::string& word : words) {
+      expect_one_meaning(word, scene, study);
+      list.add(word);
+    }
     return list.outputs;
   }
   if (scene.joint) list.add("joint");

@@ -94,29 +94,6 @@ void check_alike(const StudyKnee& knee, const StudyPlan& plan, const std::string
                       plan.knees.front().scene.file.string(), sd, knee.scene.file.string()));
 }
 
-/// A range is read in the unit of each scene.
-void check_ranges(const StudyKnee& knee,
-                  const std::vector<VariedNumber>& varied,
-                  const StudyPlan& plan,
-                  const std::vector<VariedNumber>& of_first,
-                  const std::string& study) {
-  for (const FreeParameter& number : knee.parameters) {
-    const std::optional<std::array<double, 2>>&own = varied[number.asked].range,
-                                           &first = of_first[number.asked].range;
-    if (!own || !first) continue;
-    const auto same = [&](std::size_t i) {
-      return std::abs((*own)[i] - (*first)[i]) <= 1e-12 * std::abs((*first)[i]);
-    };
-    if (!same(0) || !same(1))
-      throw InputError(fmt::format(
-          "{}: [[vary]] {}: its range is {:.6g} to {:.6g} {} in {} and {:.6g} to {:.6g} in {}, "
-          "expected one for all "
-          "knees: scenes with one unit of length",
-          study, number.name, (*first)[0], (*first)[1], number.units,
-          plan.knees.front().scene.file.string(), (*own)[0], (*own)[1], knee.scene.file.string()));
-  }
-}
-
 /// Where the words of outputs stand.
 std::string place_of_outputs(const StudyDescription& study) {
   const std::string file = study.file.string();
@@ -209,7 +186,6 @@ StudyPlan study_plan(ReadStudy study, const OnProgress& on_knee) {
     fit_wraps(knee.scene, knee.surfaces);
     knee.parameters = numbers_of(knee.scene, knee.surfaces, study.varied[i], file);
     check_alike(knee, plan, file);
-    check_ranges(knee, study.varied[i], plan, study.varied.front(), file);
   }
   if (on_knee) on_knee(knees, knees);
   const StudyKnee& first = plan.knees.front();
