@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "calibration/wismans_calibration.h"
 #include "condyle/calibration/calibration.h"
@@ -95,39 +93,6 @@ TEST(Calibrate, AnUnseenCurveHasAZeroOfItsOwn) {
     const bool uncertain = row.use == MeasuredUse::kTest && !kJointCoordinates[row.index].angle;
     EXPECT_NEAR(result.rows[i].sd, uncertain ? std::hypot(0.5, 2) : row.sd, 1e-12) << row.line;
   }
-}
-
-// Of drawers alone is measured how exact they are; a test that prescribes the drawer tells nothing of it.
-TEST(Calibrate, SuggestsNoCoordinateThatATestPrescribes) {
-  const std::filesystem::path folder = fresh_folder("held drawer");
-  std::ofstream(folder / "knee.csv") << "specimen,test,flexion,load,level,coordinate,value,sd,use\n"
-                                        "k1,free,0,none,0,anterior_drawer,0,0.5,fit\n"
-                                        "k1,pushed,30,anterior,100,anterior_drawer,2,0.5,fit\n"
-                                        "k1,robot,30,robot,2,aACL.force,20,5,fit\n";
-  WismansCase knee(fresh_folder("held drawer's knee"), 0.03, 0);
-  knee.scene = parse_scene(wismans_text(0.03) + R"(
-[[condition]]
-name = "held drawer"
-kind = "anterior_drawer"
-value = 0
-
-[[calibrate.load]]
-name = "robot"
-condition = "held drawer"
-)",
-                           folder / "knee.toml");
-  knee.table = read_measurements(knee.scene);
-  CalibrationOptions options = plain();
-  options.suggest = true;
-  const CalibrationResult result = calibrated(knee, options);
-  int robot = 0;
-  for (const SuggestedTest& test : result.suggested) {
-    const bool held = test.load == 3;
-    robot += held ? 1 : 0;
-    EXPECT_EQ(test.reason, held ? "no joint coordinate is measured" : "") << test.load;
-    EXPECT_EQ(test.information > 0, !held) << test.load;
-  }
-  EXPECT_EQ(robot, 2 * 5);
 }
 
 /// Everything at once.

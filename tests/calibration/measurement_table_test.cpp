@@ -104,7 +104,8 @@ TEST(MeasurementTable, WhatTheSceneHoldsIsMeasuredInNoTest) {
   const std::filesystem::path folder = table_folder();
   std::ofstream(folder / "knee.csv") << kTable;
   const Scene scene = parse_scene(
-      kCalibratedScene + "\n[[condition]]\nname = \"no twist\"\nkind = \"internal_rotation\"\n",
+      kCalibratedScene +
+          "\n[[condition]]\nname = \"no twist\"\nkind = \"internal_rotation\"\nvalue = 0\n",
       folder / "knee.toml");
   EXPECT_EQ(
       told_of(scene),

@@ -38,9 +38,10 @@ TEST_F(ReadStudyTest, LengthsAreInUnitsOfEachScene) {
   other = with(other, "slack_length = 30", "slack_length = 3");
   write("other.toml", other);
   const ReadStudy read =
-      this->read(with(kSmallStudy, "\"knee.toml\"", "\"knee.toml\", \"other.toml\""));
-  EXPECT_EQ(read.varied.at(0).at(1).range, (std::array<double, 2>{-1, 1}));
-  EXPECT_EQ(read.varied.at(1).at(1).range, (std::array<double, 2>{-10, 10}));
+      this->read(with(with(kSmallStudy, "\"knee.toml\"", "\"knee.toml\", \"other.toml\""),
+                      "range = [-1, 1]", "sd = 1"));
+  EXPECT_EQ(read.varied.at(0).at(1).number.prior_sd, 1);
+  EXPECT_EQ(read.varied.at(1).at(1).number.prior_sd, 10);
   EXPECT_EQ(read.varied.at(1).at(0).number.prior_sd, 0.1) << "of ln k, in no unit";
 }
 
