@@ -17,7 +17,7 @@ namespace condyle {
 namespace {
 
 constexpr double kBeforeJump = 1e-12;  // [s]: a step may not see a driver after its jump
-constexpr double kLook = 5e-3;         // [s]: between detections, however seldom frames are stored
+constexpr double kLook = 2e-3;         // [s]: between detections, however seldom frames are stored
 
 /// From frame to frame, and from event to event between them.
 class Integration {

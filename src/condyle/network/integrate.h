@@ -36,7 +36,7 @@ struct MotionKeeping {
 
 /// From `start`, whose closed contacts must touch. Throws InputError for an inconsistent network, a
 /// body without mass, or a start that violates its constraints; what fails later is told in the
-/// result. Detection is asked for every 5 ms and at every frame; where it finds an overlap, the way from the last
+/// result. Detection is asked for every 2 ms and at every frame; where it finds an overlap, the way from the last
 /// time is repeated in halves until it finds the place before the bodies touch there. Throws InputError for stretches that are
 /// of no such motion.
 [[nodiscard]] Motion integrate(const Network& network,
