@@ -119,9 +119,8 @@ PassedThrough::PassedThrough(const ContactPair& pair, double L, double seen)
   samples_B_ = sample(*on_B_);
   samples_A_ = sample(*on_A_);
   whole_ = bounds_deep_solid(*on_B_) || bounds_deep_solid(*on_A_);
-  const std::vector<Sample>& moving = samples_A_.empty() ? samples_B_ : samples_A_;
-  for (const Sample& at : moving) center_ += at.c / static_cast<double>(moving.size());
-  for (const Sample& at : moving) radius_ = std::max(radius_, (at.c - center_).norm());
+  ball_B_ = ball_about(samples_B_);
+  ball_A_ = ball_about(samples_A_);
 }
 
 /// Do enough samples lie deep enough?
@@ -151,6 +150,24 @@ std::optional<double> PassedThrough::depth_beyond(const RigidTransform& X_BA, do
   return -gap;
 }
 
+PassedThrough::Ball PassedThrough::ball_about(const std::vector<Sample>& samples) {
+  Ball ball;
+  for (const Sample& at : samples) ball.center += at.c / static_cast<double>(samples.size());
+  for (const Sample& at : samples) ball.radius = std::max(ball.radius, (at.c - ball.center).norm());
+  return ball;
+}
+
+/// Is nothing of the ball deeper behind a plane or a cylinder than `deep`? Distances from these change by no more than the
+/// way between two points.
+bool PassedThrough::is_in_front(const Ball& ball,
+                                const RigidTransform& X,
+                                const Surface& other,
+                                double deep) {
+  const Eigen::Vector3d p = X * ball.center;
+  const SurfacePoint at = other.evaluate_frame(other.closest(p, other.seed(p)));
+  return at.n.dot(p - at.c) - ball.radius > -deep;
+}
+
 /// How deep samples lie behind a surface that bounds a deep solid, facing it or not: behind its known part, or
 /// beyond its edge as well. Nothing where that is less than `deep`.
 std::optional<double> PassedThrough::depth_in_solid(const RigidTransform& X_BA,
@@ -158,15 +175,16 @@ std::optional<double> PassedThrough::depth_in_solid(const RigidTransform& X_BA,
                                                     bool beyond_edge) const {
   if (!whole_) return std::nullopt;
   double lowest = 0;
-  const auto look = [&](const std::vector<Sample>& samples, const RigidTransform& X,
-                        const Surface& other, const std::vector<Sample>& others) {
-    if (bounds_deep_solid(other))
+  const auto look = [&](const std::vector<Sample>& samples, const Ball& ball,
+                        const RigidTransform& X, const Surface& other,
+                        const std::vector<Sample>& others) {
+    if (bounds_deep_solid(other) && !is_in_front(ball, X, other, deep))
       visit_gaps(samples, X, other, FarFrom(others, deep), [&](double gap, bool known, bool) {
         if (known || beyond_edge) lowest = std::min(lowest, gap);
       });
   };
-  look(samples_A_, X_BA, *on_B_, samples_B_);
-  look(samples_B_, X_BA.inverse(), *on_A_, samples_A_);
+  look(samples_A_, ball_A_, X_BA, *on_B_, samples_B_);
+  look(samples_B_, ball_B_, X_BA.inverse(), *on_A_, samples_A_);
   if (lowest > -deep) return std::nullopt;
   return -lowest;
 }
@@ -175,7 +193,9 @@ std::optional<double> PassedThrough::depth_in_solid(const RigidTransform& X_BA,
 bool PassedThrough::moved_far(const RigidTransform& X_BA) const {
   const RigidTransform X = samples_A_.empty() ? X_BA.inverse() : X_BA,
                        Y = samples_A_.empty() ? trusted_->inverse() : *trusted_;
-  const double moved = (X * center_ - Y * center_).norm() + (X.R - Y.R).norm() * radius_;
+  const Ball& moving = samples_A_.empty() ? ball_B_ : ball_A_;
+  const double moved =
+      (X * moving.center - Y * moving.center).norm() + (X.R - Y.R).norm() * moving.radius;
   return moved > kMoved * seen_;
 }
 

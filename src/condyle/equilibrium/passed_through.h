@@ -44,6 +44,15 @@ class PassedThrough {
   struct Sample {
     Eigen::Vector3d c, n;  ///< in its body's frame
   };
+  struct Ball {
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< in its body's frame
+    double radius = 0;                                 ///< [mm]
+  };
+  [[nodiscard]] static Ball ball_about(const std::vector<Sample>& samples);
+  [[nodiscard]] static bool is_in_front(const Ball& ball,
+                                        const RigidTransform& X,
+                                        const Surface& other,
+                                        double deep);
   [[nodiscard]] std::optional<double> depth_beyond(const RigidTransform& X_BA, double deep) const;
   [[nodiscard]] std::optional<double> depth_in_solid(const RigidTransform& X_BA,
                                                      double deep,
@@ -58,9 +67,8 @@ class PassedThrough {
   bool ends_ = false;   ///< one of them has an edge,
   bool whole_ = false;  ///< which is a plane's or a cylinder's: behind it is solid
   std::vector<Sample> samples_B_, samples_A_;
-  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();  ///< of a ball about those on A, or else on B
-  double radius_ = 0;                                 ///< [mm]
-  std::optional<RigidTransform> trusted_;             ///< nothing lay deep there
+  Ball ball_B_, ball_A_;                   ///< about them
+  std::optional<RigidTransform> trusted_;  ///< nothing lay deep there
 };
 
 }  // namespace condyle
