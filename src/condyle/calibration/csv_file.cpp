@@ -9,13 +9,14 @@
 #include <string_view>
 #include <utility>
 
+#include "condyle/calibration/csv_text.h"
 #include "condyle/input_error.h"
 #include "condyle/math/no_number.h"
 
 namespace condyle {
 namespace {
 
-std::string csv_text(const std::filesystem::path& file, const std::string& expected) {
+std::string text_of_table(const std::filesystem::path& file, const std::string& expected) {
   const std::string name = file.string();
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
@@ -60,7 +61,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 /// The apostrophe of csv_text.h, which is none of the text.
 std::string without_guard(std::string field) {
   if (field.size() > 1 && field[0] == '\'' &&
-      std::string_view("=+-@'\t\r").find(field[1]) != std::string_view::npos)
+      kGuardedStarts.find(field[1]) != std::string_view::npos)
     field.erase(0, 1);
   return field;
 }
@@ -108,7 +109,7 @@ CsvRow row_of(const std::string& line, int number, const std::filesystem::path& 
 CsvFile read_csv(const std::filesystem::path& file, const std::string& expected) {
   CsvFile csv;
   csv.file = file;
-  const std::vector<std::string> lines = lines_of(csv_text(file, expected));
+  const std::vector<std::string> lines = lines_of(text_of_table(file, expected));
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::string text = trimmed(lines[i]);
     if (text.empty() || text[0] == '#') continue;

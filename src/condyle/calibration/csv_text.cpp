@@ -3,8 +3,7 @@
 namespace condyle {
 
 std::string csv_text(std::string_view text) {
-  const bool formula =
-      !text.empty() && std::string_view("=+-@'\t\r").find(text.front()) != text.npos;
+  const bool formula = !text.empty() && kGuardedStarts.find(text.front()) != text.npos;
   if (!formula && text.find_first_of(",\"\r\n") == text.npos) return std::string(text);
   std::string cell = formula ? "\"'" : "\"";
   for (const char c : text) {

@@ -126,11 +126,9 @@ void read_force(const CsvRow& row,
 }
 
 bool holds_in_every_test(const ConditionDescription& condition, const Scene& scene) {
-  const std::vector<CalibrationLoad>& loads = scene.calibration->loads;
-  return std::none_of(loads.begin(), loads.end(), [&](const CalibrationLoad& load) {
-    return load.displacement_control &&
-           &scene.conditions[static_cast<std::size_t>(load.index)] == &condition;
-  });
+  for (int load = 0; load < std::ssize(scene.calibration->loads); ++load)
+    if (held_condition(load, scene) == &condition) return false;
+  return true;
 }
 
 /// Refuses what is prescribed in the test that is said to measure it.
