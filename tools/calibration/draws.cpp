@@ -130,18 +130,21 @@ void judge_unseen(Tests& unseen, const Truth& truth, DrawOutcome& outcome) {
 }
 
 /// Of a truth without noise every start but those that end in another least comes to a cost of nothing.
-LeastSquaresResult best_of_starts(const LeastSquaresProblem& problem,
-                                  const VectorXd& prior,
-                                  const DrawPlan& plan,
-                                  std::mt19937_64& engine) {
-  constexpr double kNothing = 1e-10;
-  LeastSquaresResult best = solve_least_squares(problem, VectorXd::Zero(prior.size()));
-  for (int start = 1; start < plan.starts && best.cost > kNothing; ++start) {
+/// Starts have random numbers of their own, so that which truths follow does not hang on how many were tried.
+void fit_truth(const LeastSquaresProblem& problem,
+               const VectorXd& prior,
+               const DrawPlan& plan,
+               unsigned draw,
+               DrawOutcome& outcome) {
+  std::mt19937_64 engine(plan.seed + 1000003 * (draw + 1));
+  LeastSquaresResult& best = outcome.fit;
+  best = solve_least_squares(problem, VectorXd::Zero(prior.size()));
+  outcome.starts = 1;
+  for (; outcome.starts < plan.starts && best.cost > kNoCost; ++outcome.starts) {
     const VectorXd from = plan.truth * prior.cwiseProduct(normal_numbers(engine, prior.size()));
     LeastSquaresResult other = solve_least_squares(problem, from);
     if (other.y.size() > 0 && other.cost < best.cost) best = std::move(other);
   }
-  return best;
 }
 
 /// The knee that is measured: tests of it, anew where each draw disturbs its scene.
@@ -230,7 +233,7 @@ Draws draw_and_fit(const StudyKnee& model,
     }
     DrawOutcome outcome;
     outcome.truth = theta;
-    outcome.fit = best_of_starts(problem, prior, plan, engine);
+    fit_truth(problem, prior, plan, draw, outcome);
     draws.failed += outcome.fit.converged ? 0 : 1;
     outcome.known = identifiability(outcome.fit.J, sd.cwiseInverse(), problem.prior_sd,
                                     std::vector<bool>(draws.parameters.size(), false));

@@ -28,13 +28,17 @@ struct DrawPlan {
 
 struct DrawOutcome {
   Eigen::VectorXd truth;
-  LeastSquaresResult fit;
+  LeastSquaresResult fit;  ///< the best of those begun
+  int starts = 0;          ///< fits begun
   Identifiability known;
   double unseen_before = 0, unseen_after = 0;  ///< rms of y - truth over the rows' sds
   double covered_unseen = 0;  ///< share of unseen rows whose 95 % interval holds the truth
   double reduced_chi_square = 0;
   bool beyond_limit = false;  ///< above the 97.5 % quantile
 };
+
+/// ½ χ² of a fit that explains measurements without noise: other leasts lie above 1e-5.
+inline constexpr double kNoCost = 1e-10;
 
 struct Draws {
   std::vector<FreeParameter> parameters;
