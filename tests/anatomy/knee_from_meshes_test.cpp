@@ -9,6 +9,7 @@
 
 #include <algorithm>
 
+#include "anatomy/knee_variants.h"
 #include "condyle/anatomy/new_scene_text.h"
 #include "condyle/exchange/ply_file.h"
 #include "condyle/input_error.h"
@@ -148,6 +149,32 @@ TEST_F(NewKneeOfThePhantom, NamesTheFileWhoseSeamsWereJoined) {
   const double length = std::stod(joined->substr(start.size()));
   EXPECT_GT(length, 80) << *joined;  // around the bone, in mm whatever the unit of the file
   EXPECT_LT(length, 400) << *joined;
+}
+
+// The superficial strands of the medial ligament end 45 mm below the origin.
+TEST_F(NewKneeOfThePhantom, NamesInsertionsBeyondTheEndOfATibiaThatIsCutShort) {
+  const auto beyond = [](const NewKnee& knee) {
+    std::string found;
+    for (const std::string& line : knee.doubts)
+      if (line.find("has no bone") != std::string::npos) found += line;
+    return found;
+  };
+  EXPECT_EQ(beyond(knee_from_meshes(files({}), {})), "");
+  NewKneeFiles cut = files({});
+  const auto kept = [](const Vector3d& p) { return p.y() > -40; };
+  write_output_file(cut.tibia, ply(test::part(load_mesh(kMeshes / "tibia.stl", 1), kept)));
+  const NewKnee knee = knee_from_meshes(cut, {});
+  const std::string line = beyond(knee);
+  EXPECT_NE(line.find("3 of 26: \"aMCL\" tibia "), std::string::npos) << line;
+  for (const NewLigament& ligament : knee.ligaments) {
+    const std::string& name =
+        knee.model.scene.ligaments[static_cast<std::size_t>(ligament.of_template)].name;
+    const bool is_below = name == "aMCL" || name == "iMCL" || name == "pMCL";
+    for (std::size_t end = 0; end < 2; ++end) {
+      const bool missing = is_below && !ligament.on_femur[end];
+      EXPECT_NEAR(ligament.ends[end].off, missing ? 6 : 0, missing ? 3 : 2.9) << name;
+    }
+  }
 }
 
 TEST_F(NewKneeOfThePhantom, IsASceneThatCanBeRead) {

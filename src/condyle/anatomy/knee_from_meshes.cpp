@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "condyle/anatomy/cartilage_doubts.h"
@@ -24,6 +25,7 @@ using Eigen::Vector3d;
 
 constexpr double kUnsure = 5;     // of an insertion, told as a doubt [mm]
 constexpr double kDropped = 4;    // off the bone, likewise [mm]
+constexpr double kOff = 3;        // beside the bone, likewise [mm]
 constexpr double kPoorFit = 2.5;  // rms of the registered bones, likewise [mm]
 
 /// Vertices that lie nearer to each other than rounding at the farthest one are merged: one that is far off leaves no
@@ -175,23 +177,41 @@ void choose_ligaments(NewKnee& knee) {
         wrapped));
 }
 
-void doubt_insertions(NewKnee& knee) {
-  std::string unsure;
+/// Ends of ligaments to look at: "WHAT, 5 of 24: "aACL" femur ±6 mm, ..."; nothing where there are none. `told`: what is said
+/// of one, empty of one that is as wanted.
+void doubt_ends(NewKnee& knee,
+                const std::string& what,
+                const std::function<std::string(const CarriedPoint&)>& told) {
+  constexpr int kNamed = 4;
+  std::string names;
   int count = 0;
   for (const NewLigament& ligament : knee.ligaments)
     for (std::size_t end = 0; end < 2; ++end) {
-      const CarriedPoint& point = ligament.ends[end];
-      if (point.uncertainty <= kUnsure && point.dropped <= kDropped) continue;
+      const std::string words = told(ligament.ends[end]);
+      if (words.empty()) continue;
       const LigamentDescription& from =
           knee.model.scene.ligaments[static_cast<std::size_t>(ligament.of_template)];
       ++count;
-      if (count <= 4)
-        unsure += fmt::format("{}\"{}\" {} ±{:.0f} mm", unsure.empty() ? "" : ", ", from.name,
-                              ligament.on_femur[end] ? "femur" : "tibia", point.uncertainty);
+      if (count <= kNamed)
+        names += fmt::format("{}\"{}\" {} {}", names.empty() ? "" : ", ", from.name,
+                             ligament.on_femur[end] ? "femur" : "tibia", words);
     }
   if (count > 0)
-    knee.doubts.push_back(fmt::format("insertions to look at, {} of {}: {}{}", count,
-                                      2 * knee.ligaments.size(), unsure, count > 4 ? ", ..." : ""));
+    knee.doubts.push_back(fmt::format("{}, {} of {}: {}{}", what, count, 2 * knee.ligaments.size(),
+                                      names, count > kNamed ? ", ..." : ""));
+}
+
+void doubt_insertions(NewKnee& knee) {
+  doubt_ends(knee, "insertions to look at", [](const CarriedPoint& point) {
+    return point.uncertainty > kUnsure || point.dropped > kDropped
+               ? fmt::format("±{:.0f} mm", point.uncertainty)
+               : std::string();
+  });
+  doubt_ends(knee,
+             "insertions where the mesh has no bone, as beyond the end of one that is cut short",
+             [](const CarriedPoint& point) {
+               return point.off > kOff ? fmt::format("{:.0f} mm off", point.off) : std::string();
+             });
   for (const auto& [carried, bone] : {std::pair{&knee.femur, "femur"}, {&knee.tibia, "tibia"}})
     if (carried->rms > kPoorFit)
       knee.doubts.push_back(
