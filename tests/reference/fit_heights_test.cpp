@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <limits>
 
@@ -86,6 +88,24 @@ TEST(FitHeights, MeasuresWhatAQuarticLeavesOfASphere) {
   EXPECT_GT(quartic[0].max, quartic[0].rms);
   EXPECT_FALSE(quartic[2].fitted);  // the plateaus are planes: exact
   EXPECT_EQ(quartic[2].degree, 0);
+}
+
+// One femoral ball on two plateaus, one of them tilted by 0.2 rad: its plane faces between them, whichever contact stands first.
+TEST(FitHeights, ASurfaceOfTwoContactsFacesBothOppositeOnes) {
+  Scene scene = read_scene(CONDYLE_SOURCE_DIR "/data/wismans-type/knee.toml");
+  ASSERT_EQ(scene.contacts.size(), 2U);
+  for (std::size_t c = 0; c < 2; ++c)
+    for (int& surface : scene.contacts[c].surfaces)
+      surface =
+          scene.surfaces[surface].body == scene.joint->femur.body ? 0 : 2 + static_cast<int>(c);
+  const Vector3d level = scene.surfaces[2].direction, aside = scene.joint->tibia.anterior;
+  scene.surfaces[2].direction = std::cos(0.1) * level + std::sin(0.1) * aside;
+  scene.surfaces[3].direction = std::cos(0.1) * level - std::sin(0.1) * aside;
+  const Eigen::Matrix3d axes = fit_heights(scene, fit_surfaces(scene), 4)[0].surface.axes;
+  std::swap(scene.contacts[0], scene.contacts[1]);
+  EXPECT_EQ(fit_heights(scene, fit_surfaces(scene), 4)[0].surface.axes, axes);
+  scene.surfaces[2].direction = scene.surfaces[3].direction = level;
+  EXPECT_LT((fit_heights(scene, fit_surfaces(scene), 4)[0].surface.axes - axes).norm(), 1e-14);
 }
 
 // Any of its points names a plane without end.

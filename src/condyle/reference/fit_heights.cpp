@@ -103,11 +103,12 @@ class HeightFitter {
   HeightFitter(const Scene& scene, const std::vector<FittedSurface>& surfaces, int degree)
       : scene_(scene), surfaces_(surfaces), degree_(degree), range_(scene) {}
 
-  [[nodiscard]] HeightFit fit(std::size_t index, std::size_t opposite) const {
+  /// `opposites`: the surfaces that it meets in contacts.
+  [[nodiscard]] HeightFit fit(std::size_t index, const std::vector<std::size_t>& opposites) const {
     const SurfaceDescription& description = scene_.surfaces[index];
     if (description.kind == SurfaceKind::kPlane || description.kind == SurfaceKind::kPolynomial)
       return as_it_is(description, middle_of(index));
-    const Facing toward = is_femoral(index) ? femoral_facing(opposite) : own_facing(index);
+    const Facing toward = is_femoral(index) ? femoral_facing(opposites) : own_facing(index);
     return fit_points(facing(points_of(surfaces_[index]), toward.direction, toward.angle),
                       description, toward.direction);
   }
@@ -131,12 +132,15 @@ class HeightFitter {
     return {mean.normalized(), kWidest};
   }
 
-  /// Against the normal of the tibial surface, as the femur sees it at the middle of the sweep.
-  [[nodiscard]] Facing femoral_facing(std::size_t opposite) const {
+  /// Against the mean normal of the tibial surfaces, as the femur sees it at the middle of the sweep.
+  [[nodiscard]] Facing femoral_facing(const std::vector<std::size_t>& opposites) const {
+    Vector3d mean = Vector3d::Zero();
+    for (const std::size_t opposite : opposites) mean += own_facing(opposite).direction;
+    if (mean.norm() < 0.2) mean = scene_.joint->tibia.proximal;
     const JointFrames frames = joint_frames(scene_);
     const Eigen::Matrix3d R_BA = rotation_from_joint_angles(frames, range_.middle, 0, 0);
     const Eigen::Matrix3d R_FT = frames.tibia_moves ? R_BA : Eigen::Matrix3d(R_BA.transpose());
-    return {-(R_FT * own_facing(opposite).direction), std::min(range_.half + kMargin, kWidest)};
+    return {-(R_FT * mean.normalized()), std::min(range_.half + kMargin, kWidest)};
   }
 
   /// The joint's origin in the frame of the surface's body.
@@ -225,14 +229,18 @@ class HeightFitter {
 std::vector<HeightFit> fit_heights(const Scene& scene,
                                    const std::vector<FittedSurface>& surfaces,
                                    int degree) {
-  const HeightFitter fitter(scene, surfaces, degree);
-  std::vector<HeightFit> fits(scene.surfaces.size());
+  std::vector<std::vector<std::size_t>> opposites(scene.surfaces.size());
   for (const ContactDescription& contact : scene.contacts) {
     if (contact.state == ContactState::kOpen) continue;
-    const auto [first, second] = contact.surfaces;
-    fits[first] = fitter.fit(first, second);
-    fits[second] = fitter.fit(second, first);
+    const auto first = static_cast<std::size_t>(contact.surfaces[0]),
+               second = static_cast<std::size_t>(contact.surfaces[1]);
+    opposites[first].push_back(second);
+    opposites[second].push_back(first);
   }
+  const HeightFitter fitter(scene, surfaces, degree);
+  std::vector<HeightFit> fits(scene.surfaces.size());
+  for (std::size_t i = 0; i < fits.size(); ++i)
+    if (!opposites[i].empty()) fits[i] = fitter.fit(i, opposites[i]);
   return fits;
 }
 

@@ -4,9 +4,9 @@
 /// the patches were fitted to.
 ///
 /// A height over a plane cannot follow a condyle round the back. The plane of a tibial surface is
-/// across its mean normal; that of a femoral one faces the tibia in the middle of the flexion that
-/// is swept, and points that are seen from there at more than half the sweep and 20 degrees, at
-/// most 70, have no say.
+/// across its mean normal; that of a femoral one faces the tibial surfaces that it meets, in the
+/// middle of the flexion that is swept, and points that are seen from there at more than half the
+/// sweep and 20 degrees, at most 70, have no say.
 
 #include <string>
 #include <vector>
