@@ -87,6 +87,20 @@ TEST(MeasurementTable, HowATextIsWrittenDoesNotMatter) {
   EXPECT_EQ(table.rows[0].sd, 0.5 * kDegree);
 }
 
+// Tables that `import` makes say their units in a comment.
+TEST(MeasurementTable, OtherUnitsThanTheScenesAreRefused) {
+  const std::string said = "# units: mm, deg, N, N m; offsets: none added\n" + kTable;
+  EXPECT_EQ(table_of(said).rows.size(), 7u);
+  Scene scene = scene_beside(table_folder(), said);
+  scene.length_to_mm = 10;
+  EXPECT_EQ(told_of(scene),
+            "knee.csv:1: its numbers are in mm, expected cm as [units] of knee.toml");
+  scene.length_to_mm = scene.angle_to_rad = 1;
+  EXPECT_EQ(told_of(scene),
+            "knee.csv:1: its numbers are in deg, expected rad as [units] of knee.toml");
+  EXPECT_EQ(table_of("# units: N m, furlongs\n" + kTable).rows.size(), 7u);
+}
+
 TEST(MeasurementTable, OnlyTheSpecimenThatIsMeantIsRead) {
   Scene scene = scene_beside(table_folder(), kTable + "k2,x,0,lateral,1,other knee,1,1,fit\n");
   EXPECT_EQ(told_of(scene),

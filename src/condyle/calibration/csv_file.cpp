@@ -112,8 +112,10 @@ CsvFile read_csv(const std::filesystem::path& file, const std::string& expected)
   const std::vector<std::string> lines = lines_of(text_of_table(file, expected));
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::string text = trimmed(lines[i]);
+    const int line = static_cast<int>(i) + 1;
+    if (text.starts_with('#')) csv.comments.push_back({line, trimmed(text.substr(1))});
     if (text.empty() || text[0] == '#') continue;
-    CsvRow row = row_of(lines[i], static_cast<int>(i) + 1, file);
+    CsvRow row = row_of(lines[i], line, file);
     if (csv.header.line == 0) {
       csv.header = std::move(row);
       continue;

@@ -15,8 +15,14 @@ struct CsvRow {
   std::vector<std::string> fields;
 };
 
+struct CsvComment {
+  int line = 0;      ///< of the file, from 1
+  std::string text;  ///< behind the #, without blanks around it
+};
+
 struct CsvFile {
   std::filesystem::path file;
+  std::vector<CsvComment> comments;
   CsvRow header;
   std::vector<CsvRow> rows;  ///< each with as many fields as the header
 };

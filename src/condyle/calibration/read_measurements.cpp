@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
+#include <sstream>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -13,6 +16,7 @@
 #include "condyle/calibration/measurement_table.h"
 #include "condyle/calibration/read_measurement.h"
 #include "condyle/input_error.h"
+#include "condyle/scene_file/scene_words.h"
 #include "condyle/scene_file/section.h"
 
 namespace condyle {
@@ -48,6 +52,35 @@ std::string specimen_of(const CsvFile& csv,
                                  meant.empty() ? "" : "; did you mean \"" + meant + "\"?"));
   }
   return !wanted.empty() || names.empty() ? wanted : names.front();
+}
+
+/// Refuses a word that names another unit than the scene's; any other word is none of ours.
+void check_unit(const std::string& word,
+                const CsvComment& comment,
+                const CsvFile& csv,
+                const Scene& scene) {
+  const std::array<std::vector<std::string>, 2> known = {{{"mm", "cm", "m"}, {"deg", "rad"}}};
+  const std::array<std::string, 2> own = {unit_name(scene.length_to_mm),
+                                          scene.angle_to_rad == 1 ? "rad" : "deg"};
+  for (std::size_t k = 0; k < own.size(); ++k)
+    if (word != own[k] && std::find(known[k].begin(), known[k].end(), word) != known[k].end())
+      throw InputError(fmt::format("{}:{}: its numbers are in {}, expected {} as [units] of {}",
+                                   csv.file.string(), comment.line, word, own[k],
+                                   scene.file.string()));
+}
+
+/// A comment "units: mm, deg, N m; ..." says what the numbers are in, which are read in the units of the scene.
+void check_units(const CsvFile& csv, const Scene& scene) {
+  constexpr std::string_view kUnits = "units:";
+  for (const CsvComment& comment : csv.comments) {
+    if (!comment.text.starts_with(kUnits)) continue;
+    std::istringstream list(
+        comment.text.substr(kUnits.size(), comment.text.find(';') - kUnits.size()));
+    for (std::string word; std::getline(list >> std::ws, word, ',');) {
+      word.erase(word.find_last_not_of(" \t") + 1);
+      check_unit(word, comment, csv, scene);
+    }
+  }
 }
 
 /// Rows that measure the same have the same: a level of 0 is no load, but of what holds a coordinate.
@@ -153,6 +186,7 @@ MeasurementTable read_measurements(const Scene& scene) {
     throw InputError(scene.file.string() +
                      ": no table [calibrate], expected one that names measurements");
   const CsvFile csv = read_csv(scene.calibration->measurements, "a table of measurements (CSV)");
+  check_units(csv, scene);
   const MeasurementColumns columns(csv);
   MeasurementTable table;
   table.file = csv.file;

@@ -236,7 +236,7 @@ LaxityTable laxity_table(const std::vector<fs::path>& files, const LaxityTableOp
   const std::array<double, 6> offsets =
       options.offsets ? read_jcs_offsets(*options.offsets) : std::array<double, 6>{};
   table.text = fmt::format(
-      "# mm, deg, N, N m: a scene that reads this has these units; offsets: {}\n"
+      "# units: mm, deg, N, N m; offsets: {}\n"
       "specimen,test,flexion,load,level,coordinate,value,sd,use\n",
       options.offsets ? options.offsets->filename().string() : "none added");
   for (const auto& [test, pair] : tests_of(files)) write_test(test, pair, offsets, options, table);
