@@ -137,6 +137,7 @@ class KneeFinder {
     if (reversed_) std::swap(femur, tibia);
     in_femur_ = frames_.welded_to(femur);
     in_tibia_ = frames_.welded_to(tibia);
+    std::vector<std::string> off;
     for (const OsimContact& contact : model_.contacts) {
       const OsimMesh *a = &mesh_at(contact.target, contact),
                      *b = &mesh_at(contact.casting, contact);
@@ -145,12 +146,17 @@ class KneeFinder {
         knee_.notes.push_back("contact " + contact.name + ": not between femur and tibia");
         continue;
       }
+      if (!contact.applies) {
+        knee_.notes.push_back("contact " + contact.name + ": applies no force");
+        off.push_back(contact.name);
+        continue;
+      }
       std::optional<Compartment> compartment = compartment_of(contact.name);
       if (!compartment) compartment = compartment_of(b->name);
       if (!compartment) compartment = compartment_of(a->name);
       knee_.contacts.push_back({compartment, {*a, {}}, {*b, {}}, contact.logarithmic});
     }
-    check_contacts();
+    check_contacts(off);
     knee_.femur.name = body_of(knee_.contacts[0].femur.mesh);
     knee_.tibia.name = body_of(knee_.contacts[0].tibia.mesh);
     in_femur_ = frames_.welded_to(knee_.femur.name);
@@ -161,7 +167,13 @@ class KneeFinder {
     }
   }
 
-  void check_contacts() {
+  /// `off`: names of those between these bones that apply no force.
+  void check_contacts(const std::vector<std::string>& off) {
+    if (knee_.contacts.empty() && !off.empty())
+      fail(
+          fmt::format("no Smith2018ArticularContactForce between the bones of {} applies force "
+                      "({} {} off), expected one that does",
+                      knee_.joint, fmt::join(off, ", "), off.size() == 1 ? "is" : "are"));
     if (knee_.contacts.empty()) {
       fail(fmt::format(
           "no Smith2018ArticularContactForce between the bones of {}, expected contact meshes of "
@@ -271,7 +283,7 @@ class KneeFinder {
   }
 
   void find_ligaments() {
-    OsimStrands strands = find_strands(model_, frames_, in_femur_, in_tibia_);
+    OsimStrands strands = find_strands(model_, frames_, {in_femur_, in_tibia_, knee_.X_FT});
     knee_.wraps = std::move(strands.wraps);
     knee_.ligaments = std::move(strands.strands);
     if (knee_.ligaments.empty())

@@ -13,6 +13,7 @@
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "condyle/file_ending.h"
 #include "condyle/input_error.h"
 
 namespace condyle {
@@ -114,6 +115,21 @@ class OsimReader {
     return node.child(key) ? number(node, key) : otherwise;
   }
 
+  /// As OpenSim reads it: True, FALSE, 1 and 0, too.
+  [[nodiscard]] bool flag_or(const xml_node& node, const char* key, bool otherwise) const {
+    const std::string word = lower_case(text(node, key));
+    if (word.empty()) return otherwise;
+    const bool is_true = word == "true" || word == "1";
+    if (!is_true && word != "false" && word != "0")
+      fail(node, fmt::format("{} = {}, expected true or false", key, text(node, key)));
+    return is_true;
+  }
+
+  /// Whether a force acts; before version 30509 the key was the opposite one.
+  [[nodiscard]] bool applies(const xml_node& force) const {
+    return flag_or(force, "appliesForce", !flag_or(force, "isDisabled", false));
+  }
+
   [[nodiscard]] Vector3d vector_or(const xml_node& node,
                                    const char* key,
                                    const Vector3d& otherwise) const {
@@ -187,7 +203,7 @@ class OsimReader {
     wrap.X_frame = {rotation_xyz(vector_or(node, "xyz_body_rotation", Vector3d::Zero())),
                     kMillimetre * vector_or(node, "translation", Vector3d::Zero())};
     wrap.quadrant = text(node, "quadrant");
-    wrap.active = text(node, "active") != "false";
+    wrap.active = flag_or(node, "active", true);
     if (wrap.type == "WrapEllipsoid")
       wrap.sizes = vector_or(node, "dimensions", Vector3d::Zero());
     else if (wrap.type == "WrapTorus")
@@ -198,6 +214,16 @@ class OsimReader {
     out_.wraps.push_back(wrap);
   }
 
+  /// Before version 30507 they stood in a set of their own.
+  [[nodiscard]] std::map<std::string, double> default_coordinates(const xml_node& joint) const {
+    std::map<std::string, double> values;
+    for (const xml_node set :
+         {joint.child("coordinates"), joint.child("CoordinateSet").child("objects")})
+      for (const xml_node c : set.children())
+        values[c.attribute("name").value()] = number_or(c, "default_value", 0);
+    return values;
+  }
+
   void read_joint(const xml_node& node) {
     OsimJoint joint;
     joint.type = node.name();
@@ -205,9 +231,7 @@ class OsimReader {
     joint.path = path_of(node);
     joint.parent = socket(node, "parent_frame");
     joint.child = socket(node, "child_frame");
-    std::map<std::string, double> coordinates;
-    for (const xml_node c : node.child("coordinates").children())
-      coordinates[c.attribute("name").value()] = number_or(c, "default_value", 0);
+    const std::map<std::string, double> coordinates = default_coordinates(node);
     for (const xml_node axis : node.child("SpatialTransform").children("TransformAxis")) {
       const std::string name = axis.attribute("name").value();
       const std::size_t index = name.empty() ? 3 : static_cast<std::size_t>(name.back() - '1');
@@ -219,7 +243,12 @@ class OsimReader {
       const std::optional<double> value =
           value_of(axis, coordinate == coordinates.end() ? 0 : coordinate->second);
       out.value = (turns ? 1 : kMillimetre) * value.value_or(0);
-      if (!value && out.axis != Vector3d::Zero()) out.unread = function_kind(axis);
+      if (out.axis.isZero()) continue;
+      if (!value)
+        out.unread = function_kind(axis);
+      else if (coordinate == coordinates.end() && !axis.child("Constant") &&
+               !text(axis, "coordinates").empty())
+        out.unread = fmt::format("coordinate \"{}\" without default", text(axis, "coordinates"));
     }
     out_.joints.push_back(joint);
   }
@@ -296,7 +325,8 @@ class OsimReader {
     } else if (type == "Smith2018ArticularContactForce") {
       out_.contacts.push_back({node.attribute("name").value(), socket(node, "target_mesh"),
                                socket(node, "casting_mesh"),
-                               text(node, "elastic_foundation_formulation") == "nonlinear"});
+                               text(node, "elastic_foundation_formulation") == "nonlinear",
+                               applies(node)});
     } else {
       ++out_.other_forces[type];
     }
@@ -305,7 +335,7 @@ class OsimReader {
   void read_ligament(const xml_node& node) {
     OsimLigament ligament;
     ligament.name = node.attribute("name").value();
-    ligament.applies = text(node, "appliesForce") != "false";
+    ligament.applies = applies(node);
     ligament.stiffness = number(node, "linear_stiffness");
     ligament.transition_strain = number_or(node, "transition_strain", ligament.transition_strain);
     ligament.slack_length = kMillimetre * number(node, "slack_length");

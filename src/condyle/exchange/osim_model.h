@@ -27,7 +27,7 @@ struct OsimFrame {
 struct OsimAxis {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();
   double value = 0;    ///< [rad] or [mm]
-  std::string unread;  ///< the kind of a function that is not known, whose value is taken as 0
+  std::string unread;  ///< what is not known and taken as 0: the kind of a function, a coordinate
 };
 
 struct OsimJoint {
@@ -46,6 +46,7 @@ struct OsimMesh {
 struct OsimContact {
   std::string name, target, casting;
   bool logarithmic = false;  ///< elastic_foundation_formulation is "nonlinear"
+  bool applies = true;
 };
 
 struct OsimPathPoint {

@@ -26,26 +26,29 @@ double length(const std::vector<Vector3d>& points) {
 
 class StrandFinder {
  public:
-  StrandFinder(const OsimModel& model,
-               const OsimFrames& frames,
-               const Poses& in_femur,
-               const Poses& in_tibia)
-      : model_(model), frames_(frames), in_femur_(in_femur), in_tibia_(in_tibia) {}
+  StrandFinder(const OsimModel& model, const OsimFrames& frames, const OsimBones& bones)
+      : model_(model),
+        frames_(frames),
+        in_femur_(bones.in_femur),
+        in_tibia_(bones.in_tibia),
+        X_FT_(bones.X_FT) {}
 
   void add(const OsimLigament& ligament) {
     Crossing path;
-    const double taut = find_crossing(ligament, path)
-                            ? ligament.slack_length - length(path.femur) - length(path.tibia)
-                            : 0;
-    if (!(taut > 0)) {
+    if (!find_crossing(ligament, path)) {
       left_out_.push_back(ligament.name);
+      return;
+    }
+    const double taut = ligament.slack_length - length(path.femur) - length(path.tibia);
+    if (!(taut > 0)) {
+      never_free_.push_back(ligament.name);
       return;
     }
     if (taut < ligament.slack_length) shortened_.push_back(ligament.name);
     const double part = taut / ligament.slack_length;
     out_.strands.push_back({ligament.name, path.femur.back(), path.tibia.front(),
                             ligament.stiffness * part, ligament.transition_strain / part, taut,
-                            find_wraps(ligament)});
+                            find_wraps(ligament, path)});
   }
 
   [[nodiscard]] OsimStrands result() {
@@ -53,13 +56,14 @@ class StrandFinder {
          straightened_);
     note("with points along a bone, replaced by their free part", shortened_);
     note("to other bones, over both bones twice, or without force", left_out_);
+    note("with a slack length that is 0, or no longer than what lies along the bones", never_free_);
     out_.notes.emplace_back("damping of the ligaments");
     return std::move(out_);
   }
 
  private:
-  /// The wraps of a ligament on the two bones, those on the femur first.
-  std::vector<std::size_t> find_wraps(const OsimLigament& ligament) {
+  /// The wraps of a ligament in the order in which it passes them, those on the femur first.
+  std::vector<std::size_t> find_wraps(const OsimLigament& ligament, const Crossing& path) {
     std::vector<std::size_t> wraps;
     bool all = true;
     for (const std::string& name : ligament.wraps) {
@@ -69,9 +73,24 @@ class StrandFinder {
       all &= index.has_value();
     }
     if (!all) straightened_.push_back(ligament.name);
-    std::stable_partition(wraps.begin(), wraps.end(),
-                          [&](std::size_t i) { return out_.wraps[i].on_femur; });
+    const Vector3d from = path.femur.back(), way = X_FT_ * path.tibia.front() - from;
+    std::stable_sort(wraps.begin(), wraps.end(), [&](std::size_t i, std::size_t k) {
+      const OsimPlacedWrap &one = out_.wraps[i], &other = out_.wraps[k];
+      if (one.on_femur != other.on_femur) return one.on_femur;
+      return passed_at(one, from, way) < passed_at(other, from, way);
+    });
     return wraps;
+  }
+
+  /// Where a straight strand passes the middle of a wrap, or the axis of a cylinder [of its length].
+  [[nodiscard]] double passed_at(const OsimPlacedWrap& placed,
+                                 const Vector3d& from,
+                                 const Vector3d& way) const {
+    const RigidTransform X = placed.on_femur ? placed.X : X_FT_ * placed.X;
+    Vector3d along = way;
+    if (placed.wrap.type == "WrapCylinder") along -= along.dot(X.R.col(2)) * X.R.col(2);
+    const double square = along.dot(way);
+    return square > 1e-6 * way.squaredNorm() ? along.dot(X.p - from) / square : 0;
   }
 
   /// The wrap object of that name among those of the scene; nothing where it cannot be one.
@@ -141,7 +160,8 @@ class StrandFinder {
   const OsimModel& model_;
   const OsimFrames& frames_;
   const Poses &in_femur_, &in_tibia_;
-  std::vector<std::string> straightened_, shortened_, left_out_;
+  const RigidTransform X_FT_;
+  std::vector<std::string> straightened_, shortened_, left_out_, never_free_;
   OsimStrands out_;
 };
 
@@ -153,11 +173,8 @@ OsimPlace place_of(const OsimFrames& frames,
   return frames.find(point.frame, point.path, "Blankevoort1991Ligament \"" + ligament.name + "\"");
 }
 
-OsimStrands find_strands(const OsimModel& model,
-                         const OsimFrames& frames,
-                         const Poses& in_femur,
-                         const Poses& in_tibia) {
-  StrandFinder finder(model, frames, in_femur, in_tibia);
+OsimStrands find_strands(const OsimModel& model, const OsimFrames& frames, const OsimBones& bones) {
+  StrandFinder finder(model, frames, bones);
   for (const OsimLigament& ligament : model.ligaments) finder.add(ligament);
   return finder.result();
 }

@@ -35,13 +35,18 @@ struct OsimStrands {
   std::vector<std::string> notes;  ///< what was left out or changed, one line each
 };
 
-/// `in_femur` and `in_tibia` are the bodies welded to either bone, with their poses in it. What of
-/// a path lies along one bone keeps its length: it is taken off, and k, ε_t and l₀ are rescaled so
-/// that the force stays what it was at every pose.
+/// The two bones: bodies welded to either, with their poses in it, and the start pose.
+struct OsimBones {
+  const std::map<std::string, RigidTransform>&in_femur, &in_tibia;
+  RigidTransform X_FT;  ///< of the tibia in the femur [mm]
+};
+
+/// What of a path lies along one bone keeps its length: it is taken off, and k, ε_t and l₀ are
+/// rescaled so that the force stays what it was at every pose. Wraps of one bone are in the order in
+/// which the strand passes them at the start pose, as OpenSim goes by where they are and not by their list.
 [[nodiscard]] OsimStrands find_strands(const OsimModel& model,
                                        const OsimFrames& frames,
-                                       const std::map<std::string, RigidTransform>& in_femur,
-                                       const std::map<std::string, RigidTransform>& in_tibia);
+                                       const OsimBones& bones);
 
 /// The frame of a ligament's point. Throws InputError, naming the ligament, where it is not there.
 [[nodiscard]] OsimPlace place_of(const OsimFrames& frames,
