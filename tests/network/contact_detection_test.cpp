@@ -2,9 +2,11 @@
 
 #include "condyle/network/contact_detection.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 #include "condyle/equilibrium/build_model.h"
 #include "condyle/equilibrium/model_covers.h"
@@ -41,6 +43,55 @@ TEST(ContactDetection, NoBlowDrivesTheBodiesIntoEachOther) {
     }
   }
   EXPECT_GT(opened, 5);
+}
+
+/// A ball of 10 mm on four springs, dropped; the floor is `floor` below where its lowest point starts.
+Scene hanging_ball(double floor, const std::string& contact, const std::string& surface = "") {
+  const auto spring = [](const char* name, const char* fixed, const char* moving) {
+    return fmt::format(
+        "[[ligament]]\nname = \"{}\"\nends = [{{ body = \"ground\", at = {} }}, {{ body = "
+        "\"ball\", at = {} }}]\nlaw = \"quadratic\"\nstiffness = 1\nslack_length = 20\n",
+        name, fixed, moving);
+  };
+  const std::string text =
+      "title = \"hanging ball\"\n[units]\nlength = \"mm\"\nangle = \"deg\"\nforce = \"N\"\n"
+      "[[body]]\nname = \"ground\"\nfixed = true\n"
+      "[[body]]\nname = \"ball\"\nmass = 1\ncenter = [0, 0, 0]\n"
+      "inertia = [[100, 0, 0], [0, 100, 0], [0, 0, 100]]\nstart.translation = [0, 0, 10]\n"
+      "[[surface]]\nname = \"floor\"\nbody = \"ground\"\nkind = \"plane\"\n" +
+      fmt::format("point = [0, 0, {}]\nnormal = [0, 0, 1]\n", -floor) + surface +
+      "[[surface]]\nname = \"ball\"\nbody = \"ball\"\nkind = \"sphere\"\ncenter = [0, 0, 0]\n"
+      "radius = 10\n" +
+      surface + "[[contact]]\nname = \"c\"\nsurfaces = [\"floor\", \"ball\"]\n" + contact +
+      spring("s1", "[30, 0, -5]", "[0, 0, -2]") + spring("s2", "[-30, 5, -5]", "[0, 3, -2]") +
+      spring("s3", "[-5, -30, -5]", "[2, 0, -2]") + spring("s4", "[0, 30, -5]", "[2, 1, -3]") +
+      "[simulate]\ntime = 0.02\nrate = 500\ngravity = [0, 0, -9810]\n";
+  return parse_scene(text, "hanging.toml");
+}
+
+// Whatever a motion follows: an open contact is told where its gap is smallest, as in a sweep.
+TEST(ContactDetection, AnOpenContactIsToldWhereItsGapIsSmallest) {
+  const std::string elastic =
+      "modulus = 10\npoisson = 0.45\nlayer = 3\n";
+  const struct {
+    double floor;
+    Scene scene;
+  } cases[] = {{0, hanging_ball(0, "state = \"open\"\n")},
+               {150, hanging_ball(150, "state = \"auto\"\n")},
+               {150, hanging_ball(150, "law = \"layer\"\n", elastic)}};
+  for (const auto& [floor, scene] : cases) {
+    const Simulation simulation = simulate(scene, fit_surfaces(scene));
+    ASSERT_TRUE(simulation.motion.completed) << simulation.motion.reason;
+    ASSERT_EQ(simulation.poses.size(), 11U);
+    for (const PoseResult& pose : simulation.poses) {
+      ASSERT_EQ(pose.contacts[0].points.size(), 1U);
+      const double gap = pose.X_BA.p.z() - 10 + floor;
+      EXPECT_NEAR(pose.contacts[0].points[0].gap, gap, 1e-9) << pose.value << " s";
+      EXPECT_EQ(
+          pose.remark,
+          gap < -1e-3 ? fmt::format("contact \"c\", held open, overlaps by {:.2g} mm", -gap) : "");
+    }
+  }
 }
 
 // At rest on both compartments: each pair has one closed contact and the others wait.

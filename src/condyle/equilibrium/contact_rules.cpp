@@ -1,8 +1,11 @@
 #include "condyle/equilibrium/contact_rules.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "condyle/contact/contact_scales.h"
+#include "condyle/equilibrium/motion_name.h"
 
 namespace condyle {
 namespace {
@@ -71,6 +74,12 @@ OpenPair look_at_open_pair(const ContactPair& pair,
   if (nearest.empty()) return OpenPair::kApart;
   const double overlap = pair.law ? kUnseen : kAllowedOverlap;
   return nearest.front().gap < -overlap * length ? OpenPair::kBuried : OpenPair::kClear;
+}
+
+std::string overlap_of_held_open(const ContactPair& pair, double gap) {
+  constexpr double kOverlap = 1e-3;  // [mm]
+  if (pair.mode != ContactMode::kOpen || pair.law || !(gap < -kOverlap)) return "";
+  return fmt::format("contact {}, held open, overlaps by {:.2g} mm", quoted(pair.name), -gap);
 }
 
 void ContactChanges::apply(EquilibriumState& state) const {

@@ -4,6 +4,7 @@
 /// nothing overlaps. The one rule of all who ask: Newton between its solutions, the descent about
 /// what Newton found from it, the path of equilibria at each of its points.
 
+#include <string>
 #include <vector>
 
 #include "condyle/contact/contact_search.h"
@@ -50,6 +51,9 @@ enum class OpenPair {
                                          const RigidTransform& X_BA,
                                          double L,
                                          std::vector<GapMinimum>& nearest);
+
+/// What is said of a pair that nothing looks after, held open by its scene, where its surfaces overlap; empty of any other.
+[[nodiscard]] std::string overlap_of_held_open(const ContactPair& pair, double gap);
 
 class ContactRules {
  public:

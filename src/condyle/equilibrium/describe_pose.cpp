@@ -165,10 +165,7 @@ void describe_open(const ContactPair& pair,
                  "contact \"" + pair.name + "\": no known parts of its surfaces face each other"});
   }
   const GapMinimum& lowest = minima.front();
-  constexpr double kOverlap = 1e-3;  // [mm]
-  if (!watched && lowest.gap < -kOverlap)
-    add_remark(result, fmt::format("contact {}, held open, overlaps by {:.2g} mm",
-                                   quoted(pair.name), -lowest.gap));
+  add_remark(result, overlap_of_held_open(pair, lowest.gap));
   if (watched && lies == OpenPair::kBuried) {
     set_status(result, {PoseStatus::kOverlap,
                         "contact \"" + pair.name + "\": one body is buried in the other"});

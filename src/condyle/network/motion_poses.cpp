@@ -4,9 +4,11 @@
 #include <utility>
 
 #include "condyle/contact/contact.h"
+#include "condyle/equilibrium/contact_rules.h"
 #include "condyle/equilibrium/contact_shape.h"
 #include "condyle/equilibrium/model_covers.h"
 #include "condyle/equilibrium/pose_result.h"
+#include "condyle/equilibrium/second_equilibrium.h"
 #include "condyle/network/contact_detection.h"
 
 namespace condyle {
@@ -41,6 +43,8 @@ class FrameTeller {
       pose.ligaments[i].force = frame.lines[i].force;
     add_contacts(frame, pose);
     add_layers(pose);
+    for (std::size_t p = 0; p < pose.contacts.size(); ++p)
+      if (!pose.contacts[p].closed && pose.contacts[p].points.empty()) add_open(p, pose);
     for (std::size_t i = 0; i < model_.conditions.size(); ++i) {
       const std::vector<int>& hold = scene_.simulation->hold;
       const auto held = std::find(hold.begin(), hold.end(), static_cast<int>(i));
@@ -73,7 +77,6 @@ class FrameTeller {
 
   /// With the lattice and so the forces of the motion.
   void add_layers(PoseResult& pose) {
-    constexpr double kAnywhere = 5.0 / 3;  // of L: how far an open pair is looked for
     for (std::size_t i = 0; i < knee_.potentials.size(); ++i) {
       ContactPotential& potential = *knee_.network.potentials[i].potential;
       const auto p = static_cast<std::size_t>(knee_.potentials[i]);
@@ -87,14 +90,21 @@ class FrameTeller {
         pose.status = objection->status;
         pose.reason = objection->reason;
       }
-      if (contact.closed) continue;
-      searches_[p].find_nearest(pose.X_BA, kAnywhere * model_.length, minima_);
-      if (minima_.empty()) continue;
-      const GapMinimum& nearest = minima_.front();
-      set_nearest_point(point_of(model_.pairs[p], nearest.places, 0, pose.X_BA), contact);
     }
   }
 
+  /// A pair of which the motion follows no point: where its gap is smallest, as a sweep tells it.
+  void add_open(std::size_t p, PoseResult& pose) {
+    const ContactPair& pair = model_.pairs[p];
+    if (look_at_open_pair(pair, searches_[p], pose.X_BA, model_.length, minima_) ==
+        OpenPair::kApart)
+      return;
+    const GapMinimum& nearest = minima_.front();
+    set_nearest_point(point_of(pair, nearest.places, 0, pose.X_BA), pose.contacts[p]);
+    add_remark(pose, overlap_of_held_open(pair, nearest.gap));
+  }
+
+  /// The nearest of the open points that the motion follows.
   void add_nearest(const MotionFrame& frame, int pair, PoseResult& pose) const {
     int nearest = -1;
     for (std::size_t i = 0; i < knee_.places.size(); ++i)
