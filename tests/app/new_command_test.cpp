@@ -51,6 +51,18 @@ TEST_F(NewCommand, RefusesInOneLineAndWritesNothing) {
   }
 }
 
+TEST_F(NewCommand, NamesEachFileThatASceneCannotName) {
+  for (const char* arguments : {"'fe\tmur.stl' meshes/tibia.stl", "meshes/femur.stl 'ti\tbia.stl'",
+                                "meshes/femur.stl meshes/tibia.stl --cartilage 'a\tb.stl' c.stl",
+                                "meshes/femur.stl meshes/tibia.stl --cartilage c.stl 'a\tb.stl'"}) {
+    const Outcome outcome = run(std::string("new ") + arguments + " -o new.toml");
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_NE(outcome.err.find("a name with control characters, which a scene cannot hold"),
+              std::string::npos)
+        << outcome.err;
+  }
+}
+
 // Rounding at a vertex that is 1e30 away is larger than the bone.
 TEST_F(NewCommand, NamesTheFileOfAVertexThatIsFarOff) {
   write("tibia.off", "OFF\n5 2 0\n0 0 0\n80 0 0\n0 80 0\n0 0 300\n1e30 0 0\n3 0 1 2\n3 1 2 4\n");

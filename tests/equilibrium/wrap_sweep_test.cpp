@@ -1,6 +1,7 @@
 /// Ligaments that wrap, on the solver's road: closed forms, events, the way there and back, resuming, and
 /// the derivatives that the solver relies on.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -57,6 +58,39 @@ TEST(WrappedSweep, HasTheClosedFormsOfAStringOverAPost) {
     EXPECT_NEAR(std::abs(pose.conditions[1].multiplier),
                 std::abs(pose.ligaments[0].force * exact.e_y), 1e-9);
   }
+}
+
+// A string round a ball of 10 mm, its moving end held in all six freedoms: where that comes opposite to the other end, all great
+// circles are as short, and no motion is left that could be the softest.
+TEST(WrappedSweep, NamesThePathWhereNoMotionIsLeftToBlame) {
+  std::string text = test::kWrappedHead + R"(
+[[wrap]]
+name = "ball"
+body = "femur"
+kind = "sphere"
+center = [0, 0, 0]
+radius = 10
+[[ligament]]
+name = "string"
+ends = [{ body = "femur", at = [-20, 0, 5] }, { body = "tibia", at = [20, 0, 5] }]
+wraps = ["ball"]
+law = "quadratic"
+stiffness = 1
+slack_length = 10
+)";
+  for (const char* kind : {"translation", "rotation"})
+    for (const char* axis : {"x", "y", "z"})
+      text += fmt::format(
+          "[[condition]]\nname = \"{0} {1}\"\nkind = \"{0}\"\naxis = \"{1}\"\nvalue = 0\n", kind,
+          axis);
+  text += "[sweep]\nvary = \"translation z\"\nfrom = -40\nto = 5\nstep = 1\n";
+  const SweepResult result = swept(parse_scene(text, "knee.toml"));
+  const PoseResult& opposite = result.poses[30];
+  ASSERT_EQ(opposite.value, -10);
+  EXPECT_FALSE(opposite.converged());
+  EXPECT_NE(opposite.reason.find("ligament \"string\": its path over \"ball\""), std::string::npos)
+      << opposite.reason;
+  EXPECT_EQ(result.count_converged(), 45);
 }
 
 // Over a ball of 20 mm whose centre lies 0.8 mm beside the line, B = 3.2 mm of 90 (S12 of the checks);

@@ -142,6 +142,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "64: [simulate]: hold = \"bend\", expected each condition once"},
         Mistake{"step = 5", "step = 5\n[simulate]\ntime = 1\ntolerance = 1e-30",
                 "64: [simulate]: tolerance = 1e-30, expected a tolerance from 1e-13 to 1e-3"},
+        Mistake{"step = 5", "step = 5\n[simulate]\ntime = 1e-9\nrate = 1e13",
+                "64: [simulate]: rate = 10000000000000, expected at most 1e9 frames per second"},
         Mistake{"step = 5", "setp = 5",
                 "61: [sweep]: unknown key setp = 5, did you mean \"step\"?"}));
 

@@ -54,7 +54,9 @@ NewKneeFiles files_of(const NewCommand& command) {
 }
 
 void check_outputs(const NewCommand& command, const NewKneeFiles& files) {
-  for (const std::string& name : {command.femur, command.tibia})
+  std::vector<std::string> named = command.cartilage;
+  named.insert(named.end(), {command.femur, command.tibia});
+  for (const std::string& name : named)
     if (has_control_characters(name))
       throw InputError(quotable(name) +
                        ": a name with control characters, which a scene cannot hold");

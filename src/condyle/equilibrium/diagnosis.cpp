@@ -331,8 +331,15 @@ std::string why_singular(Newton& newton) {
   if (!dependent.empty()) return dependent;
   const Stability now = stability(at);
   if (now.neutral) return "nothing resists " + name_motions(at.model, state.X, now.free);
-  return "the matrix is singular on the way; softest is " +
-         name_motions(at.model, state.X, now.motion);
+  if (!now.motion.isZero())
+    return "the matrix is singular on the way; softest is " +
+           name_motions(at.model, state.X, now.motion);
+  const std::vector<LineElement>& elements = newton.system().parameters().elements;
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    if (const std::string words = path_objection(elements[i], state.X); !words.empty())
+      return "the matrix is singular on the way; ligament " + quoted(at.model.element_names[i]) +
+             ": " + words;
+  return "the matrix is singular on the way, where no motion is left";
 }
 
 void explain_failure(const Model& model,

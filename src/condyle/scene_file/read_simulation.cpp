@@ -85,6 +85,8 @@ void read_simulation(const Section& root, Scene& scene) {
   constexpr double kMostFrames = 1e6;
   if (simulation.time * simulation.rate > kMostFrames)
     section.fail("rate", "at most a million frames");
+  constexpr double kMostPerSecond = 1e9;  // a driver's jump is passed in steps of 1e-12 s
+  if (simulation.rate > kMostPerSecond) section.fail("rate", "at most 1e9 frames per second");
   if (section.has("gravity"))
     simulation.gravity = scene.length_to_mm * section.vector("gravity", "an acceleration");
   read_start(section, scene, simulation);
