@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "condyle/math/rotation.h"
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
@@ -52,8 +54,8 @@ TEST(RoughMesh, FieldHasTheStrengthAndTheCorrelationThatAreAskedFor) {
                            std::sin(turn) * p.x() + std::cos(turn) * p.y(), p.z());
       }
       const MeshRoughness roughness{kRms, kLength, seed};
-      const auto a = roughness_field(here, Vector3d::Zero(), roughness),
-                 b = roughness_field(there, Vector3d::Zero(), roughness);
+      const auto a = roughness_field(here, {}, roughness),
+                 b = roughness_field(there, {}, roughness);
       for (std::size_t i = 0; i < a.size(); ++i)
         products[lag] += a[i] * b[i] / (20 * static_cast<double>(a.size()));
     }
@@ -82,7 +84,7 @@ TEST(RoughMesh, VerticesMoveAlongTheNormalsOfTheMesh) {
 TEST(RoughMesh, OneSeedIsOneFieldAndAnotherMeshHasAnother) {
   const std::vector<Vector3d> points = ball().vertices;
   const auto field = [&](std::uint64_t seed, std::uint64_t mesh) {
-    return roughness_field(points, Vector3d::Zero(), {0.2, 1.5, seed}, mesh);
+    return roughness_field(points, {}, {0.2, 1.5, seed}, mesh);
   };
   const std::vector<double> first = field(1, 0);
   EXPECT_EQ(first, field(1, 0));
@@ -152,15 +154,29 @@ TEST_F(RoughPhantom, IsFittedToItsRoughnessAndTheSameForTheSameSeed) {
   }
 }
 
-TEST_F(RoughPhantom, MovesWithItsFrame) {
-  const test::MovedScene moved(scene,
-                               {test::to({120.3, -44.7, 803.1}), test::to({7.1, 9.9, -250.4})});
+TEST_F(RoughPhantom, MovesAndTurnsWithItsFrame) {
+  const test::MovedScene moved(
+      scene, {RigidTransform{exp_rotation({0.3, -1.1, 0.4}), {120.3, -44.7, 803.1}},
+              RigidTransform{exp_rotation({-0.9, 0.2, 2.1}), {7.1, 9.9, -250.4}}});
   const std::vector<FittedSurface> there = fit_surfaces(moved.scene(), {}, moved.mesh_reader());
   const MeshRoughness roughness{0.2, 1.5, 5};
   const auto expected = moved.surfaces(roughened_surfaces(scene, surfaces, roughness)),
              actual = roughened_surfaces(moved.scene(), there, roughness);
   for (std::size_t i = 0; i < actual.size(); ++i)
     EXPECT_LT(greatest_distance(expected[i], actual[i]), 1e-5);
+}
+
+TEST_F(RoughPhantom, IsTheSameInWhateverOrderItsSurfacesStand) {
+  Scene other = scene;
+  std::reverse(other.surfaces.begin(), other.surfaces.end());
+  std::vector<FittedSurface> reversed(surfaces.rbegin(), surfaces.rend());
+  const MeshRoughness roughness{0.2, 1.5, 5};
+  const auto once = roughened_surfaces(scene, surfaces, roughness),
+             again = roughened_surfaces(other, reversed, roughness);
+  for (std::size_t i = 0; i < once.size(); ++i)
+    EXPECT_EQ(dynamic_cast<const Patch&>(*once[i].surface).data().control_points,
+              dynamic_cast<const Patch&>(*again[once.size() - 1 - i].surface).data().control_points)
+        << scene.surfaces[i].name;
 }
 
 }  // namespace

@@ -40,15 +40,14 @@ std::size_t mesh_of(const std::vector<FittedMesh>& meshes,
       meshes.begin());
 }
 
-/// A vertex over two patches belongs to the first.
+/// A vertex over two patches belongs to the first by name.
 SmoothKnee smooth_knee(const Scene& scene, const std::vector<FittedSurface>& surfaces) {
   SmoothKnee knee;
   knee.meshes = fitted_meshes(scene, surfaces);
   std::vector<std::vector<bool>> taken;
   for (const FittedMesh& mesh : knee.meshes) taken.emplace_back(mesh.mesh.vertices.size(), false);
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+  for (const std::size_t i : patches_by_name(scene)) {
     const SurfaceDescription& surface = scene.surfaces[i];
-    if (surface.kind != SurfaceKind::kPatch) continue;
     SmoothPatch patch;
     patch.mesh = mesh_of(knee.meshes, scene, surface);
     patch.surface = i;
@@ -85,11 +84,12 @@ void measure_noise(const Scene& scene,
 
 std::vector<FittedMesh> noisy_meshes(const SmoothKnee& knee, std::uint64_t seed, int draw) {
   std::vector<FittedMesh> meshes = knee.meshes;
-  for (const SmoothPatch& patch : knee.patches) {
-    const std::uint64_t number = (static_cast<std::uint64_t>(draw) << 16U) + patch.surface;
+  for (std::size_t p = 0; p < knee.patches.size(); ++p) {
+    const SmoothPatch& patch = knee.patches[p];
+    const std::uint64_t number = (static_cast<std::uint64_t>(draw) << 16U) + p;
     FittedMesh& mesh = meshes[patch.mesh];
     const std::vector<double> height = roughness_field(
-        patch.closest, mesh.middle, {patch.texture.rms, patch.texture.correlation, seed}, number);
+        patch.closest, mesh.frame, {patch.texture.rms, patch.texture.correlation, seed}, number);
     for (std::size_t i = 0; i < height.size(); ++i)
       mesh.mesh.vertices[patch.vertices[i].vertex] =
           patch.closest[i] + height[i] * patch.vertices[i].normal;

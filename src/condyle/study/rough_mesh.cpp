@@ -91,9 +91,20 @@ std::vector<int> vertices_near(const TriangleMesh& mesh,
   return near;
 }
 
+/// The anatomical axes of a bone: anterior, proximal, lateral.
+Eigen::Matrix3d axes_of(const Scene& scene, int body) {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  if (!scene.joint) return axes;
+  for (const AnatomicalFrame* frame : {&scene.joint->femur, &scene.joint->tibia})
+    if (frame->body == body)
+      axes << frame->anterior.transpose(), frame->proximal.transpose(), frame->lateral.transpose();
+  return axes;
+}
+
 FittedMesh fitted_mesh(const Scene& scene,
                        const std::vector<FittedSurface>& surfaces,
-                       const MeshFile& file) {
+                       const MeshFile& file,
+                       int body) {
   FittedMesh fitted;
   fitted.file = file;
   std::vector<const TriangleMesh*> regions;
@@ -104,7 +115,7 @@ FittedMesh fitted_mesh(const Scene& scene,
     if (fitted.mesh.vertices.empty() && surfaces[i].bone) fitted.mesh = *surfaces[i].bone;
   }
   if (fitted.mesh.vertices.empty()) fitted.mesh = clean_mesh(load_mesh(file)).mesh;
-  fitted.middle = mean_of(fitted.mesh.vertices);
+  fitted.frame = {mean_of(fitted.mesh.vertices), axes_of(scene, body)};
   fitted.moved = vertices_near(fitted.mesh, regions);
   const std::vector<Eigen::Vector3d> normals = vertex_normals(fitted.mesh);
   for (const int i : fitted.moved) {
@@ -118,7 +129,7 @@ TriangleMesh roughened(const FittedMesh& fitted,
                        const MeshRoughness& roughness,
                        std::uint64_t number) {
   const std::vector<double> height =
-      roughness_field(fitted.places, fitted.middle, roughness, number);
+      roughness_field(fitted.places, fitted.frame, roughness, number);
   TriangleMesh mesh = fitted.mesh;
   for (std::size_t i = 0; i < height.size(); ++i)
     mesh.vertices[fitted.moved[i]] += height[i] * fitted.normals[i];
@@ -128,7 +139,7 @@ TriangleMesh roughened(const FittedMesh& fitted,
 }  // namespace
 
 std::vector<double> roughness_field(const std::vector<Eigen::Vector3d>& points,
-                                    const Eigen::Vector3d& middle,
+                                    const FieldFrame& frame,
                                     const MeshRoughness& roughness,
                                     std::uint64_t mesh) {
   std::vector<double> field(points.size(), 0.0);
@@ -138,8 +149,10 @@ std::vector<double> roughness_field(const std::vector<Eigen::Vector3d>& points,
   std::array<std::array<double, kBlock>, 3> x{};
   for (std::size_t first = 0; first < points.size(); first += kBlock) {
     const std::size_t count = std::min(kBlock, points.size() - first);
-    for (std::size_t i = 0; i < count; ++i)
-      for (int a = 0; a < 3; ++a) x[a][i] = points[first + i][a] - middle[a];
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3d at = frame.axes * (points[first + i] - frame.middle);
+      for (int a = 0; a < 3; ++a) x[a][i] = at[a];
+    }
     std::array<double, kBlock> sum{};
     add_waves(waves, x, sum);
     for (std::size_t i = 0; i < count; ++i) field[first + i] = scale * sum[i];
@@ -160,20 +173,30 @@ void roughen(TriangleMesh& mesh,
   for (const int i : moved) places.push_back(mesh.vertices[i]);
   const std::vector<Eigen::Vector3d> normals = vertex_normals(mesh);
   const std::vector<double> height =
-      roughness_field(places, mean_of(mesh.vertices), roughness, number);
+      roughness_field(places, {mean_of(mesh.vertices)}, roughness, number);
   for (std::size_t i = 0; i < moved.size(); ++i)
     mesh.vertices[moved[i]] += height[i] * normals[moved[i]];
+}
+
+std::vector<std::size_t> patches_by_name(const Scene& scene) {
+  std::vector<std::size_t> patches;
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
+    if (scene.surfaces[i].kind == SurfaceKind::kPatch) patches.push_back(i);
+  std::sort(patches.begin(), patches.end(), [&](std::size_t a, std::size_t b) {
+    return scene.surfaces[a].name < scene.surfaces[b].name;
+  });
+  return patches;
 }
 
 std::vector<FittedMesh> fitted_meshes(const Scene& scene,
                                       const std::vector<FittedSurface>& surfaces) {
   std::vector<FittedMesh> meshes;
-  for (const SurfaceDescription& surface : scene.surfaces) {
-    if (surface.kind != SurfaceKind::kPatch) continue;
+  for (const std::size_t i : patches_by_name(scene)) {
+    const SurfaceDescription& surface = scene.surfaces[i];
     const MeshFile& file = *scene.mesh_of(surface);
     if (std::none_of(meshes.begin(), meshes.end(),
                      [&](const FittedMesh& mesh) { return mesh.file.is(file); }))
-      meshes.push_back(fitted_mesh(scene, surfaces, file));
+      meshes.push_back(fitted_mesh(scene, surfaces, file, surface.body));
   }
   return meshes;
 }

@@ -5,8 +5,9 @@
 ///
 /// The field is a sum of plane waves, √(2/n) Σ cos(k·x + φ), wave vectors normally distributed with
 /// deviation 1/l, so that the correlation over distance d is exp(-d²/2l²). x is taken from the mean of
-/// the vertices along the axes of the mesh's file: where the file has its origin does not matter. A wave
-/// is a function of the seed, the number of the mesh and its own number.
+/// the vertices along the anatomical axes of the bone, or those of the mesh's file where it has none: the
+/// field moves, turns and is mirrored with the knee. A wave is a function of the seed, the number of the
+/// mesh and its own number; meshes count by the names of their surfaces, in whatever order they stand.
 
 #include <cstdint>
 #include <vector>
@@ -23,9 +24,15 @@ struct MeshRoughness {
   std::uint64_t seed = 1;
 };
 
+/// Where x is zero, and along what it is told: rows, unit, at right angles.
+struct FieldFrame {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+};
+
 /// The field at points, by their order [mm]. `mesh`: which of the meshes of a knee.
 [[nodiscard]] std::vector<double> roughness_field(const std::vector<Eigen::Vector3d>& points,
-                                                  const Eigen::Vector3d& middle,
+                                                  const FieldFrame& frame,
                                                   const MeshRoughness& roughness,
                                                   std::uint64_t mesh = 0);
 
@@ -39,12 +46,15 @@ void roughen(TriangleMesh& mesh,
 struct FittedMesh {
   MeshFile file;
   TriangleMesh mesh;
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< mean of all vertices
-  std::vector<int> moved;                            ///< vertices near the fitted regions
-  std::vector<Eigen::Vector3d> places, normals;      ///< of these, before they are moved
+  FieldFrame frame;                              ///< from the mean of all vertices
+  std::vector<int> moved;                        ///< vertices near the fitted regions
+  std::vector<Eigen::Vector3d> places, normals;  ///< of these, before they are moved
 };
 
-/// Each mesh once, by the order of the surfaces; read again only where the surfaces do not hold it.
+/// Indices of the patches of a scene, by their names.
+[[nodiscard]] std::vector<std::size_t> patches_by_name(const Scene& scene);
+
+/// Each mesh once, by the names of its surfaces; read again only where the surfaces do not hold it.
 /// Empty where no surface is a patch.
 [[nodiscard]] std::vector<FittedMesh> fitted_meshes(const Scene& scene,
                                                     const std::vector<FittedSurface>& surfaces);
