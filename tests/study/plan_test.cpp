@@ -264,6 +264,31 @@ TEST_F(StudyTable, MayHoldTheNumbersThemselves) {
   EXPECT_DOUBLE_EQ(theta[0], 0.02 - plan.knees[0].parameters[0].start);
 }
 
+// A strain that the scene tells at a length of its own, and not at the start pose.
+TEST_F(StudyTable, AStrainIsToldAtTheLengthOfTheScene) {
+  const std::filesystem::path file = folder_ / "values.csv";
+  ReadStudy study = small_study("wismans-type/knee.toml", 0);
+  study.study.design = DesignKind::kTable;
+  study.study.table = file;
+  study.study.table_holds_values = true;
+  study.varied[0] = {study.varied[0][0]};
+  study.varied[0][0].number.of = {0};
+  LigamentDescription& ligament = study.scenes[0].ligaments[0];
+  auto& law = std::get<ToeLinearLaw>(ligament.law);
+  const double start_length = law.slack_length * (1 + *ligament.reference_strain),
+               own = 0.9 * start_length;
+  ligament.reference_strain.reset();
+  ligament.reference_length = own;
+  law.slack_length = own / (1 + 0.0335);
+  std::ofstream(file) << ligament.name << ".reference_strain\n0.0335\n0.05\n";
+  const StudyPlan plan = study_plan(study);
+  std::vector<double> theta;
+  plan.theta(0, theta);
+  EXPECT_NEAR(theta[0], 0, 1e-14);
+  plan.theta(1, theta);
+  EXPECT_NEAR(theta[0], start_length * (0.05 - 0.0335) / own, 1e-14);
+}
+
 // In a scene in cm the table is in cm too; several numbers with one change in common have no value.
 TEST_F(StudyTable, ItsNumbersAreInTheUnitsOfTheScene) {
   const std::filesystem::path file = folder_ / "values.csv";

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "app/run_program.h"
 #include "condyle/results/study_file.h"
@@ -55,6 +56,30 @@ TEST_F(StudyCommandLine, SaysWhatItFoundAndWritesAllThatIsAskedFor) {
   const std::string table = contents(folder_ / "t.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'),
             1 + 300 * static_cast<long>(view.values.size()));
+}
+
+// The load that the sweep varies is drawn, too, and flexion is an output: each column has its own name.
+TEST_F(StudyCommandLine, ItsTableHasNoTwoColumnsOfOneName) {
+  const auto expect_own_names = [&](const std::string& swept) {
+    const Outcome outcome = study("-o s.h5 --samples 2 --quiet --table t.csv");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const std::string table = contents(folder_ / "t.csv");
+    std::istringstream head(table.substr(0, table.find('\n')));
+    std::vector<std::string> names;
+    for (std::string name; std::getline(head, name, ',');) names.push_back(name);
+    EXPECT_EQ(std::count(names.begin(), names.end(), swept), 1) << table.substr(0, 300);
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end()) << table.substr(0, 300);
+  };
+  write("study.toml",
+        "specimens = [\"knee.toml\"]\nsamples = 2\noutputs = [\"joint.flexion\"]\n"
+        "[[vary]]\nwhat = \"reference_strain\"\nof = \"*\"\nsd = 0.02\n");
+  expect_own_names("swept flexion deg");
+  write("knee.toml", contents(fs::path(CONDYLE_SOURCE_DIR) / "data/wismans-type/drawer.toml"));
+  write("study.toml",
+        "specimens = [\"knee.toml\"]\nsamples = 2\n[[vary]]\nwhat = \"load\"\nof = \"*\"\nsd = "
+        "0.1\n");
+  expect_own_names("swept drawer.scale");
 }
 
 TEST_F(StudyCommandLine, SaysItAllAsJson) {

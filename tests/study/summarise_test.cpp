@@ -63,6 +63,21 @@ std::vector<std::vector<double>> drawn(std::size_t parameters, std::size_t sampl
   return theta;
 }
 
+// A prescribed flexion is an output like any other: 45 degrees, but for rounding.
+TEST(StudyEffects, OfWhatDoesNotVaryThereIsNoRankCorrelation) {
+  const std::vector<std::vector<double>> theta = drawn(2, 50);
+  std::vector<double> still, zero, moving;
+  for (std::size_t k = 0; k < 50; ++k) {
+    still.push_back(45 + 1e-13 * theta[0][k]);
+    zero.push_back(0);
+    moving.push_back(45 + 1e-6 * theta[0][k]);
+  }
+  const RankedParameters parameters = ranked_parameters(theta, false);
+  EXPECT_TRUE(std::isnan(study_effects({still, 1}, parameters).rank[0][0]));
+  EXPECT_TRUE(std::isnan(study_effects({zero, 1}, parameters).rank[1][0]));
+  EXPECT_NEAR(study_effects({moving, 1}, parameters).rank[0][0], 1, 1e-12);
+}
+
 TEST(RankCorrelation, OfWhatRisesOrFallsIsOneExactly) {
   const std::vector<std::vector<double>> theta = drawn(2, 101);
   std::vector<double> y;

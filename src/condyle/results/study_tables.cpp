@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "condyle/calibration/csv_text.h"
@@ -33,15 +34,22 @@ std::string cells(const std::vector<std::vector<IndexEstimate>>& estimates,
   return fmt::format("{},{},{}", cell(e.value), cell(e.lower), cell(e.upper));
 }
 
+/// What is swept may vary, too, or be told as an output: then its column has another name than theirs.
 std::string head_of_samples(const StudyPlan& plan, const SweptQuantity& swept) {
-  std::string head = "sample,knee";
-  for (const StudyParameter& parameter : plan.parameters)
-    head.append(",").append(csv_text(parameter.name));
-  head += fmt::format(",{},status", column_of(swept));
+  std::vector<std::string> parameters, outputs;
+  for (const StudyParameter& parameter : plan.parameters) parameters.push_back(parameter.name);
   for (const StudyOutput& output : plan.outputs)
-    head += fmt::format(
-        ",{}",
-        csv_text(output.unit.name == "1" ? output.name : output.name + " " + output.unit.name));
+    outputs.push_back(output.unit.name == "1" ? output.name : output.name + " " + output.unit.name);
+  std::string of_sweep = column_of(swept);
+  for (const std::vector<std::string>* taken : {&parameters, &outputs})
+    if (std::find(taken->begin(), taken->end(), of_sweep) != taken->end()) {
+      of_sweep.insert(0, "swept ");
+      break;
+    }
+  std::string head = "sample,knee";
+  for (const std::string& name : parameters) head.append(",").append(csv_text(name));
+  head += fmt::format(",{},status", csv_text(of_sweep));
+  for (const std::string& name : outputs) head.append(",").append(csv_text(name));
   return head + "\n";
 }
 

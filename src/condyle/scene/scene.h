@@ -169,6 +169,7 @@ struct LigamentDescription {
   /// toe-linear or quadratic with `reference_strain` and no `reference_length`: the slack length
   /// follows from the length at the start pose; reading the scene fills it in.
   std::optional<double> reference_strain;
+  std::optional<double> reference_length;  ///< that `reference_strain` is told at, where given [mm]
 };
 
 struct ConditionDescription {

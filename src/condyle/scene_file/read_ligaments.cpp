@@ -29,8 +29,9 @@ double read_slack_length(const Section& section,
   const double strain = section.number("reference_strain", "a strain");
   if (strain <= -1) section.fail("reference_strain", "a strain > -1");
   if (section.has("reference_length")) {
-    return scene.length_to_mm * section.number("reference_length", "a length", Range::kPositive) /
-           (1 + strain);
+    ligament.reference_length =
+        scene.length_to_mm * section.number("reference_length", "a length", Range::kPositive);
+    return *ligament.reference_length / (1 + strain);
   }
   ligament.reference_strain = strain;
   return start_length / (1 + strain);

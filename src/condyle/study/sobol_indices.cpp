@@ -10,8 +10,6 @@ namespace condyle {
 namespace {
 
 constexpr double kNormal95 = 1.959963984540054;
-constexpr double kLeastDeviation =
-    1e-9;  ///< of the largest value: what a solver's tolerance leaves
 
 /// Of the base points that are complete: a row each, columns A, B, AB_1 ... AB_d.
 Eigen::ArrayXXd complete_rows(const double* y,

@@ -10,6 +10,9 @@
 
 namespace condyle {
 
+/// Deviation over the largest value, of samples that do not vary: what a solver's tolerance leaves.
+inline constexpr double kLeastDeviation = 1e-9;
+
 inline constexpr std::array<double, 5> kBandLevels = {0.05, 0.25, 0.5, 0.75, 0.95};
 
 /// One quantity over the sweep, over all samples whose pose converged.

@@ -41,11 +41,21 @@ double unit_of(const Scene& scene, const ModelParameter& number) {
   }
 }
 
+/// The strain at the start pose of one that a scene tells at another length: of as much slack length.
+double strain_at_start(double strain, const FreeParameter& parameter, const Scene& scene) {
+  const ModelParameter& moved = parameter.moves.front().first;
+  if (moved.kind != ParameterKind::kReferenceStrain) return strain;
+  const LigamentDescription& ligament = scene.ligaments[moved.index];
+  if (!ligament.reference_length) return strain;
+  const double start_length = slack_length(ligament.law) * (1 + parameter.start);
+  return start_length * (1 + strain) / *ligament.reference_length - 1;
+}
+
 /// θ of a number that a table holds itself, in the scene's units; NaN where there is none.
 double theta_of(double number, const FreeParameter& parameter, const Scene& scene) {
   const ModelParameter& moved = parameter.moves.front().first;
   const double inside = unit_of(scene, moved) * number;
-  if (!parameter.logarithmic) return inside - parameter.start;
+  if (!parameter.logarithmic) return strain_at_start(inside, parameter, scene) - parameter.start;
   const bool load = moved.kind == ParameterKind::kLoadScale;
   const double nominal = load ? scene.loads[moved.index].scale : parameter.start;
   return inside / nominal > 0 ? std::log(inside / nominal) : std::nan("");

@@ -62,6 +62,16 @@ void thin_out(std::vector<std::uint32_t>& samples) {
   samples = std::move(drawn);
 }
 
+/// Else ranks are those of rounding.
+bool varies(const std::vector<double>& y) {
+  double largest = 0, sum = 0;
+  for (const double value : y) {
+    largest = std::max(largest, std::abs(value));
+    sum += value;
+  }
+  return deviation(y, sum / static_cast<double>(y.size())) > kLeastDeviation * largest;
+}
+
 std::vector<double> correlations_at(const OutputSamples& samples,
                                     const RankedParameters& parameters,
                                     std::size_t pose) {
@@ -73,6 +83,7 @@ std::vector<double> correlations_at(const OutputSamples& samples,
     known.push_back(i);
     y.push_back(value);
   }
+  if (!varies(y)) return std::vector<double>(parameters.places.size(), kNoNumber);
   return rank_correlations(parameters.places, known, y);
 }
 
