@@ -54,6 +54,20 @@ TEST(CsvOfARun, GivesBackEveryNumberBitForBit) {
   }
 }
 
+// A law without a slack length knows no strain: the 0 of a result is none.
+TEST(CsvOfARun, TellsNoStrainWhereALawHasNone) {
+  condyle::Run run = phantom_run();
+  const std::string name = run.scene.ligaments[0].name;
+  const auto rows = [&] {
+    const std::string text = csv_of_poses(run, shown_poses(run, "run.h5"));
+    return std::pair{text.find(",ligament," + name + ",strain,") != std::string::npos,
+                     text.find(",ligament," + name + ",force,") != std::string::npos};
+  };
+  EXPECT_EQ(rows(), (std::pair{true, true}));
+  run.scene.ligaments[0].law = make_table_law({10, 20}, {0, 5});
+  EXPECT_EQ(rows(), (std::pair{false, true}));
+}
+
 TEST(CsvOfARun, QuotesNamesThatNeedIt) {
   condyle::Run run = made_up_run();
   run.scene.ligaments[0].name = "a, \"b\"";

@@ -242,6 +242,63 @@ TEST(PlotRun, AnAxisBeginsAtZeroWhereNothingIsNegative) {
             std::string::npos);
 }
 
+// A line of one point shows nothing: where points are not marked anyway, those without a neighbour are.
+TEST(PlotRun, APoseThatStandsAloneIsSeen) {
+  const double none = std::nan("");
+  Chart few{"title", "what", "x", {{"y", {}}}};
+  few.panels[0].curves = {{"first", {0, 1, 2}, {5, none, 7}}};
+  EXPECT_EQ(gnuplot_script(few, PlotFormat::kPng).find("alone"), std::string::npos);
+  Chart runs = few;
+  runs.runs = {"a", "b"};
+  runs.panels[0].curves[0].color = 0;
+  EXPECT_NE(gnuplot_script(runs, PlotFormat::kPng)
+                .find("$panel0curve0alone << END_OF_DATA\n0 5\n2 7\nEND_OF_DATA"),
+            std::string::npos);
+  Chart many = few;
+  Curve& curve = many.panels[0].curves[0];
+  for (int i = 3; i < 100; ++i) {
+    curve.x.push_back(i);
+    curve.y.push_back(i == 50 || i == 60 || i == 61 ? i : none);
+  }
+  const std::string script = gnuplot_script(many, PlotFormat::kPng);
+  EXPECT_NE(script.find("$panel0curve0alone << END_OF_DATA\n0 5\n2 7\n50 50\nEND_OF_DATA"),
+            std::string::npos);
+  EXPECT_NE(script.find("$panel0curve0alone using 1:2 with points"), std::string::npos);
+}
+
+TEST(PlotRun, SixRunsHaveSixStyles) {
+  Chart chart{"title", "what", "x", {{"y", {}}}};
+  for (int run = 0; run < 6; ++run) {
+    chart.runs.push_back(std::string(1, static_cast<char>('a' + run)));
+    chart.panels[0].curves.push_back({"force", {0, 1}, {0, 1}, 0, false, run});
+  }
+  const std::string script = gnuplot_script(chart, PlotFormat::kPng);
+  std::vector<std::string> styles;
+  const std::string begin = "' dashtype ";
+  for (std::size_t at = script.find("using 1:2 with lines"); at != std::string::npos;
+       at = script.find("using 1:2 with lines", at + 1)) {
+    const std::size_t style = script.find(begin, at) + begin.size();
+    styles.push_back(script.substr(style, script.find(' ', style) - style));
+  }
+  ASSERT_EQ(styles.size(), 6U);
+  std::sort(styles.begin(), styles.end());
+  EXPECT_EQ(std::adjacent_find(styles.begin(), styles.end()), styles.end());
+}
+
+// Held closed it may pull, and lies somewhere all the same.
+TEST(PlotRun, AContactThatPullsHasAPlace) {
+  auto run = block_run();
+  const auto curve_of_first = [&] { return contact_place_chart(run).panels.at(0).curves.at(0).y; };
+  const std::vector<double> pushing = curve_of_first();
+  ASSERT_TRUE(std::isfinite(pushing.at(0)));
+  for (PoseResult& pose : run.sweep.poses)
+    for (ContactResult& contact : pose.contacts) {
+      contact.force = -contact.force;
+      for (ContactPointResult& point : contact.points) point.force = -point.force;
+    }
+  EXPECT_EQ(curve_of_first().at(0), pushing.at(0));
+}
+
 TEST(RunProgram, CollectsWhatTheProgramComplainsOf) {
   const ProgramResult result = run_program({"sh"}, "echo one >&2\necho two >&2\nexit 3\n");
   EXPECT_EQ(result.exit_code, 3);

@@ -55,6 +55,42 @@ TEST(PlotStudy, KneesOfAPopulationAreDrawn) {
   for (const int knees : {2, 6, 30}) expect_drawn(test::made_up_study(false, knees), "study_knees");
 }
 
+// A contact that is held closed pulls in all samples: gnuplot would have nothing to draw from 0 on.
+TEST(PlotStudy, ForcesBelowZeroAreDrawn) {
+  StudyView study = test::made_up_study();
+  const auto begins_at_zero = [&] {
+    const auto pages = study_band_pages(study);
+    const PagePanel& panel = pages.at(1).page.panels.at(0);
+    ChartPage page{"title", "what"};
+    page.panels = {panel};
+    return gnuplot_script(page, PlotFormat::kPng).find("set yrange [0:*]") != std::string::npos;
+  };
+  EXPECT_TRUE(begins_at_zero());
+  for (StudyBand& band : study.all.bands)
+    for (std::vector<double>& quantile : band.quantiles)
+      for (double& value : quantile) value = -std::abs(value) - 100;
+  EXPECT_FALSE(begins_at_zero());
+  expect_drawn(study, "study_pulls");
+}
+
+// A study of one pose: bands are strokes, lines are dots, and the axis is not a hundredth of an angle.
+TEST(PlotStudy, OnePoseIsSeen) {
+  Mark band{Mark::Kind::kBand, {30}, {}, {1}, {2}}, line{Mark::Kind::kLine, {30}, {1.5}};
+  PagePanel panel;
+  panel.marks = {band, line};
+  ChartPage page{"title", "what"};
+  page.panels = {panel};
+  lay_in_grid(page, 1, 200);
+  const std::string script = gnuplot_script(page, PlotFormat::kPng);
+  EXPECT_NE(script.find("using 1:2:(0):($3-$2) with vectors nohead"), std::string::npos) << script;
+  EXPECT_NE(script.find("alone using 1:2 with points"), std::string::npos);
+  EXPECT_NE(script.find("set xrange [27:33]"), std::string::npos);
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  const auto file = test::fresh_folder("study_of_one_pose") / "page.png";
+  plot(page, file, PlotFormat::kPng);
+  EXPECT_EQ(read_png(file).width, page.width);
+}
+
 TEST(PlotStudy, OneAndManyParametersAreDrawn) {
   for (const std::size_t parameters : {1, 24})
     expect_drawn(test::made_up_study(true, 1, parameters), "study_many");

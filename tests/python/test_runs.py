@@ -82,6 +82,9 @@ class Columns(unittest.TestCase):
         self.assertEqual(run[-1].contacts["balls"].force, run.contacts["balls"].force[-1])
         np.testing.assert_array_equal(run[1].pose.rotation, run.rotation[1])
         self.assertEqual(run[0].reason, "")
+        scene = knees.ball_on_ball()
+        scene.contacts[0].name = "roughness"  # as columns that are no poses' are called
+        self.assertEqual(np.shape(condyle.sweep(scene)[1].contacts["roughness"].force), ())
         for i in (3, -4, 10**30):
             with self.assertRaises((IndexError, OverflowError)):
                 run[i]

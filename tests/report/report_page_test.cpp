@@ -84,6 +84,7 @@ TEST(ReportPage, BeginsWithStatusAndWarnings) {
   run.sweep.poses[1].status = PoseStatus::kNoEquilibrium;
   run.sweep.poses[1].reason = "nothing carries \"weight\"";
   run.start = {"warning: LCL: 20 % strain", "all else is well"};
+  run.sweep.poses[2].remark = "contact \"medial\", held open, overlaps by 16 mm";
   const std::string page = report_page(run, "run.h5", words_only());
   const std::size_t status = page.find("<section id=\"status\">");
   ASSERT_NE(status, std::string::npos);
@@ -93,6 +94,9 @@ TEST(ReportPage, BeginsWithStatusAndWarnings) {
   EXPECT_NE(first.find("nothing carries &quot;weight&quot;"), std::string::npos);
   EXPECT_NE(first.find("<li>LCL: 20 % strain</li>"), std::string::npos);
   EXPECT_EQ(first.find("all else is well"), std::string::npos);
+  EXPECT_NE(first.find("57.2958 deg: contact &quot;medial&quot;, held open, overlaps by 16 mm"),
+            std::string::npos)
+      << first;
   EXPECT_NE(first.find("docs/questions.md, Why did this pose fail?"), std::string::npos);
 }
 

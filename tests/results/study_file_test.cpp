@@ -219,6 +219,11 @@ TEST_F(StudyFile, TablesHaveARowForEachNumber) {
   EXPECT_EQ(bands.find("knee,output,unit,bend deg,samples,nominal,mean,sd,p5,p25,p50,p75,p95\n"),
             0U);
   EXPECT_NE(bands.find("\nall,aACL.force,N,0,147,0,"), std::string::npos) << bands;
+  StudyView other = view;
+  other.swept.name = "bend, \"x\"";
+  const std::string head = "knee,output,unit,\"bend, \"\"x\"\" deg\",samples";
+  EXPECT_EQ(bands_csv(other).find(head), 0U) << bands_csv(other);
+  EXPECT_EQ(indices_csv(other).find("knee,output,\"bend, \"\"x\"\" deg\",parameter"), 0U);
   const std::vector<std::string> lines = study_lines(view);
   EXPECT_EQ(lines[1], "450 poses, 9 failed (2 %) in 9 samples: 9 no equilibrium");
 }

@@ -60,6 +60,14 @@ TEST(EventLines, NameTheContactWhereOneIsMeant) {
                                       "limit point at 180.000000 deg"}));
 }
 
+TEST(EventLines, AFactorHasNoUnit) {
+  condyle::Run run = made_up_run();
+  run.sweep.events = {{0.5, EventKind::kOpening, 0}};
+  SweptQuantity factor = swept_quantity(run);
+  factor.unit = Unit{"1", 1};
+  EXPECT_EQ(event_lines(run.scene, factor, run.sweep)[0], "medial: opening at 0.500000");
+}
+
 TEST(Summary, CountsAndNamesTheLargest) {
   const condyle::Run run = made_up_run();
   // Gap 4e-11 mm is that of the second point of the last pose, seed 4; two poses of 5 us.

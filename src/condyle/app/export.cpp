@@ -91,8 +91,8 @@ int report_failures(const ExportCommand& command, const Run& run) {
     for (const PoseResult& pose : run.sweep.poses) asked.push_back(&pose);
   for (const PoseResult* pose : asked) {
     if (pose->converged()) continue;
-    tell(stderr, "condyle: {} {:g} {}: {}\n", has_place(*pose) ? "marked" : "left out",
-         swept.shown(pose->value), swept.unit.name, name(pose->status));
+    tell(stderr, "condyle: {} {:g}{}: {}\n", has_place(*pose) ? "marked" : "left out",
+         swept.shown(pose->value), swept.unit_after_number(), name(pose->status));
     status = kSomePoseFailed;
   }
   return status;

@@ -61,9 +61,11 @@ void print_balance(const MotionView& motion, double mass) {
   if (motion.layered) tell("layers {:+.6g}, ", change(&MotionEnergies::layers));
   tell("dissipated {:.6g}, loads gave {:.6g}\n", change(&MotionEnergies::dissipated),
        change(&MotionEnergies::work));
-  tell("Balance kept to {:.1e} of the largest of them\n", motion.imbalance);
+  if (!motion.computed) return;
+  tell("Balance kept to {:.1e} of the largest of them\n", motion.computed->imbalance);
   tell("{:.3f} s of motion of {:.4g} kg in {:.3f} s, {} steps\n",
-       motion.change(&MotionEnergies::time), mass * 1e3, motion.seconds, motion.steps);
+       motion.change(&MotionEnergies::time), mass * 1e3, motion.computed->seconds,
+       motion.computed->steps);
 }
 
 void print_motion(const Run& run) {

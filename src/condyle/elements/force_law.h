@@ -69,4 +69,7 @@ using ForceLaw = std::variant<ToeLinearLaw, QuadraticLaw, PolynomialLaw, TableLa
 /// Slack length [mm] for laws that have one (toe-linear, quadratic), else 0.
 [[nodiscard]] double slack_length(const ForceLaw& law);
 
+/// A strain is told of laws that have a slack length; of others the number stays 0 and says nothing.
+[[nodiscard]] inline bool has_strain(const ForceLaw& law) { return slack_length(law) > 0; }
+
 }  // namespace condyle

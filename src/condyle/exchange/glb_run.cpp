@@ -218,8 +218,9 @@ class GlbRun {
       const auto number = [&](double LigamentResult::*part) {
         return of_poses([&](const PoseResult& p) { return p.ligaments[i].*part; });
       };
-      node.extras = {{"strain", number(&LigamentResult::strain)},
-                     {"force_N", number(&LigamentResult::force)}};
+      node.extras = {{"force_N", number(&LigamentResult::force)}};
+      if (has_strain(run_.scene.ligaments[i].law))
+        node.extras.insert(node.extras.begin(), {"strain", number(&LigamentResult::strain)});
       const std::string name = node.name;
       add_node(std::move(node), 0);
       for (std::size_t piece = 1; piece < pieces; ++piece) {

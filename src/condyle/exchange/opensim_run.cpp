@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "condyle/input_error.h"
+#include "condyle/math/no_number.h"
 #include "condyle/results/run_layout.h"
 
 namespace condyle {
@@ -149,7 +150,9 @@ std::string sto_of_poses(const Run& run, const std::vector<ShownPose>& shown) {
   for (std::size_t i = 0; i < scene.ligaments.size(); ++i) {
     const std::string& name = scene.ligaments[i].name;
     columns.add(name + ".force", [&](const PoseResult& p) { return p.ligaments[i].force; });
-    columns.add(name + ".strain", [&](const PoseResult& p) { return p.ligaments[i].strain; });
+    columns.add(name + ".strain", [&](const PoseResult& p) {
+      return has_strain(scene.ligaments[i].law) ? p.ligaments[i].strain : kNoNumber;
+    });
     columns.add(name + ".length",
                 [&](const PoseResult& p) { return kMetre * p.ligaments[i].length; });
   }

@@ -118,6 +118,8 @@ class Columns {
 
   void add_ligament(std::size_t i) {
     for (const auto& column : kLigamentColumns) {
+      if (column.member == &LigamentResult::strain && !has_strain(scene_.ligaments[i].law))
+        continue;
       add("ligament", scene_.ligaments[i].name, column.name, column.units,
           [&](const PoseResult& p) { return p.ligaments[i].*column.member / column.unit; });
     }

@@ -7,6 +7,7 @@
 #include "condyle/exchange/pressure_export.h"
 #include "condyle/exchange/stl_run.h"
 #include "condyle/exchange/vtk_file.h"
+#include "condyle/math/no_number.h"
 
 namespace condyle {
 namespace {
@@ -117,7 +118,7 @@ std::string ligaments_vtp(const Run& run, const PoseResult& pose) {
     for (int k = first; k + 1 < static_cast<int>(data.points.size()); ++k) {
       data.lines.push_back({k, k + 1});
       data.cell_names.push_back(ligament.name);
-      strain.values.push_back(pose.ligaments[i].strain);
+      strain.values.push_back(has_strain(ligament.law) ? pose.ligaments[i].strain : kNoNumber);
       force.values.push_back(pose.ligaments[i].force);
       length.values.push_back(pose.ligaments[i].length);
     }

@@ -39,11 +39,11 @@ void add_band(PagePanel& panel,
               const std::vector<double>& mean,
               const std::vector<double>& sd,
               const char* ink,
-              bool force) {
+              bool pulls_only) {
   Mark band{Mark::Kind::kBand, x, {}, {}, {}, ink}, line{Mark::Kind::kLine, x, mean, {}, {}, ink};
   for (std::size_t i = 0; i < mean.size() && i < sd.size(); ++i) {
     const double low = mean[i] - kBandInterval * sd[i], high = mean[i] + kBandInterval * sd[i];
-    band.low.push_back(force && low < 0 ? 0 : low);  // none is negative
+    band.low.push_back(pulls_only && low < 0 ? 0 : low);  // no ligament pushes
     band.high.push_back(high);
   }
   panel.marks.insert(panel.marks.begin(), band);
@@ -61,9 +61,9 @@ PagePanel band_panel(const Scene& scene, const CalibrationResult& result, const 
   panel.y_label = !of.empty()          ? "Force [N]"
                   : band.units == "mm" ? "Translation [mm]"
                                        : "Rotation [" + shown_unit(band.units) + "]";
-  if (!of.empty()) panel.y_range[0] = 0;
-  add_band(panel, x, band.after, band.after_sd, kAfterInk, !of.empty());
-  add_band(panel, x, band.before, band.before_sd, kBeforeInk, !of.empty());
+  panel.from_zero = !of.empty();
+  add_band(panel, x, band.after, band.after_sd, kAfterInk, has_ligament(scene, of));
+  add_band(panel, x, band.before, band.before_sd, kBeforeInk, has_ligament(scene, of));
   std::rotate(panel.marks.rbegin(), panel.marks.rbegin() + 1, panel.marks.rend());
   return panel;
 }

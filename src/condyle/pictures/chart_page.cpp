@@ -63,6 +63,31 @@ std::string range(const std::array<double, 2>& ends) {
   return "[" + end(ends[0]) + ":" + end(ends[1]) + "]";
 }
 
+/// The range that is given; else, where that is asked for and nothing lies below, from 0.
+std::array<double, 2> y_range_of(const PagePanel& panel) {
+  std::array<double, 2> ends = panel.y_range;
+  const auto negative = [](const std::vector<double>& values) {
+    return std::any_of(values.begin(), values.end(), [](double value) { return value < 0; });
+  };
+  if (panel.from_zero &&
+      std::none_of(panel.marks.begin(), panel.marks.end(),
+                   [&](const Mark& mark) { return negative(mark.y) || negative(mark.low); }))
+    ends[0] = 0;
+  return ends;
+}
+
+/// The range that is given; about the only x that there is, where there is but one: gnuplot would take a hundredth of it.
+std::array<double, 2> x_range_of(const PagePanel& panel) {
+  if (std::isfinite(panel.x_range[0]) || std::isfinite(panel.x_range[1])) return panel.x_range;
+  double low = 1e300, high = -1e300;
+  for (const Mark& mark : panel.marks)
+    for (const double x : mark.x)
+      if (std::isfinite(x)) low = std::min(low, x), high = std::max(high, x);
+  if (low != high) return panel.x_range;
+  const double half = std::max(1., 0.1 * std::abs(low));
+  return {low - half, low + half};
+}
+
 /// To gnuplot a name on an axis is a format of its number.
 std::string tic_words(const std::string& text) {
   std::string format;
@@ -155,7 +180,8 @@ std::string axis_labels(const PagePanel& panel, const ChartPage& page, double si
 
 /// 1, 2 or 5 of a power of ten, so that tics along x stand apart; free where the range is.
 std::string tics_along_x(const PagePanel& panel) {
-  const double span = std::abs(panel.x_range[1] - panel.x_range[0]);
+  const std::array<double, 2> ends = x_range_of(panel);
+  const double span = std::abs(ends[1] - ends[0]);
   if (!std::isfinite(span) || !(span > 0)) return "autofreq";
   const double least = span * kTicsApart / panel.width;
   const double power = std::pow(10, std::floor(std::log10(least)));
@@ -171,7 +197,8 @@ std::string axes(const PagePanel& panel, const ChartPage& page, PlotFormat forma
       "{:.5f}\nset bmargin at screen {:.5f}\n",
       panel.left / page.width, (panel.left + panel.width) / page.width, 1 - panel.top / page.height,
       1 - (panel.top + panel.height) / page.height);
-  script += "set xrange " + range(panel.x_range) + "\nset yrange " + range(panel.y_range) + "\n";
+  script +=
+      "set xrange " + range(x_range_of(panel)) + "\nset yrange " + range(y_range_of(panel)) + "\n";
   script += panel.log_y ? "set logscale y\nset format y '%g'\n"
                         : "unset logscale y\nset format y '% h'\n";
   script += panel.frame ? "set border 3\n" : "set border 0\n";

@@ -26,6 +26,7 @@ struct PagePanel {
   std::vector<Mark> marks;
   static constexpr double kFree = std::numeric_limits<double>::quiet_NaN();
   std::array<double, 2> x_range = {kFree, kFree}, y_range = {kFree, kFree};
+  bool from_zero = false;  ///< the axis of y begins at 0 where nothing is negative
   std::vector<std::string> x_names = {}, y_names = {};  ///< of 0, 1, ... in place of numbers
   std::vector<std::string> right_names = {};            ///< of the rows, right of the axes
   std::vector<Words> words = {};

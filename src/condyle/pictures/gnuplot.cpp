@@ -15,7 +15,9 @@ namespace {
 constexpr int kWidth = kPageWidth, kPanelHeight = 400, kPanelGap = 34, kFootHeight = 84;  // [pixel]
 
 constexpr std::array<int, 4> kDashes = {1, 2, 4, 5};
-constexpr std::array<int, 5> kRunDashes = {1, 2, 3, 4, 5};
+/// By runs: styles of lines, and of points that stand alone.
+constexpr std::array<const char*, 6> kRunDashes = {"1", "2", "3", "4", "5", "(24,6)"};
+constexpr std::array<int, 6> kRunPoints = {7, 6, 5, 4, 9, 8};
 constexpr double kLeft = 0.09;            // of the page, left of the axes
 constexpr double kTitleMargin = 12;       // [pixel]
 constexpr double kLetter = 9.2;           // width of one in the legend [pixel]
@@ -60,6 +62,18 @@ std::string data_block(const std::string& name, const Numbers& x, const Numbers&
     block += known ? fmt::format("{:.9g} {:.9g}\n", x[i], y[i]) : "\n";
   }
   return block + "END_OF_DATA\n";
+}
+
+/// Points without a neighbour, of which a line shows nothing.
+std::string lone_points(const std::string& name, const Numbers& x, const Numbers& y) {
+  const auto known = [&](std::size_t i) {
+    return i < x.size() && i < y.size() && std::isfinite(x[i]) && std::isfinite(y[i]);
+  };
+  std::string points;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (known(i) && (i == 0 || !known(i - 1)) && !known(i + 1))
+      points += fmt::format("{:.9g} {:.9g}\n", x[i], y[i]);
+  return points.empty() ? "" : "$" + name + " << END_OF_DATA\n" + points + "END_OF_DATA\n";
 }
 
 /// Broken where the curve is.
@@ -111,6 +125,21 @@ std::string hollow_legend(const Panel& panel) {
       quoted_words(kHollowName));
 }
 
+/// Few points of one run are marked one by one.
+bool is_marked(const Chart& chart, const Curve& curve) {
+  return chart.runs.empty() && curve.x.size() <= kManyPoints;
+}
+
+std::string lone_command(const Chart& chart,
+                         const Curve& curve,
+                         std::size_t color,
+                         const std::string& data) {
+  const auto run = static_cast<std::size_t>(curve.style) % kRunPoints.size();
+  return fmt::format(
+      ", ${} using 1:2 with points pointtype {} pointsize 0.5 linecolor '{}' notitle", data,
+      chart.runs.empty() ? 7 : kRunPoints[run], kColors[color % kColors.size()]);
+}
+
 /// One curve of the plot command; a title that stands in the legend already is left out there.
 std::string curve_command(const Chart& chart,
                           const Panel& panel,
@@ -118,23 +147,25 @@ std::string curve_command(const Chart& chart,
                           const std::string& data) {
   const Curve& curve = panel.curves[index];
   const std::size_t color = color_of(curve, index);
-  int dash = curve.dashed ? 2 : kDashes[color / kColors.size() % kDashes.size()];
-  const auto style = static_cast<std::size_t>(curve.style);
-  if (!chart.runs.empty()) dash = kRunDashes[style % kRunDashes.size()];
-  const bool marked = chart.runs.empty() && curve.x.size() <= kManyPoints;
-  const std::string points = marked ? "linespoints pointtype 7 pointsize 0.35" : "lines";
+  const int dash = curve.dashed ? 2 : kDashes[color / kColors.size() % kDashes.size()];
+  const auto run = static_cast<std::size_t>(curve.style) % kRunDashes.size();
+  const std::string points =
+      is_marked(chart, curve)
+          ? fmt::format("linespoints pointtype {} pointsize 0.35", curve.dashed ? 6 : 7)
+          : "lines";
   const bool keyed = chart.runs.empty() && !curve.title.empty();
   return fmt::format(
       "{} with {} linewidth {} linecolor '{}' dashtype {} {}",
       has_line(curve) ? "$" + data + " using 1:2" : "NaN", points, 2,
-      kColors[color % kColors.size()], dash,
+      kColors[color % kColors.size()],
+      chart.runs.empty() ? fmt::format("{}", dash) : kRunDashes[run],
       keyed ? "title " + quoted_words(shortened(curve.title, kLongestName)) : "notitle");
 }
 
 /// Legend of several runs: a colour for each title, a line style for each run.
 std::string run_legend(const Chart& chart, const Panel& panel, bool with_runs) {
   std::string commands;
-  const auto entry = [&](const std::string& title, const char* color, int dash) {
+  const auto entry = [&](const std::string& title, const char* color, const char* dash) {
     commands += fmt::format(", NaN with lines linewidth 2 linecolor '{}' dashtype {} title {}",
                             color, dash, quoted_words(shortened(title, kLongestName)));
   };
@@ -143,7 +174,7 @@ std::string run_legend(const Chart& chart, const Panel& panel, bool with_runs) {
     if (curve.title.empty() || !has_points(curve)) continue;
     if (std::find(known.begin(), known.end(), curve.title) != known.end()) continue;
     known.push_back(curve.title);
-    entry(curve.title, kColors[static_cast<std::size_t>(curve.color) % kColors.size()], 1);
+    entry(curve.title, kColors[static_cast<std::size_t>(curve.color) % kColors.size()], "1");
   }
   for (std::size_t i = 0; with_runs && i < chart.runs.size(); ++i)
     entry(chart.runs[i], "#303840", kRunDashes[i % kRunDashes.size()]);
@@ -190,10 +221,14 @@ std::string panel_script(const Chart& chart, std::size_t index, int height) {
     script += data_block(name, curve.x, curve.y);
     if (has_hollow(curve)) script += data_block(name + "hollow", curve.hollow_x, curve.hollow_y);
     if (!curve.low.empty()) script += band_block(name + "band", curve);
+    const std::string alone =
+        is_marked(chart, curve) ? "" : lone_points(name + "alone", curve.x, curve.y);
+    script += alone;
     commands += commands.empty() ? "plot " : ", ";
     if (!curve.low.empty()) commands += band_command(color_of(curve, i), name + "band");
     commands += curve_command(chart, panel, i, name) +
                 hollow_command(curve, color_of(curve, i), name + "hollow");
+    if (!alone.empty()) commands += lone_command(chart, curve, color_of(curve, i), name + "alone");
   }
   if (!commands.empty() && !chart.runs.empty()) commands += run_legend(chart, panel, index == 0);
   if (!commands.empty()) commands += hollow_legend(panel);

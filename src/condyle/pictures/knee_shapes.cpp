@@ -87,14 +87,15 @@ std::vector<BodyShape> body_shapes(const Run& run, double spacing) {
   return shapes;
 }
 
-bool has_strain(const LigamentDescription& ligament) { return slack_length(ligament.law) > 0; }
-
 PictureScales picture_scales(const Run& run, double size) {
   PictureScales scales;
   const std::vector<LigamentDescription>& ligaments = run.scene.ligaments;
-  scales.strain_known = std::any_of(ligaments.begin(), ligaments.end(), has_strain);
+  const auto strained = [](const LigamentDescription& ligament) {
+    return has_strain(ligament.law);
+  };
+  scales.strain_known = std::any_of(ligaments.begin(), ligaments.end(), strained);
   scales.some_unstrained =
-      scales.strain_known && !std::all_of(ligaments.begin(), ligaments.end(), has_strain);
+      scales.strain_known && !std::all_of(ligaments.begin(), ligaments.end(), strained);
   double tension = 1, contact = 1, low = 1e300, high = -1e300;
   for (const PoseResult& pose : run.sweep.poses) {
     if (!has_place(pose)) continue;

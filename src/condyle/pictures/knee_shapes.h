@@ -51,9 +51,6 @@ inline constexpr Rgb kSlackColor = {168, 168, 165};
 /// Of a taut one whose law knows no strain, where others are coloured by theirs.
 inline constexpr Rgb kUnstrainedColor = {20, 122, 116};
 
-/// Has its law a slack length?
-[[nodiscard]] bool has_strain(const LigamentDescription& ligament);
-
 [[nodiscard]] Rgb ligament_color(const PictureScales& scales,
                                  const LigamentDescription& described,
                                  const LigamentResult& ligament);

@@ -52,7 +52,7 @@ Rgb ligament_color(const PictureScales& scales,
                    const LigamentDescription& described,
                    const LigamentResult& ligament) {
   if (is_slack(ligament)) return kSlackColor;
-  if (scales.strain_known && !has_strain(described)) return kUnstrainedColor;
+  if (scales.strain_known && !has_strain(described.law)) return kUnstrainedColor;
   return map_color(ColorMap::kStrain,
                    (scales.strain_known ? ligament.strain : ligament.force) / scales.ligament_top);
 }

@@ -32,6 +32,13 @@ std::vector<std::pair<std::size_t, std::size_t>> pieces(const Mark& mark) {
   return found;
 }
 
+/// Of one point a band is a stroke, as a line of one is a dot: "#bf0072B2" for a quarter of an ink.
+std::string stroke_of(const Mark& mark, const std::string& piece) {
+  return fmt::format(
+      "${} using 1:2:(0):($3-$2) with vectors nohead linewidth 9 linecolor rgb '#bf{}' notitle",
+      piece, mark.ink.substr(1));
+}
+
 MarkScript band(const Mark& mark, const std::string& name) {
   MarkScript script;
   int count = 0;
@@ -41,24 +48,37 @@ MarkScript band(const Mark& mark, const std::string& name) {
       lines += fmt::format("{:.6g} {:.6g} {:.6g}\n", mark.x[i], mark.low[i], mark.high[i]);
     const std::string piece = fmt::format("{}piece{}", name, count++);
     script.data += block(piece, lines);
+    if (!script.command.empty()) script.command += ", ";
     script.command +=
-        fmt::format("{}${} using 1:2:3 with filledcurves linecolor '{}' {} notitle",
-                    script.command.empty() ? "" : ", ", piece, mark.ink, fill_look(mark));
+        end == begin + 1
+            ? stroke_of(mark, piece)
+            : fmt::format("${} using 1:2:3 with filledcurves linecolor '{}' {} notitle", piece,
+                          mark.ink, fill_look(mark));
   }
   return script;
 }
 
 MarkScript line(const Mark& mark, const std::string& name) {
-  std::string lines;
+  std::string lines, alone;
   bool any = false;
+  const auto is_known = [&](std::size_t i) { return known(mark.x, i) && known(mark.y, i); };
   for (std::size_t i = 0; i < mark.x.size(); ++i) {
-    const bool here = known(mark.x, i) && known(mark.y, i);
-    lines += here ? fmt::format("{:.6g} {:.6g}\n", mark.x[i], mark.y[i]) : "\n";
-    any = any || here;
+    const std::string point =
+        is_known(i) ? fmt::format("{:.6g} {:.6g}\n", mark.x[i], mark.y[i]) : "\n";
+    lines += point;
+    if (!is_known(i)) continue;
+    any = true;
+    if ((i == 0 || !is_known(i - 1)) && !is_known(i + 1)) alone += point;
   }
   if (!any) return {};
-  return {block(name, lines),
-          fmt::format("${} using 1:2 with lines {} notitle", name, line_look(mark))};
+  MarkScript script{block(name, lines),
+                    fmt::format("${} using 1:2 with lines {} notitle", name, line_look(mark))};
+  if (alone.empty()) return script;
+  script.data += block(name + "alone", alone);
+  script.command += fmt::format(
+      ", ${}alone using 1:2 with points pointtype {} pointsize {:g} linecolor '{}' notitle", name,
+      mark.dashed ? 6 : 7, 0.4 * mark.size, mark.ink);
+  return script;
 }
 
 MarkScript dots(const Mark& mark, const std::string& name) {

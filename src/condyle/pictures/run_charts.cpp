@@ -88,7 +88,7 @@ double greatest_strain(const Scene& scene,
                        const std::vector<std::size_t>& strands) {
   double greatest = kNoNumber;
   for (const std::size_t i : strands) {
-    if (i >= pose.ligaments.size() || !(slack_length(scene.ligaments[i].law) > 0)) continue;
+    if (i >= pose.ligaments.size() || !has_strain(scene.ligaments[i].law)) continue;
     if (!(greatest >= pose.ligaments[i].strain)) greatest = pose.ligaments[i].strain;
   }
   return greatest;
@@ -111,17 +111,21 @@ double greatest_turn(const Scene& scene,
   return greatest;
 }
 
-/// Mean of the points on the tibia, weighted by force; nothing for an open contact.
+/// Mean of the points on the tibia, weighted by the size of their forces, as one that is held closed may pull; nothing for an
+/// open contact.
 std::optional<Vector3d> place_on_tibia(const Scene& scene,
                                        const PoseResult& pose,
                                        const ContactResult& contact) {
-  if (!contact.closed || !(contact.force > 0)) return std::nullopt;
+  if (!contact.closed) return std::nullopt;
   const bool moves = tibia_body(scene) == scene.moving_body();
   if (contact.layer) return acting_place(contact, pose.X_BA, moves);
   Vector3d sum = Vector3d::Zero();
-  for (const ContactPointResult& point : contact.points)
-    sum += point.force * (moves ? point.point_moving : point.point_ground);
-  return sum / contact.force;
+  double forces = 0;
+  for (const ContactPointResult& point : contact.points) {
+    sum += std::abs(point.force) * (moves ? point.point_moving : point.point_ground);
+    forces += std::abs(point.force);
+  }
+  return forces > 0 ? std::optional<Vector3d>(sum / forces) : std::nullopt;
 }
 
 Curve place_curve(const Run& run, std::size_t contact, const Vector3d& axis) {

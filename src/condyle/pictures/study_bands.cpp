@@ -24,7 +24,7 @@ PagePanel quantity_panel(const StudyView& study, const ShownOutput& output) {
   panel.title = output.name;
   panel.x_label = study.swept.axis;
   panel.y_label = output.quantity;
-  if (output.force) panel.y_range[0] = 0;
+  panel.from_zero = output.force;
   return panel;
 }
 

@@ -110,8 +110,9 @@ std::string inside(const std::string& place, const std::string& name) {
 py::object find(const Group& group, const std::string& name) {
   if (const DataColumn* column = group.tree->column(name)) return column_of(group, name, *column);
   if (const ColumnTree* tree = group.tree->group(name)) {
-    const long row = name == "roughness" ? -1 : group.row;  // of surfaces
-    return py::cast(Group{group.owner, tree, inside(group.place, name), row, group.poses});
+    const std::string place = inside(group.place, name);
+    const long row = place.ends_with("uncertainty/roughness") ? -1 : group.row;  // of surfaces
+    return py::cast(Group{group.owner, tree, place, row, group.poses});
   }
   return {};
 }

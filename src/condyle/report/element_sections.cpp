@@ -95,9 +95,13 @@ std::vector<std::string> ligament_row(const Run& run,
     ++all;
   }
   const double force = most->ligaments[index].force;
-  return {
-      ligament_name,        number(force, 1),      force > 0 ? at_value(swept, most->value) : "-",
-      number(100 * low, 1), number(100 * high, 1), fmt::format("{} of {}", taut, all)};
+  const bool strained = has_strain(run.scene.ligaments[index].law);
+  return {ligament_name,
+          number(force, 1),
+          force > 0 ? at_value(swept, most->value) : "-",
+          strained ? number(100 * low, 1) : "-",
+          strained ? number(100 * high, 1) : "-",
+          fmt::format("{} of {}", taut, all)};
 }
 
 /// One number of each ligament at each pose.
@@ -112,8 +116,10 @@ HtmlTable ligament_table(const Run& run,
   for (const PoseResult& pose : run.sweep.poses) {
     if (!has_place(pose)) continue;
     std::vector<std::string> row = {at_value(swept, pose.value)};
-    for (const LigamentResult& ligament : pose.ligaments)
-      row.push_back(number(factor * ligament.*part, 1));
+    for (std::size_t i = 0; i < pose.ligaments.size(); ++i) {
+      const bool told = part != &LigamentResult::strain || has_strain(run.scene.ligaments[i].law);
+      row.push_back(told ? number(factor * pose.ligaments[i].*part, 1) : "-");
+    }
     table.rows.push_back(std::move(row));
     table.row_classes.emplace_back(pose.converged() ? "" : "failed");
   }

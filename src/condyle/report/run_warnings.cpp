@@ -25,7 +25,8 @@ void add_remarks(const Run& run, std::vector<std::string>& warnings) {
       const double a = swept.shown(poses[first].value), b = swept.shown(poses[end - 1].value);
       const std::string range =
           end == first + 1 ? fmt::format("{:.6g}", a) : fmt::format("{:.6g} to {:.6g}", a, b);
-      warnings.push_back(fmt::format("{} {}: {}", range, swept.unit.name, poses[first].remark));
+      warnings.push_back(fmt::format("{} {}{}: {}", swept.name, range, swept.unit_after_number(),
+                                     poses[first].remark));
     }
     first = end;
   }

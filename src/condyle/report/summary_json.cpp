@@ -152,9 +152,18 @@ Json simulation_of(const MotionView& motion) {
                       {"kind", event.closing ? "closing" : "opening"},
                       {"speed_mm_s", event.speed}});
   }
-  return {{"completed", motion.completed}, {"reason", motion.reason},
-          {"steps", motion.steps},         {"seconds", motion.seconds},
-          {"imbalance", motion.imbalance}, {"events", std::move(events)}};
+  Json steps, seconds, imbalance;  // null where the motion was read
+  if (motion.computed) {
+    steps = motion.computed->steps;
+    seconds = motion.computed->seconds;
+    imbalance = motion.computed->imbalance;
+  }
+  return {{"completed", motion.completed},
+          {"reason", motion.reason},
+          {"steps", steps},
+          {"seconds", seconds},
+          {"imbalance", imbalance},
+          {"events", std::move(events)}};
 }
 
 Json agreement_of(const Agreement& a) {

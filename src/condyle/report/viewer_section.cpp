@@ -159,7 +159,7 @@ class ViewerData {
 
   [[nodiscard]] Json ligament(std::size_t i) const {
     const LigamentDescription& described = scene_.ligaments[i];
-    Json json = {{"name", described.name}, {"has_strain", slack_length(described.law) > 0}};
+    Json json = {{"name", described.name}, {"has_strain", has_strain(described.law)}};
     for (const auto& column : kLigamentColumns)
       json[column.name] =
           series([&](const PoseResult& p) { return p.ligaments[i].*column.member; });

@@ -30,9 +30,9 @@ std::optional<MotionView> motion_view(const Run& run) {
     view.events.push_back({event.t, run.scene.contacts.at(static_cast<std::size_t>(contact)).name,
                            event.closing, event.speed});
   }
-  view.steps = motion.steps;
-  view.seconds = simulation->seconds;
-  view.imbalance = motion.largest_imbalance / std::max(motion.energy_scale, 1e-300);
+  if (motion.steps > 0)
+    view.computed = {motion.steps, simulation->seconds,
+                     motion.largest_imbalance / std::max(motion.energy_scale, 1e-300)};
   return view;
 }
 

@@ -32,10 +32,14 @@ struct MotionView {
   std::string reason;  ///< where it is not completed
   std::vector<MotionEnergies> energies;
   std::vector<MotionEvent> events;
-  long steps = 0;        ///< of the integrator
-  double seconds = 0;    ///< of computing
   bool layered = false;  ///< some energy is that of elastic layers
-  double imbalance = 0;  ///< largest departure of the balance, over the largest energy met
+  /// What only the motion that was just computed tells; a file has none of it.
+  struct Computed {
+    long steps = 0;        ///< of the integrator
+    double seconds = 0;    ///< of computing
+    double imbalance = 0;  ///< largest departure of the balance, over the largest energy met
+  };
+  std::optional<Computed> computed;
   /// From the first to the last frame [N mm].
   [[nodiscard]] double change(double MotionEnergies::*part) const {
     return energies.empty() ? 0 : energies.back().*part - energies.front().*part;

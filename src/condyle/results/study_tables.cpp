@@ -57,7 +57,7 @@ std::string head_of_samples(const StudyPlan& plan, const SweptQuantity& swept) {
 
 std::string bands_csv(const StudyView& view) {
   std::string csv = fmt::format("knee,output,unit,{},samples,nominal,mean,sd,p5,p25,p50,p75,p95\n",
-                                column_of(view.swept));
+                                csv_text(column_of(view.swept)));
   for_each_summary(view, [&](const std::string& knee, const StudySummary& summary) {
     for (std::size_t o = 0; o < view.outputs.size(); ++o) {
       const StudyBand& band = summary.bands[o];
@@ -78,7 +78,7 @@ std::string bands_csv(const StudyView& view) {
 std::string indices_csv(const StudyView& view) {
   std::string csv = fmt::format(
       "knee,output,{},parameter,first,first_lower,first_upper,total,total_lower,total_upper,rank\n",
-      column_of(view.swept));
+      csv_text(column_of(view.swept)));
   for_each_summary(view, [&](const std::string& knee, const StudySummary& summary) {
     for (std::size_t o = 0; o < view.outputs.size(); ++o) {
       const StudyEffects& effects = summary.effects[o];

@@ -57,10 +57,9 @@ std::string effects_in_words(const StudyView& view, const StudyEffects& effects,
   constexpr std::size_t kMost = 3;
   constexpr double kSmall = 0.05;
   std::string words;
+  std::size_t count = 0;
   for (const EffectSize& effect : largest_effects(effects, pose)) {
-    if (std::abs(effect.value) < kSmall ||
-        static_cast<std::size_t>(std::count(words.begin(), words.end(), ',')) >= kMost)
-      break;
+    if (std::abs(effect.value) < kSmall || count++ == kMost) break;
     words += fmt::format("{} {:.2f}, ", view.parameters[effect.parameter].name, effect.value);
   }
   return words.empty() ? words : words.substr(0, words.size() - 2);

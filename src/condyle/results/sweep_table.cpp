@@ -148,8 +148,9 @@ std::vector<std::string> event_lines(const Scene& scene,
   std::vector<std::string> lines;
   for (const Event& event : sweep.events) {
     const std::string subject = event_subject(scene, event);
-    lines.push_back(fmt::format("{}{}{} at {:.6f} {}", subject, subject.empty() ? "" : ": ",
-                                name(event.kind), swept.shown(event.value), swept.unit.name));
+    lines.push_back(fmt::format("{}{}{} at {:.6f}{}", subject, subject.empty() ? "" : ": ",
+                                name(event.kind), swept.shown(event.value),
+                                swept.unit_after_number()));
   }
   return lines;
 }

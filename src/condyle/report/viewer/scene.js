@@ -89,6 +89,7 @@ function between(list, at) {
   const i = Math.max(0, Math.min(Math.floor(at), list.length - 1));
   const k = Math.min(i + 1, list.length - 1);
   const a = list[i], b = list[k];
+  if (at === i) return a;
   if (a === null || b === null) return a ?? b;
   return a + (b - a) * (at - i);
 }
