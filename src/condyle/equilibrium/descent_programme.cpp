@@ -45,8 +45,7 @@ void Descent::set_forces(Programme& programme) {
   SmallQp& qp = programme.qp;
   qp.H = symmetric_stiffness(wrench, L);
   qp.g = -scaled_wrench(wrench, L);
-  programme.stiffness_scale =
-      std::max(qp.H.cwiseAbs().maxCoeff(), programme.force_scale / (kLooseness * L));
+  programme.stiffness_scale = std::max(qp.H.norm(), programme.force_scale / (kLooseness * L));
   qp.floor = kLeastStiffness * programme.stiffness_scale;
   qp.compliance = kCompliance;
 }
