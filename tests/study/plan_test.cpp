@@ -228,7 +228,19 @@ class StudyTable : public testing::Test {
     return {};
   }
 
-  const std::filesystem::path folder_ = fresh_folder("study table");
+  /// With values of the first ligament in `values_`.
+  [[nodiscard]] ReadStudy study_of_values() const {
+    ReadStudy study = small_study("wismans-type/knee.toml", 0);
+    study.study.design = DesignKind::kTable;
+    study.study.table = values_;
+    study.study.table_holds_values = true;
+    study.varied[0] = {study.varied[0][0]};
+    study.varied[0][0].number.of = {0};
+    return study;
+  }
+
+  const std::filesystem::path folder_ = fresh_folder("study table"),
+                              values_ = folder_ / "values.csv";
   std::string first_;
 };
 
@@ -266,21 +278,14 @@ TEST_F(StudyTable, MayHoldTheNumbersThemselves) {
 
 // A strain that the scene tells at a length of its own, and not at the start pose.
 TEST_F(StudyTable, AStrainIsToldAtTheLengthOfTheScene) {
-  const std::filesystem::path file = folder_ / "values.csv";
-  ReadStudy study = small_study("wismans-type/knee.toml", 0);
-  study.study.design = DesignKind::kTable;
-  study.study.table = file;
-  study.study.table_holds_values = true;
-  study.varied[0] = {study.varied[0][0]};
-  study.varied[0][0].number.of = {0};
+  ReadStudy study = study_of_values();
   LigamentDescription& ligament = study.scenes[0].ligaments[0];
-  auto& law = std::get<ToeLinearLaw>(ligament.law);
-  const double start_length = law.slack_length * (1 + *ligament.reference_strain),
+  const double start_length = slack_length(ligament.law) * (1 + *ligament.reference_strain),
                own = 0.9 * start_length;
   ligament.reference_strain.reset();
   ligament.reference_length = own;
-  law.slack_length = own / (1 + 0.0335);
-  std::ofstream(file) << ligament.name << ".reference_strain\n0.0335\n0.05\n";
+  std::get<QuadraticLaw>(ligament.law).slack_length = own / (1 + 0.0335);
+  std::ofstream(values_) << ligament.name << ".reference_strain\n0.0335\n0.05\n";
   const StudyPlan plan = study_plan(study);
   std::vector<double> theta;
   plan.theta(0, theta);
@@ -291,18 +296,12 @@ TEST_F(StudyTable, AStrainIsToldAtTheLengthOfTheScene) {
 
 // In a scene in cm the table is in cm too; several numbers with one change in common have no value.
 TEST_F(StudyTable, ItsNumbersAreInTheUnitsOfTheScene) {
-  const std::filesystem::path file = folder_ / "values.csv";
-  ReadStudy study = small_study("wismans-type/knee.toml", 0);
-  study.study.design = DesignKind::kTable;
-  study.study.table = file;
-  study.study.table_holds_values = true;
+  ReadStudy study = study_of_values();
   study.scenes[0].length_to_mm = 10;
-  study.varied[0] = {study.varied[0][0]};
   study.varied[0][0].number.what = ParameterKind::kSlackLength;
-  study.varied[0][0].number.of = {0};
   const LigamentDescription& ligament = study.scenes[0].ligaments[0];
   const double slack = slack_length(ligament.law);
-  std::ofstream(file) << fmt::format("{}.slack_length\n{:.17g}\n", ligament.name, slack / 10);
+  std::ofstream(values_) << fmt::format("{}.slack_length\n{:.17g}\n", ligament.name, slack / 10);
   std::vector<double> theta;
   study_plan(study).theta(0, theta);
   EXPECT_NEAR(theta[0], 0, 1e-12 * slack);
@@ -311,7 +310,8 @@ TEST_F(StudyTable, ItsNumbersAreInTheUnitsOfTheScene) {
   study.scenes[0].force_to_n = 2;
   const double stiffness = 5;  // a force per area
   study.scenes[0].ligaments[0].law = QuadraticLaw{.stiffness = stiffness, .slack_length = slack};
-  std::ofstream(file) << fmt::format("{}.stiffness\n{:.17g}\n", ligament.name, stiffness * 100 / 2);
+  std::ofstream(values_) << fmt::format("{}.stiffness\n{:.17g}\n", ligament.name,
+                                        stiffness * 100 / 2);
   study_plan(study).theta(0, theta);
   EXPECT_NEAR(theta[0], 0, 1e-12);
 
@@ -319,7 +319,7 @@ TEST_F(StudyTable, ItsNumbersAreInTheUnitsOfTheScene) {
   study.varied[0][0].number.of = {0, 1};
   study.varied[0][0].number.together = true;
   const std::string both = ligament.name + "+" + study.scenes[0].ligaments[1].name;
-  std::ofstream(file) << both << ".slack_length\n" << slack / 10 << "\n";
+  std::ofstream(values_) << both << ".slack_length\n" << slack / 10 << "\n";
   try {
     (void)study_plan(study);
     FAIL() << "nothing was thrown";
