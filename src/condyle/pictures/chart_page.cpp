@@ -19,7 +19,7 @@ constexpr double kSample = 34;       // width of what stands before words of the
 constexpr double kGradient = 110;    // and of a colour scale there [pixel]
 constexpr double kTicsApart = 50;    // along x, at least [pixel]
 constexpr double kWordsSize = 0.85;  // of that of names
-constexpr double kXLabelBelow = 40, kYLabelLeft = 58;  // of the axes [pixel]
+constexpr double kXLabelBelow = 40, kYLabelLeft = 66;  // of the axes [pixel]
 constexpr double kNoteSize = 10.5, kKeySize = 11, kLabelSize = 11, kTicSize = 10;  // [point]
 constexpr double kTicRoom = 74, kTitleRoom = 34, kLabelRoom = 58;  // of a panel's cell [pixel]
 
