@@ -25,7 +25,7 @@ using Eigen::Vector3d;
 
 constexpr double kUnsure = 5;     // of an insertion, told as a doubt [mm]
 constexpr double kDropped = 4;    // off the bone, likewise [mm]
-constexpr double kOff = 3;        // beside the bone, likewise [mm]
+constexpr double kOff = 5;        // beside the bone, likewise [mm]
 constexpr double kPoorFit = 2.5;  // rms of the registered bones, likewise [mm]
 
 /// Vertices that lie nearer to each other than rounding at the farthest one are merged: one that is far off leaves no
@@ -208,7 +208,8 @@ void doubt_insertions(NewKnee& knee) {
                : std::string();
   });
   doubt_ends(knee,
-             "insertions where the mesh has no bone, as beyond the end of one that is cut short",
+             "insertions off the bone, as beyond the end of a mesh that is cut short or on a "
+             "fibula that is not in it",
              [](const CarriedPoint& point) {
                return point.off > kOff ? fmt::format("{:.0f} mm off", point.off) : std::string();
              });
