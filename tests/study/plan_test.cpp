@@ -12,6 +12,7 @@
 #include "condyle/calibration/csv_file.h"
 #include "condyle/calibration/csv_text.h"
 #include "condyle/elements/force_law.h"
+#include "condyle/elements/law_rates.h"
 #include "condyle/input_error.h"
 #include "study/small_study.h"
 #include "support/scratch_folder.h"
@@ -280,17 +281,16 @@ TEST_F(StudyTable, MayHoldTheNumbersThemselves) {
 TEST_F(StudyTable, AStrainIsToldAtTheLengthOfTheScene) {
   ReadStudy study = study_of_values();
   LigamentDescription& ligament = study.scenes[0].ligaments[0];
-  const double start_length = slack_length(ligament.law) * (1 + *ligament.reference_strain),
-               own = 0.9 * start_length;
-  ligament.reference_strain.reset();
+  const double own = 1.1 * slack_length(ligament.law);
   ligament.reference_length = own;
-  std::get<QuadraticLaw>(ligament.law).slack_length = own / (1 + 0.0335);
+  set_slack_length(ligament.law, own / (1 + 0.0335));
   std::ofstream(values_) << ligament.name << ".reference_strain\n0.0335\n0.05\n";
   const StudyPlan plan = study_plan(study);
   std::vector<double> theta;
   plan.theta(0, theta);
   EXPECT_NEAR(theta[0], 0, 1e-14);
   plan.theta(1, theta);
+  const double start_length = slack_length(ligament.law) * (1 + plan.knees[0].parameters[0].start);
   EXPECT_NEAR(theta[0], start_length * (0.05 - 0.0335) / own, 1e-14);
 }
 

@@ -72,12 +72,14 @@ TEST_F(StudyCommandLine, ItsTableHasNoTwoColumnsOfOneName) {
     EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end()) << table.substr(0, 300);
   };
   write("study.toml",
-        "specimens = [\"knee.toml\"]\nsamples = 2\noutputs = [\"joint.flexion\"]\n"
+        "specimens = [\"knee.toml\"]\ndesign = \"monte-carlo\"\nsamples = 2\noutputs = "
+        "[\"joint.flexion\"]\n"
         "[[vary]]\nwhat = \"reference_strain\"\nof = \"*\"\nsd = 0.02\n");
   expect_own_names("swept flexion deg");
   write("knee.toml", contents(fs::path(CONDYLE_SOURCE_DIR) / "data/wismans-type/drawer.toml"));
   write("study.toml",
-        "specimens = [\"knee.toml\"]\nsamples = 2\n[[vary]]\nwhat = \"load\"\nof = \"*\"\nsd = "
+        "specimens = [\"knee.toml\"]\ndesign = \"monte-carlo\"\nsamples = 2\n[[vary]]\nwhat = "
+        "\"load\"\nof = \"*\"\nsd = "
         "0.1\n");
   expect_own_names("swept drawer.scale");
 }
