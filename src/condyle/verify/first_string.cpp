@@ -102,17 +102,22 @@ bool TautString::lay_over(const Place& at, std::size_t wrap, std::optional<int> 
   return true;
 }
 
+int TautString::deepest_in_the_way(const Place& at) const {
+  int deepest = -1;
+  double depth = 1e-8;
+  for (std::size_t w = 0; w < at.wraps.size(); ++w) {
+    if (touches(w) || is_passed_over(at.wraps[w])) continue;
+    const Piece piece = piece_at(at, w);
+    const double here = runs_into(at.wraps[w], piece.from, piece.to).depth;
+    if (here > depth) depth = here, deepest = static_cast<int>(w);
+  }
+  return deepest;
+}
+
 bool TautString::lay(const Place& at, std::optional<int> across_rings) {
   constexpr int kMost = 8;
   for (int change = 0; change < kMost; ++change) {
-    int deepest = -1;
-    double depth = 1e-8;
-    for (std::size_t w = 0; w < at.wraps.size(); ++w) {
-      if (touches(w) || is_passed_over(at.wraps[w])) continue;
-      const Piece piece = piece_at(at, w);
-      const double here = runs_into(at.wraps[w], piece.from, piece.to).depth;
-      if (here > depth) depth = here, deepest = static_cast<int>(w);
-    }
+    const int deepest = deepest_in_the_way(at);
     if (deepest < 0) return true;
     if (at.first.wrap == deepest || at.last.wrap == deepest) return false;
     if (!lay_over(at, static_cast<std::size_t>(deepest), across_rings)) return false;
@@ -134,12 +139,14 @@ std::optional<TautString> TautString::laid(const Scene& scene,
                                            std::size_t ligament,
                                            std::optional<int> across_rings) {
   const LigamentWraps& path = scene.ligaments[ligament].path;
-  if (!path.sides.empty()) return std::nullopt;
   for (const int wrap : path.wraps)
     if (scene.wraps[static_cast<std::size_t>(wrap)].fit) return std::nullopt;
   TautString string(scene, X_BA, ligament);
   const Place at = string.place_at(X_BA);
-  if (string.ends_inside(at) || !string.lay(at, across_rings)) return std::nullopt;
+  if (string.ends_inside(at)) return std::nullopt;
+  // A side that is named says past which side a surface in the way is passed: where none is, nothing.
+  if (!path.sides.empty() && string.deepest_in_the_way(at) >= 0) return std::nullopt;
+  if (!string.lay(at, across_rings)) return std::nullopt;
   return string;
 }
 

@@ -82,6 +82,8 @@ class TautString {
                                                       std::size_t ligament,
                                                       std::optional<int> across_rings);
   bool lay_over(const Place& at, std::size_t wrap, std::optional<int> across_rings);
+  /// Of the surfaces that are not touched the one that a straight piece runs into deepest; -1: none is in the way.
+  [[nodiscard]] int deepest_in_the_way(const Place& at) const;
   bool lay(const Place& at, std::optional<int> across_rings);
   void set_rates(const Place& at, const std::vector<Ends>& ends);
   bool changes_touch(const Place& at);
