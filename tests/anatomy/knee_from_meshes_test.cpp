@@ -156,7 +156,7 @@ TEST_F(NewKneeOfThePhantom, NamesInsertionsBeyondTheEndOfATibiaThatIsCutShort) {
   const auto beyond = [](const NewKnee& knee) {
     std::string found;
     for (const std::string& line : knee.doubts)
-      if (line.find("insertions off the bone") != std::string::npos) found += line;
+      if (line.find("farther from the bone") != std::string::npos) found += line;
     return found;
   };
   EXPECT_EQ(beyond(knee_from_meshes(files({}), {})), "");
@@ -172,7 +172,7 @@ TEST_F(NewKneeOfThePhantom, NamesInsertionsBeyondTheEndOfATibiaThatIsCutShort) {
     const bool is_below = name == "aMCL" || name == "iMCL" || name == "pMCL";
     for (std::size_t end = 0; end < 2; ++end) {
       const bool missing = is_below && !ligament.on_femur[end];
-      EXPECT_NEAR(ligament.ends[end].off, missing ? 6 : 0, missing ? 3 : 2.9) << name;
+      EXPECT_NEAR(ligament.ends[end].farther, missing ? 6 : 0, missing ? 3 : 2.9) << name;
     }
   }
 }

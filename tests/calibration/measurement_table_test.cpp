@@ -98,7 +98,17 @@ TEST(MeasurementTable, OtherUnitsThanTheScenesAreRefused) {
   scene.length_to_mm = scene.angle_to_rad = 1;
   EXPECT_EQ(told_of(scene),
             "knee.csv:1: its numbers are in deg, expected rad as [units] of knee.toml");
-  EXPECT_EQ(table_of("# units: N m, furlongs\n" + kTable).rows.size(), 7u);
+  EXPECT_EQ(table_of("# units: furlongs, N m,\n" + kTable).rows.size(), 7u);
+}
+
+// The scene of the tests reads moments in N m. Where no row has one, its unit is none of a table's business.
+TEST(MeasurementTable, UnitsOfMomentsAreLookedAtWhereThereAreMoments) {
+  const std::string said = "# units: mm, deg, N mm\n";
+  EXPECT_EQ(told_of(scene_beside(table_folder(), said + kTable)),
+            "knee.csv:1: its numbers are in N mm, expected N m as [calibrate] moment of knee.toml");
+  const std::string forces =
+      kTable.substr(0, kTable.find("k1,ie30")) + kTable.substr(kTable.find("k1,robot"));
+  EXPECT_EQ(table_of(said + forces).rows.size(), 6u);
 }
 
 TEST(MeasurementTable, OnlyTheSpecimenThatIsMeantIsRead) {

@@ -60,8 +60,8 @@ TEST(WrappedSweep, HasTheClosedFormsOfAStringOverAPost) {
   }
 }
 
-// A string round a ball of 10 mm, its moving end held in all six freedoms: where that comes opposite to the other end, all great
-// circles are as short, and no motion is left that could be the softest.
+// A string round a ball of 10 mm, its moving end held in all six freedoms: where that comes opposite
+// to the other end, all great circles are as short, and no motion is left that could be the softest.
 TEST(WrappedSweep, NamesThePathWhereNoMotionIsLeftToBlame) {
   std::string text = test::kWrappedHead + R"(
 [[wrap]]

@@ -105,31 +105,59 @@ TEST(OsimSwitches, CoordinatesMayStandInASetOfTheirOwn) {
                "in the start pose"));
 }
 
-// Two balls on the tibia, one above the other: the strand passes the upper one first, whatever the list says.
+/// Names of the wraps of the strand iMCL, which leads down the medial side from the femur to the tibia, in the order of the
+/// scene: `objects` stand on the bone of `body`, `first` and `second` in the strand's list.
+std::string wraps_of_strand(std::string text,
+                            const std::string& body,
+                            const std::string& objects,
+                            const std::string& first,
+                            const std::string& second) {
+  const std::string head = "<Body name=\"" + body + "\">";
+  text = with(text, head,
+              head + "<WrapObjectSet name=\"wrapobjectset\"><objects>" + objects +
+                  "</objects></WrapObjectSet>");
+  text = with(text, "<wrap_object>Med_Lig_r</wrap_object></PathWrap>",
+              "<wrap_object>" + first + "</wrap_object></PathWrap><PathWrap><wrap_object>" +
+                  second + "</wrap_object></PathWrap>");
+  const OsimScene scene = imported_text(text, "osim_switches");
+  const Scene read = parse_scene(scene.text, kUnwrittenScene, false);
+  std::string names;
+  for (const LigamentDescription& ligament : read.ligaments)
+    for (const int wrap : ligament.path.wraps)
+      names += read.wraps[static_cast<std::size_t>(wrap)].name + " ";
+  return names;
+}
+
+std::string ball(const std::string& name, const std::string& height) {
+  return "<WrapSphere name=\"" + name + "\"><translation>0 " + height +
+         " -0.03</translation><radius>0.005</radius></WrapSphere>";
+}
+
+/// About z, through a point that is far along its axis from where the strand passes.
+std::string cylinder(const std::string& name, const std::string& height, const std::string& along) {
+  return "<WrapCylinder name=\"" + name + "\"><translation>0 " + height + " " + along +
+         "</translation><radius>0.005</radius></WrapCylinder>";
+}
+
+// Whatever the list says, and from whichever end the path is told: the strand passes the upper one first.
 TEST(OsimSwitches, WrapsAreInTheOrderInWhichTheStrandPassesThem) {
-  const auto ball = [](const std::string& name, const std::string& height) {
-    return "<WrapSphere name=\"" + name + "\"><translation>0 " + height +
-           " -0.03</translation><radius>0.005</radius></WrapSphere>";
-  };
-  const auto wraps = [&](const std::string& first, const std::string& second) {
-    std::string text =
-        with(text_of_model(), "<mass>1</mass></Body>\n<Body name=\"tibia_r\">",
-             "<WrapObjectSet name=\"wrapobjectset\"><objects>" + ball("lower", "-0.035") +
-                 ball("upper", "-0.025") +
-                 "</objects></WrapObjectSet><mass>1</mass></Body>\n<Body name=\"tibia_r\">");
-    text = with(text, "<wrap_object>Med_Lig_r</wrap_object></PathWrap>",
-                "<wrap_object>" + first + "</wrap_object></PathWrap><PathWrap><wrap_object>" +
-                    second + "</wrap_object></PathWrap>");
-    const OsimScene scene = imported_text(text, "osim_switches");
-    const Scene read = parse_scene(scene.text, kUnwrittenScene, false);
-    std::string names;
-    for (const LigamentDescription& ligament : read.ligaments)
-      for (const int wrap : ligament.path.wraps)
-        names += read.wraps[static_cast<std::size_t>(wrap)].name + " ";
-    return names;
-  };
-  EXPECT_EQ(wraps("lower", "upper"), "upper lower ");
-  EXPECT_EQ(wraps("upper", "lower"), "upper lower ");
+  const std::string text = text_of_model();
+  const std::size_t first = text.find("<PathPoint name=\"iMCL-P1\">"),
+                    second = text.find("<PathPoint name=\"iMCL-P2\">"),
+                    end = text.find("</PathPoint>", second) + 12;
+  std::string from_tibia = text;
+  from_tibia.replace(first, end - first,
+                     text.substr(second, end - second) + text.substr(first, second - first));
+  const std::string balls = ball("lower", "-0.035") + ball("upper", "-0.025"),
+                    cylinders =
+                        cylinder("lower", "-0.035", "0.5") + cylinder("upper", "-0.025", "-0.5"),
+                    femoral = ball("lower", "0.002") + ball("upper", "0.006");
+  for (const std::string& model : {text, from_tibia})
+    for (const auto& [one, other] : {std::pair{"lower", "upper"}, {"upper", "lower"}}) {
+      EXPECT_EQ(wraps_of_strand(model, "tibia_r", balls, one, other), "upper lower ");
+      EXPECT_EQ(wraps_of_strand(model, "tibia_r", cylinders, one, other), "upper lower ");
+      EXPECT_EQ(wraps_of_strand(model, "femur_distal_r", femoral, one, other), "upper lower ");
+    }
 }
 
 TEST(OsimSwitches, AStrandThatIsNeverFreeHasANoteOfItsOwn) {

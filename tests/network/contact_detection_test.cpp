@@ -71,8 +71,7 @@ Scene hanging_ball(double floor, const std::string& contact, const std::string& 
 
 // Whatever a motion follows: an open contact is told where its gap is smallest, as in a sweep.
 TEST(ContactDetection, AnOpenContactIsToldWhereItsGapIsSmallest) {
-  const std::string elastic =
-      "modulus = 10\npoisson = 0.45\nlayer = 3\n";
+  const std::string elastic = "modulus = 10\npoisson = 0.45\nlayer = 3\n";
   const struct {
     double floor;
     Scene scene;

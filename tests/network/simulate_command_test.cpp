@@ -41,6 +41,11 @@ TEST_F(SimulateCommand, FollowsAMotionAndWritesIt) {
   ASSERT_EQ(run_file.sweep.poses.size(), 6U);
   EXPECT_NEAR(run_file.sweep.poses.front().joint.flexion, 10 * M_PI / 180, 1e-9);
   EXPECT_NEAR(run_file.sweep.poses.back().value, 0.1, 1e-12);
+  // What a file does not tell is null and not the best that there is.
+  const Outcome read = run("report swing.h5 -o swing.html --no-pictures --no-viewer --json");
+  ASSERT_EQ(read.code, 0) << read.err;
+  for (const char* none : {"\"imbalance\": null", "\"steps\": null", "\"completed\": true"})
+    EXPECT_NE(read.out.find(none), std::string::npos) << none << read.out;
 }
 
 /// A scene of the project, from 20 degrees; returns its angles of flexion.

@@ -147,21 +147,29 @@ TEST(PlotCalibration, BandsReachFromFiveToNinetyFivePercent) {
   for (const double low : mark_of(force, Mark::Kind::kBand, kBeforeInk).low) EXPECT_GE(low, 0);
 }
 
-TEST(PlotCalibration, AContactThatPullsIsDrawnBelowZero) {
-  const auto scene = test::made_up_calibration_scene();
+TEST(PlotCalibration, AContactThatIsHeldClosedAndPullsIsDrawnBelowZero) {
+  Scene scene = test::made_up_calibration_scene();
   CalibrationResult result = test::made_up_calibration();
   Band pulls = result.bands[0];
   pulls.quantity = "medial.force";
   pulls.units = "N";
   for (double& mean : pulls.after) mean = -500;
   result.bands = {pulls};
-  const auto pages = band_pages(scene, result);
-  const PagePanel& panel = page_of(pages, "calibration_bands").panels.at(0);
-  EXPECT_EQ(panel.title, "medial contact");
-  EXPECT_LT(mark_of(panel, Mark::Kind::kBand, kAfterInk).low[3], -500);
-  EXPECT_EQ(gnuplot_script(page_of(pages, "calibration_bands"), PlotFormat::kPng)
-                .find("set yrange [0:*]"),
-            std::string::npos);
+  const auto lowest = [&](ContactState state) {
+    scene.contacts.resize(1);
+    scene.contacts[0].name = "medial";
+    scene.contacts[0].state = state;
+    const auto pages = band_pages(scene, result);
+    const PagePanel& panel = page_of(pages, "calibration_bands").panels.at(0);
+    EXPECT_EQ(panel.title, "medial contact");
+    return mark_of(panel, Mark::Kind::kBand, kAfterInk).low[3];
+  };
+  EXPECT_LT(lowest(ContactState::kClosed), -500);
+  EXPECT_EQ(
+      gnuplot_script(page_of(band_pages(scene, result), "calibration_bands"), PlotFormat::kPng)
+          .find("set yrange [0:*]"),
+      std::string::npos);
+  EXPECT_EQ(lowest(ContactState::kAuto), 0);  // it opens before it pulls
 }
 
 TEST(PlotCalibration, LigamentsThatNeverCarryHaveNoBand) {

@@ -92,6 +92,8 @@ TEST_F(PictureCommands, SayWhatIsWrong) {
       "each way: fewer poses (--at) or a larger page (--size)");
   expect_refusal(run("plot run.h5 missing.h5 -o out"), "missing.h5");
   expect_refusal(run("plot run.h5 -o out --format jpg"), "expected png, svg or pdf");
+  expect_refusal(run("plot run.h5 run.h5 run.h5 run.h5 run.h5 run.h5 run.h5 -o out"),
+                 "7 runs over each other, expected at most 6");
 }
 
 TEST_F(PictureCommands, SeveralRunsLieOverEachOther) {

@@ -90,7 +90,8 @@ TEST(FitHeights, MeasuresWhatAQuarticLeavesOfASphere) {
   EXPECT_EQ(quartic[2].degree, 0);
 }
 
-// One femoral ball on two plateaus, one of them tilted by 0.2 rad: its plane faces between them, whichever contact stands first.
+// One femoral ball on two plateaus, 0.2 rad apart: its plane faces between them, whichever contact
+// stands first.
 TEST(FitHeights, ASurfaceOfTwoContactsFacesBothOppositeOnes) {
   Scene scene = read_scene(CONDYLE_SOURCE_DIR "/data/wismans-type/knee.toml");
   ASSERT_EQ(scene.contacts.size(), 2U);

@@ -10,8 +10,10 @@
 
 #include "condyle/scene/ligament_path.h"
 #include "condyle/scene/start_pose.h"
+#include "condyle/scene_file/read_scene.h"
 #include "condyle/verify/coordinates.h"
 #include "condyle/verify/verify.h"
+#include "support/wrapped_scenes.h"
 #include "verify/computed_run.h"
 
 namespace condyle::verification {
@@ -54,6 +56,32 @@ TEST(TautString, AFalseSlackLengthOfALigamentThatWrapsIsFound) {
   const CheckSummary slack = verify_run(run).checks.at(static_cast<std::size_t>(Check::kSlack));
   EXPECT_GT(slack.failed, 0);
   EXPECT_NEAR(slack.figure, 0.01, 1e-6);
+}
+
+// The line runs 12 mm over the axis of a surface of 10 mm (a tube of 2 mm about a ring of 8). A named side beyond it leads the
+// string round a cylinder; a ring that is not in the way is passed straight, whichever side is named.
+TEST(TautString, ASideThatIsNamedIsLeftToTheProgramButWhereARingIsClear) {
+  const auto first = [](const std::string& shape, const std::string& side) {
+    const Scene scene =
+        parse_scene(test::kWrappedHead + "[[wrap]]\nname = \"post\"\nbody = \"femur\"\n" + shape +
+                        "[[ligament]]\nname = \"strand\"\nends = [{ body = \"femur\", at = [-40, "
+                        "0, 0] }, { body = "
+                        "\"tibia\", at = [40, 0, 0] }]\nwraps = [\"post\"]\nlaw = "
+                        "\"toe-linear\"\nstiffness = 1500\n"
+                        "slack_length = 70\n" +
+                        side,
+                    "knee.toml");
+    const auto string = TautString::first(scene, start_pose(scene), 0);
+    return string ? string->length() : -1;
+  };
+  const std::string cylinder =
+      "kind = \"cylinder\"\npoint = [0, -12, 7]\naxis = [0, 0, 1]\nradius = 10\n";
+  const std::string ring =
+      "kind = \"torus\"\ncenter = [0, -12, 0]\naxis = [0, 0, 1]\nmajor = 8\nminor = 2\n";
+  const std::string beyond = "side = [0, -60, 7]\n";
+  for (const std::string& shape : {cylinder, ring}) EXPECT_NEAR(first(shape, ""), 80, 1e-12);
+  EXPECT_NEAR(first(ring, beyond), 80, 1e-12);
+  EXPECT_EQ(first(cylinder, beyond), -1);
 }
 
 // A made-up knee (number 691 of seed 1): strings over small surfaces, and bodies that have their origins metres

@@ -136,7 +136,7 @@ ExactErrors exact_errors(const Draws& draws, double prior) {
     int known = 0;
     for (const double singular : outcome.known.singular_values) known += singular >= 1e-3 * prior;
     errors.determined += known / static_cast<double>(draws.outcomes.size());
-    if (outcome.fit.cost > kNoCost) continue;
+    if (outcome.fit.y.size() == 0 || !(outcome.fit.cost <= kNoCost)) continue;
     ++errors.explained;
     errors.at_once += outcome.starts == 1;
     Eigen::VectorXd error = outcome.fit.theta - outcome.truth;

@@ -140,10 +140,14 @@ void fit_truth(const LeastSquaresProblem& problem,
   LeastSquaresResult& best = outcome.fit;
   best = solve_least_squares(problem, VectorXd::Zero(prior.size()));
   outcome.starts = 1;
-  for (; outcome.starts < plan.starts && best.cost > kNoCost; ++outcome.starts) {
+  const auto explains = [](const LeastSquaresResult& fit) {
+    return fit.y.size() > 0 && fit.cost <= kNoCost;
+  };
+  for (; outcome.starts < plan.starts && !explains(best); ++outcome.starts) {
     const VectorXd from = plan.truth * prior.cwiseProduct(normal_numbers(engine, prior.size()));
     LeastSquaresResult other = solve_least_squares(problem, from);
-    if (other.y.size() > 0 && other.cost < best.cost) best = std::move(other);
+    if (other.y.size() > 0 && (best.y.size() == 0 || other.cost < best.cost))
+      best = std::move(other);
   }
 }
 

@@ -95,7 +95,7 @@ CarriedPoint carry(const BoneRegistration& bones,
     carried.at = *down;
   }
   if (height > kInserted) carried.at += bones.at(point) - bones.at(base);
-  carried.off = std::max(0.0, other(carried.at) - height);
+  carried.farther = std::max(0.0, other(carried.at) - height);
   carried.moved = (carried.at - bones.alignment.at(point)).norm();
   carried.uncertainty = estimated_deviation(near, carried.moved, height, down.has_value());
   return carried;

@@ -18,11 +18,10 @@ struct FramedBone {
 };
 
 struct CarriedPoint {
-  Eigen::Vector3d at;  ///< on the other bone, frame of its mesh [mm]
-  double moved = 0;    ///< from where alignment by frames and size puts it [mm]
-  double dropped = 0;  ///< distance of the last step, onto the bone [mm]; 0 where there is none
-  double off =
-      0;  ///< how much farther from this bone than it was from its own [mm]: bone is missing
+  Eigen::Vector3d at;      ///< on the other bone, frame of its mesh [mm]
+  double moved = 0;        ///< from where alignment by frames and size puts it [mm]
+  double dropped = 0;      ///< distance of the last step, onto the bone [mm]; 0 where there is none
+  double farther = 0;      ///< from this bone than from its own [mm]: where bone is missing
   double uncertainty = 0;  ///< estimated standard deviation of `at` along the bone [mm]
 };
 

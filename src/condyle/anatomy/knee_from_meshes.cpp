@@ -177,8 +177,8 @@ void choose_ligaments(NewKnee& knee) {
         wrapped));
 }
 
-/// Ends of ligaments to look at: "WHAT, 5 of 24: "aACL" femur ±6 mm, ..."; nothing where there are none. `told`: what is said
-/// of one, empty of one that is as wanted.
+/// Ends of ligaments to look at: "WHAT, 5 of 24: "aACL" femur ±6 mm, ..."; nothing where there are
+/// none. `told`: what is said of one, empty of one that is as wanted.
 void doubt_ends(NewKnee& knee,
                 const std::string& what,
                 const std::function<std::string(const CarriedPoint&)>& told) {
@@ -208,10 +208,12 @@ void doubt_insertions(NewKnee& knee) {
                : std::string();
   });
   doubt_ends(knee,
-             "insertions off the bone, as beyond the end of a mesh that is cut short or on a "
+             "insertions farther from the bone than the template's, as beyond the end of a mesh "
+             "that is cut short or on a "
              "fibula that is not in it",
              [](const CarriedPoint& point) {
-               return point.off > kOff ? fmt::format("{:.0f} mm off", point.off) : std::string();
+               return point.farther > kOff ? fmt::format("by {:.0f} mm", point.farther)
+                                           : std::string();
              });
   for (const auto& [carried, bone] : {std::pair{&knee.femur, "femur"}, {&knee.tibia, "tibia"}})
     if (carried->rms > kPoorFit)

@@ -15,10 +15,10 @@
 #include "condyle/app/talk.h"
 #include "condyle/app/tell.h"
 #include "condyle/input_error.h"
+#include "condyle/pictures/gnuplot.h"
 #include "condyle/pictures/picture_folder.h"
 #include "condyle/pictures/plot_run.h"
 #include "condyle/pictures/plot_study.h"
-#include "condyle/report/compared_runs.h"
 #include "condyle/results/run_file.h"
 #include "condyle/results/study_file.h"
 
@@ -66,10 +66,10 @@ std::vector<std::filesystem::path> plot_all(const PlotCommand& command,
     warn_of_empty_curves(command.talk, command.runs.front(), run);
     return plot_run(run, make_picture_folder(command.folder), formats);
   }
-  if (command.runs.size() > kMostComparedRuns)
+  if (command.runs.size() > kMostRunsOverEachOther)
     throw InputError(fmt::format(
         "{} runs over each other, expected at most {}: each has a style of line of its own",
-        command.runs.size(), kMostComparedRuns));
+        command.runs.size(), kMostRunsOverEachOther));
   std::vector<Run> runs;
   for (const std::string& file : command.runs) {
     runs.push_back(read_plottable(file, false));

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -54,23 +53,25 @@ std::string specimen_of(const CsvFile& csv,
   return !wanted.empty() || names.empty() ? wanted : names.front();
 }
 
-/// Refuses a word that names another unit than the scene's; any other word is none of ours.
-void check_unit(const std::string& word,
-                const CsvComment& comment,
-                const CsvFile& csv,
-                const Scene& scene) {
-  const std::array<std::vector<std::string>, 2> known = {{{"mm", "cm", "m"}, {"deg", "rad"}}};
-  const std::array<std::string, 2> own = {unit_name(scene.length_to_mm),
-                                          scene.angle_to_rad == 1 ? "rad" : "deg"};
-  for (std::size_t k = 0; k < own.size(); ++k)
-    if (word != own[k] && std::find(known[k].begin(), known[k].end(), word) != known[k].end())
-      throw InputError(fmt::format("{}:{}: its numbers are in {}, expected {} as [units] of {}",
-                                   csv.file.string(), comment.line, word, own[k],
-                                   scene.file.string()));
+/// Words for units of one quantity, and that of the scene among them.
+struct UnitWords {
+  std::vector<std::string> all;
+  std::string own, key;  ///< key: where the scene says it
+};
+
+std::vector<UnitWords> lengths_and_angles(const Scene& scene) {
+  return {{{"mm", "cm", "m"}, unit_name(scene.length_to_mm), "[units]"},
+          {{"deg", "rad"}, scene.angle_to_rad == 1 ? "rad" : "deg", "[units]"}};
 }
 
-/// A comment "units: mm, deg, N m; ..." says what the numbers are in, which are read in the units of the scene.
-void check_units(const CsvFile& csv, const Scene& scene) {
+std::vector<UnitWords> moments(const Scene& scene) {
+  const double to_nmm = scene.calibration->moment_to_nmm;
+  return {{{"N mm", "N cm", "N m"}, "N " + unit_name(to_nmm), "[calibrate] moment"}};
+}
+
+/// A comment "units: mm, deg, N m; ..." says what the numbers are in, which are read in the units of the scene; other words
+/// are none of ours.
+void check_units(const CsvFile& csv, const Scene& scene, const std::vector<UnitWords>& known) {
   constexpr std::string_view kUnits = "units:";
   for (const CsvComment& comment : csv.comments) {
     if (!comment.text.starts_with(kUnits)) continue;
@@ -78,9 +79,22 @@ void check_units(const CsvFile& csv, const Scene& scene) {
         comment.text.substr(kUnits.size(), comment.text.find(';') - kUnits.size()));
     for (std::string word; std::getline(list >> std::ws, word, ',');) {
       word.erase(word.find_last_not_of(" \t") + 1);
-      check_unit(word, comment, csv, scene);
+      for (const UnitWords& unit : known)
+        if (word != unit.own && std::find(unit.all.begin(), unit.all.end(), word) != unit.all.end())
+          throw InputError(fmt::format("{}:{}: its numbers are in {}, expected {} as {} of {}",
+                                       csv.file.string(), comment.line, word, unit.own, unit.key,
+                                       scene.file.string()));
     }
   }
+}
+
+/// Its level is a moment, or what it measures.
+bool has_moment(const Measurement& row, const Scene& scene) {
+  if (row.load < 0) return false;
+  if (const ConditionDescription* held = held_condition(row.load, scene))
+    return row.kind == MeasuredKind::kReaction && is_angle(held->kind);
+  const CalibrationLoad& load = scene.calibration->loads[static_cast<std::size_t>(row.load)];
+  return scene.loads[static_cast<std::size_t>(load.index)].moment;
 }
 
 /// Rows that measure the same have the same: a level of 0 is no load, but of what holds a coordinate.
@@ -186,7 +200,7 @@ MeasurementTable read_measurements(const Scene& scene) {
     throw InputError(scene.file.string() +
                      ": no table [calibrate], expected one that names measurements");
   const CsvFile csv = read_csv(scene.calibration->measurements, "a table of measurements (CSV)");
-  check_units(csv, scene);
+  check_units(csv, scene, lengths_and_angles(scene));
   const MeasurementColumns columns(csv);
   MeasurementTable table;
   table.file = csv.file;
@@ -202,6 +216,9 @@ MeasurementTable read_measurements(const Scene& scene) {
                    fmt::format("a row that stands once: line {} measures the same", first->second));
     table.rows.push_back(measured);
   }
+  if (std::any_of(table.rows.begin(), table.rows.end(),
+                  [&](const Measurement& row) { return has_moment(row, scene); }))
+    check_units(csv, scene, moments(scene));
   check_relative(scene, table);
   tell_from_unloaded(scene, table);
   if (std::none_of(table.rows.begin(), table.rows.end(),

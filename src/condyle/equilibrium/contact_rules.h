@@ -52,7 +52,8 @@ enum class OpenPair {
                                          double L,
                                          std::vector<GapMinimum>& nearest);
 
-/// What is said of a pair that nothing looks after, held open by its scene, where its surfaces overlap; empty of any other.
+/// What is said of a pair that nothing looks after, held open by its scene, where its surfaces
+/// overlap; empty of any other.
 [[nodiscard]] std::string overlap_of_held_open(const ContactPair& pair, double gap);
 
 class ContactRules {

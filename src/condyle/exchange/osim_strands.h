@@ -37,7 +37,8 @@ struct OsimStrands {
 
 /// The two bones: bodies welded to either, with their poses in it, and the start pose.
 struct OsimBones {
-  const std::map<std::string, RigidTransform>&in_femur, &in_tibia;
+  const std::map<std::string, RigidTransform>& in_femur;
+  const std::map<std::string, RigidTransform>& in_tibia;
   RigidTransform X_FT;  ///< of the tibia in the femur [mm]
 };
 

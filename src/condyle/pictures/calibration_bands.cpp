@@ -26,6 +26,14 @@ bool has_ligament(const Scene& scene, const std::string& name) {
                      [&](const LigamentDescription& ligament) { return ligament.name == name; });
 }
 
+/// Of what pulls or pushes, only a contact that is held closed does the other.
+bool may_pull(const Scene& scene, const std::string& name) {
+  return std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                     [&](const ContactDescription& contact) {
+                       return contact.name == name && contact.state == ContactState::kClosed;
+                     });
+}
+
 bool carries(const Band& band) {
   for (const auto& [mean, sd] :
        {std::pair{&band.before, &band.before_sd}, {&band.after, &band.after_sd}})
@@ -39,11 +47,11 @@ void add_band(PagePanel& panel,
               const std::vector<double>& mean,
               const std::vector<double>& sd,
               const char* ink,
-              bool pulls_only) {
+              bool never_negative) {
   Mark band{Mark::Kind::kBand, x, {}, {}, {}, ink}, line{Mark::Kind::kLine, x, mean, {}, {}, ink};
   for (std::size_t i = 0; i < mean.size() && i < sd.size(); ++i) {
     const double low = mean[i] - kBandInterval * sd[i], high = mean[i] + kBandInterval * sd[i];
-    band.low.push_back(pulls_only && low < 0 ? 0 : low);  // no ligament pushes
+    band.low.push_back(never_negative && low < 0 ? 0 : low);
     band.high.push_back(high);
   }
   panel.marks.insert(panel.marks.begin(), band);
@@ -62,8 +70,9 @@ PagePanel band_panel(const Scene& scene, const CalibrationResult& result, const 
                   : band.units == "mm" ? "Translation [mm]"
                                        : "Rotation [" + shown_unit(band.units) + "]";
   panel.from_zero = !of.empty();
-  add_band(panel, x, band.after, band.after_sd, kAfterInk, has_ligament(scene, of));
-  add_band(panel, x, band.before, band.before_sd, kBeforeInk, has_ligament(scene, of));
+  const bool never_negative = !of.empty() && !may_pull(scene, of);
+  add_band(panel, x, band.after, band.after_sd, kAfterInk, never_negative);
+  add_band(panel, x, band.before, band.before_sd, kBeforeInk, never_negative);
   std::rotate(panel.marks.rbegin(), panel.marks.rbegin() + 1, panel.marks.rend());
   return panel;
 }

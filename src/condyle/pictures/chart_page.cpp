@@ -76,7 +76,8 @@ std::array<double, 2> y_range_of(const PagePanel& panel) {
   return ends;
 }
 
-/// The range that is given; about the only x that there is, where there is but one: gnuplot would take a hundredth of it.
+/// The range that is given; about the only x that there is, where there is but one: gnuplot would
+/// take a hundredth of it.
 std::array<double, 2> x_range_of(const PagePanel& panel) {
   if (std::isfinite(panel.x_range[0]) || std::isfinite(panel.x_range[1])) return panel.x_range;
   double low = 1e300, high = -1e300;

@@ -18,6 +18,8 @@ constexpr std::array<int, 4> kDashes = {1, 2, 4, 5};
 /// By runs: styles of lines, and of points that stand alone.
 constexpr std::array<const char*, 6> kRunDashes = {"1", "2", "3", "4", "5", "(24,6)"};
 constexpr std::array<int, 6> kRunPoints = {7, 6, 5, 4, 9, 8};
+static_assert(kRunPoints.size() == kMostRunsOverEachOther &&
+              kRunDashes.size() == kMostRunsOverEachOther);
 constexpr double kLeft = 0.09;            // of the page, left of the axes
 constexpr double kTitleMargin = 12;       // [pixel]
 constexpr double kLetter = 9.2;           // width of one in the legend [pixel]

@@ -30,6 +30,8 @@ struct Panel {
   std::optional<double> floor = {};  ///< the axis does not reach below: what is there is cut off
 };
 
+inline constexpr std::size_t kMostRunsOverEachOther = 6;  ///< each with a style of its own
+
 /// Panels one above the other over the same abscissa, legends to their right.
 struct Chart {
   std::string title, what;  ///< whose curves, and what they are

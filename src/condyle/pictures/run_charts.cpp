@@ -111,8 +111,8 @@ double greatest_turn(const Scene& scene,
   return greatest;
 }
 
-/// Mean of the points on the tibia, weighted by the size of their forces, as one that is held closed may pull; nothing for an
-/// open contact.
+/// Mean of the points on the tibia, weighted by the size of their forces, as one that is held closed
+/// may pull; nothing for an open contact.
 std::optional<Vector3d> place_on_tibia(const Scene& scene,
                                        const PoseResult& pose,
                                        const ContactResult& contact) {

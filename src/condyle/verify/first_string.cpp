@@ -144,8 +144,10 @@ std::optional<TautString> TautString::laid(const Scene& scene,
   TautString string(scene, X_BA, ligament);
   const Place at = string.place_at(X_BA);
   if (string.ends_inside(at)) return std::nullopt;
-  // A side that is named says past which side a surface in the way is passed: where none is, nothing.
-  if (!path.sides.empty() && string.deepest_in_the_way(at) >= 0) return std::nullopt;
+  // Where a side is named only a ring that is not in the way is passed straight, on whichever side.
+  if (!path.sides.empty() && (!std::all_of(at.wraps.begin(), at.wraps.end(), is_ring) ||
+                              string.deepest_in_the_way(at) >= 0))
+    return std::nullopt;
   if (!string.lay(at, across_rings)) return std::nullopt;
   return string;
 }

@@ -18,7 +18,8 @@ class TautString {
   TautString(const Scene& scene, const PoseResult& told, std::size_t ligament);
 
   /// As it is laid where nothing is known of it: on the surfaces that it runs through, the deepest first, over
-  /// the side on which it is nearest to leaving each. Nothing where a side is given or none is found.
+  /// the side on which it is nearest to leaving each. Nothing where none is found, or a side is given and
+  /// anything but rings that are not in the way is wrapped on.
   [[nodiscard]] static std::optional<TautString> first(const Scene& scene,
                                                        const RigidTransform& X_BA,
                                                        std::size_t ligament);
