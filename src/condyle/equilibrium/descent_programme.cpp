@@ -13,10 +13,9 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr double kCompliance = 1e-8;   // of the constraints, relative
-constexpr double kLeastForce = 1e-12;  // [N]: no scale is zero where nothing pulls
-constexpr double kLooseness = 3;       // L over which the forces alone make a stiffness
-constexpr double kOfNorm = 0.5;  // of a stiffness: about its greatest coefficient, in any axes
+constexpr double kCompliance = 1e-8;      // of the constraints, relative
+constexpr double kLeastForce = 1e-12;     // [N]: no scale is zero where nothing pulls
+constexpr double kLooseness = 3;          // L over which the forces alone make a stiffness
 constexpr double kLeastStiffness = 1e-4;  // of the greatest: eigenvalues of the programme's matrix
 
 /// Symmetric part of -∂wrench in scaled components [N/mm].
@@ -47,7 +46,7 @@ void Descent::set_forces(Programme& programme) {
   qp.H = symmetric_stiffness(wrench, L);
   qp.g = -scaled_wrench(wrench, L);
   programme.stiffness_scale =
-      std::max(kOfNorm * qp.H.norm(), programme.force_scale / (kLooseness * L));
+      std::max(qp.H.cwiseAbs().maxCoeff(), programme.force_scale / (kLooseness * L));
   qp.floor = kLeastStiffness * programme.stiffness_scale;
   qp.compliance = kCompliance;
 }

@@ -44,7 +44,7 @@ std::optional<JointStiffness> joint_stiffness(const Linearization& at) {
   const Matrix6 J = coordinates.asDiagonal() * joint_jacobian(*at.model.joint, at.state.X) *
                     motions.cwiseInverse().asDiagonal();
   const Matrix6 K = scaled_stiffness(at.wrench(), L);
-  const double largest = std::max(K.norm(), at.force_scale() / L);
+  const double largest = std::max(K.cwiseAbs().maxCoeff(), at.force_scale() / L);
 
   const std::optional<SmallMatrix> regular = regular_inverse(J, 1e-6);
   if (!K.allFinite() || !regular) return std::nullopt;

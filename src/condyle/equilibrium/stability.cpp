@@ -18,7 +18,7 @@ constexpr double kNeutral = 1e-9;  // of the largest stiffness
 Stability stability(const Linearization& at) {
   Eigen::Matrix<double, 6, 6> K = scaled_stiffness(at.wrench(), at.model.length);
   K = (0.5 * (K + K.transpose())).eval();
-  const double largest = std::max(K.norm(), at.force_scale() / at.model.length);
+  const double largest = std::max(K.cwiseAbs().maxCoeff(), at.force_scale() / at.model.length);
 
   Stability result{std::numeric_limits<double>::infinity(), Eigen::Matrix<double, 6, 1>::Zero(),
                    false, false, Motions(6, 0)};
