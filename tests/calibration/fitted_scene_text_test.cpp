@@ -185,6 +185,19 @@ TEST(FittedSceneText, KeepsAllElseAsItStands) {
   EXPECT_TRUE(lines({}).empty());
 }
 
+// A run that was stopped among its samples has fitted numbers all the same.
+TEST(FittedSceneText, SaysWhetherItsNumbersAreAtALeast) {
+  const Scene scene = scene_in("mm", "deg");
+  CalibrationResult result = result_of({moved({ParameterKind::kReferenceStrain, 0})});
+  result.stopped = true;
+  const auto says_stopped = [&] {
+    return fitted_scene_text(scene, result).find("; stopped before the least") != std::string::npos;
+  };
+  EXPECT_TRUE(says_stopped());
+  result.fit.converged = true;
+  EXPECT_FALSE(says_stopped());
+}
+
 TEST(FittedSceneText, AStrainKeepsItsMeaningWhereInsertionsMove) {
   const Scene scene = scene_in("mm", "deg");
   const CalibrationResult result =

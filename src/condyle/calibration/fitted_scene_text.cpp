@@ -135,10 +135,10 @@ std::string first_line(const CalibrationResult& result) {
   const MeasurementTable& table = result.table;
   const std::string specimen =
       table.specimen.empty() ? "" : fmt::format(", specimen {}", table.specimen);
-  return scene_comment(fmt::format("Fitted by condyle calibrate to {}{}: {} numbers of {} rows{}",
-                                   table.file.filename().string(), specimen,
-                                   result.fit.theta.size(), result.fitted.rows,
-                                   result.stopped ? "; stopped before the least" : "")) +
+  return scene_comment(fmt::format(
+             "Fitted by condyle calibrate to {}{}: {} numbers of {} rows{}",
+             table.file.filename().string(), specimen, result.fit.theta.size(), result.fitted.rows,
+             result.stopped && !result.fit.converged ? "; stopped before the least" : "")) +
          "\n";
 }
 
