@@ -16,6 +16,12 @@ const ConditionDescription* held_condition(int load, const Scene& scene) {
   return &scene.conditions[static_cast<std::size_t>(tested.index)];
 }
 
+bool is_moment(int load, const Scene& scene) {
+  if (load < 0 || held_condition(load, scene)) return false;
+  const CalibrationLoad& tested = scene.calibration->loads[static_cast<std::size_t>(load)];
+  return scene.loads[static_cast<std::size_t>(tested.index)].moment;
+}
+
 std::string name_of(const Measurement& row, const MeasurementTable& table, const Scene& scene) {
   std::string name =
       fmt::format("{}:{}: {}, {:.6g} {}", table.file.string(), row.line, one_line(row.test),
@@ -25,7 +31,7 @@ std::string name_of(const Measurement& row, const MeasurementTable& table, const
   double unit = scene.force_to_n;
   if (const ConditionDescription* held = held_condition(row.load, scene))
     unit = is_angle(held->kind) ? scene.angle_to_rad : scene.length_to_mm;
-  else if (scene.loads[static_cast<std::size_t>(load.index)].moment)
+  else if (is_moment(row.load, scene))
     unit = scene.calibration->moment_to_nmm;
   return name + fmt::format(", {} {:.6g}", load.name, row.level / unit);
 }

@@ -63,6 +63,9 @@ struct MeasurementTable {
 /// The condition that a load of the tests is; null for one that pulls, and for none (-1).
 [[nodiscard]] const ConditionDescription* held_condition(int load, const Scene& scene);
 
+/// The level of that load is a moment; false for none (-1) and for a condition that is held.
+[[nodiscard]] bool is_moment(int load, const Scene& scene);
+
 /// How a row is called in messages: "knee.csv:7: ap30, 30 deg, anterior 88".
 [[nodiscard]] std::string name_of(const Measurement& row,
                                   const MeasurementTable& table,

@@ -69,9 +69,7 @@ double sized(const CsvRow& row,
 Scale level_scale(const Measurement& measured, const Scene& scene) {
   if (const ConditionDescription* held = held_condition(measured.load, scene))
     return is_angle(held->kind) ? angle_scale(scene) : length_scale(scene);
-  const CalibrationLoad& load = scene.calibration->loads[static_cast<std::size_t>(measured.load)];
-  return scene.loads[static_cast<std::size_t>(load.index)].moment ? moment_scale(scene)
-                                                                  : force_scale(scene);
+  return is_moment(measured.load, scene) ? moment_scale(scene) : force_scale(scene);
 }
 
 void read_level(const CsvRow& row,

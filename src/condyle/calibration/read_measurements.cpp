@@ -90,11 +90,9 @@ void check_units(const CsvFile& csv, const Scene& scene, const std::vector<UnitW
 
 /// Its level is a moment, or what it measures.
 bool has_moment(const Measurement& row, const Scene& scene) {
-  if (row.load < 0) return false;
-  if (const ConditionDescription* held = held_condition(row.load, scene))
-    return row.kind == MeasuredKind::kReaction && is_angle(held->kind);
-  const CalibrationLoad& load = scene.calibration->loads[static_cast<std::size_t>(row.load)];
-  return scene.loads[static_cast<std::size_t>(load.index)].moment;
+  const ConditionDescription* held = held_condition(row.load, scene);
+  const bool reaction = held && row.kind == MeasuredKind::kReaction && is_angle(held->kind);
+  return reaction || is_moment(row.load, scene);
 }
 
 /// Rows that measure the same have the same: a level of 0 is no load, but of what holds a coordinate.

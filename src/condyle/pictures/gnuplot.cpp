@@ -57,37 +57,33 @@ double right_end(const Chart& chart) {
   return 1 - legend / kWidth;
 }
 
-std::string data_block(const std::string& name, const Numbers& x, const Numbers& y) {
-  std::string block = "$" + name + " << END_OF_DATA\n";
+std::string point_block(const std::string& name, const Numbers& x, const Numbers& y) {
+  std::string lines;
   for (std::size_t i = 0; i < x.size() && i < y.size(); ++i) {
     const bool known = std::isfinite(x[i]) && std::isfinite(y[i]);
-    block += known ? fmt::format("{:.9g} {:.9g}\n", x[i], y[i]) : "\n";
+    lines += known ? fmt::format("{:.9g} {:.9g}\n", x[i], y[i]) : "\n";
   }
-  return block + "END_OF_DATA\n";
+  return data_block(name, lines);
 }
 
-/// Points without a neighbour, of which a line shows nothing.
-std::string lone_points(const std::string& name, const Numbers& x, const Numbers& y) {
-  const auto known = [&](std::size_t i) {
-    return i < x.size() && i < y.size() && std::isfinite(x[i]) && std::isfinite(y[i]);
-  };
-  std::string points;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    if (known(i) && (i == 0 || !known(i - 1)) && !known(i + 1))
-      points += fmt::format("{:.9g} {:.9g}\n", x[i], y[i]);
-  return points.empty() ? "" : "$" + name + " << END_OF_DATA\n" + points + "END_OF_DATA\n";
+/// Of the points that a line shows nothing of; empty where there are none.
+std::string lone_block(const std::string& name, const Curve& curve) {
+  std::string lines;
+  for (const std::size_t i : lone_points(curve.x, curve.y))
+    lines += fmt::format("{:.9g} {:.9g}\n", curve.x[i], curve.y[i]);
+  return lines.empty() ? "" : data_block(name, lines);
 }
 
 /// Broken where the curve is.
 std::string band_block(const std::string& name, const Curve& curve) {
-  std::string block = "$" + name + " << END_OF_DATA\n";
+  std::string lines;
   for (std::size_t i = 0; i < curve.low.size(); ++i) {
     const bool known = std::isfinite(curve.x[i]) && std::isfinite(curve.y[i]) &&
                        std::isfinite(curve.low[i]) && std::isfinite(curve.high[i]);
-    block += known ? fmt::format("{:.9g} {:.9g} {:.9g}\n", curve.x[i], curve.low[i], curve.high[i])
+    lines += known ? fmt::format("{:.9g} {:.9g} {:.9g}\n", curve.x[i], curve.low[i], curve.high[i])
                    : "\n";
   }
-  return block + "END_OF_DATA\n";
+  return data_block(name, lines);
 }
 
 std::string band_command(std::size_t color, const std::string& data) {
@@ -220,11 +216,10 @@ std::string panel_script(const Chart& chart, std::size_t index, int height) {
     if (!has_points(panel.curves[i])) continue;
     const std::string name = fmt::format("panel{}curve{}", index, i);
     const Curve& curve = panel.curves[i];
-    script += data_block(name, curve.x, curve.y);
-    if (has_hollow(curve)) script += data_block(name + "hollow", curve.hollow_x, curve.hollow_y);
+    script += point_block(name, curve.x, curve.y);
+    if (has_hollow(curve)) script += point_block(name + "hollow", curve.hollow_x, curve.hollow_y);
     if (!curve.low.empty()) script += band_block(name + "band", curve);
-    const std::string alone =
-        is_marked(chart, curve) ? "" : lone_points(name + "alone", curve.x, curve.y);
+    const std::string alone = is_marked(chart, curve) ? "" : lone_block(name + "alone", curve);
     script += alone;
     commands += commands.empty() ? "plot " : ", ";
     if (!curve.low.empty()) commands += band_command(color_of(curve, i), name + "band");

@@ -72,6 +72,21 @@ std::string plot_style(PlotFormat format, int width, int height) {
          "set offsets graph 0, graph 0, graph 0.05, graph 0\n";
 }
 
+std::string data_block(const std::string& name, const std::string& lines) {
+  return "$" + name + " << END_OF_DATA\n" + lines + "END_OF_DATA\n";
+}
+
+std::vector<std::size_t> lone_points(const std::vector<double>& x, const std::vector<double>& y) {
+  const std::size_t count = std::min(x.size(), y.size());
+  const auto is_known = [&](std::size_t i) {
+    return i < count && std::isfinite(x[i]) && std::isfinite(y[i]);
+  };
+  std::vector<std::size_t> alone;
+  for (std::size_t i = 0; i < count; ++i)
+    if (is_known(i) && (i == 0 || !is_known(i - 1)) && !is_known(i + 1)) alone.push_back(i);
+  return alone;
+}
+
 Title page_title(const std::string& title, const std::string& what, double room) {
   if (title.empty()) return {{what}};
   const std::string first = shortened(title, kLongestTitle);

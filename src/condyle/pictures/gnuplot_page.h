@@ -32,6 +32,12 @@ inline constexpr std::array<const char*, 8> kColors = {"#0072B2", "#D55E00", "#0
 /// Borders, tics, grid, and what all panels of a page begin with.
 [[nodiscard]] std::string plot_style(PlotFormat format, int width, int height);
 
+/// Lines of numbers under a name, for `$NAME` in a command.
+[[nodiscard]] std::string data_block(const std::string& name, const std::string& lines);
+/// Indices of the points without a neighbour on either side, of which a line shows nothing. NaN, or no number: a gap.
+[[nodiscard]] std::vector<std::size_t> lone_points(const std::vector<double>& x,
+                                                   const std::vector<double>& y);
+
 /// The title in one line or, where that is too long, in two, smaller where it has to be, and cut.
 struct Title {
   std::vector<std::string> lines;

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "condyle/pictures/gnuplot_page.h"
+
 namespace condyle {
 namespace {
 
@@ -13,10 +15,6 @@ constexpr double kHalfCell = 0.5;
 
 bool known(const std::vector<double>& values, std::size_t i) {
   return i < values.size() && std::isfinite(values[i]);
-}
-
-std::string block(const std::string& name, const std::string& lines) {
-  return "$" + name + " << END_OF_DATA\n" + lines + "END_OF_DATA\n";
 }
 
 /// From the first to one past the last of following points that all have values.
@@ -47,7 +45,7 @@ MarkScript band(const Mark& mark, const std::string& name) {
     for (std::size_t i = begin; i < end; ++i)
       lines += fmt::format("{:.6g} {:.6g} {:.6g}\n", mark.x[i], mark.low[i], mark.high[i]);
     const std::string piece = fmt::format("{}piece{}", name, count++);
-    script.data += block(piece, lines);
+    script.data += data_block(piece, lines);
     if (!script.command.empty()) script.command += ", ";
     script.command +=
         end == begin + 1
@@ -58,23 +56,24 @@ MarkScript band(const Mark& mark, const std::string& name) {
   return script;
 }
 
+std::string point_line(const Mark& mark, std::size_t i) {
+  return fmt::format("{:.6g} {:.6g}\n", mark.x[i], mark.y[i]);
+}
+
 MarkScript line(const Mark& mark, const std::string& name) {
   std::string lines, alone;
   bool any = false;
-  const auto is_known = [&](std::size_t i) { return known(mark.x, i) && known(mark.y, i); };
   for (std::size_t i = 0; i < mark.x.size(); ++i) {
-    const std::string point =
-        is_known(i) ? fmt::format("{:.6g} {:.6g}\n", mark.x[i], mark.y[i]) : "\n";
-    lines += point;
-    if (!is_known(i)) continue;
-    any = true;
-    if ((i == 0 || !is_known(i - 1)) && !is_known(i + 1)) alone += point;
+    const bool here = known(mark.x, i) && known(mark.y, i);
+    lines += here ? point_line(mark, i) : "\n";
+    any |= here;
   }
   if (!any) return {};
-  MarkScript script{block(name, lines),
+  MarkScript script{data_block(name, lines),
                     fmt::format("${} using 1:2 with lines {} notitle", name, line_look(mark))};
+  for (const std::size_t i : lone_points(mark.x, mark.y)) alone += point_line(mark, i);
   if (alone.empty()) return script;
-  script.data += block(name + "alone", alone);
+  script.data += data_block(name + "alone", alone);
   script.command += fmt::format(
       ", ${}alone using 1:2 with points pointtype {} pointsize {:g} linecolor '{}' notitle", name,
       mark.dashed ? 6 : 7, 0.4 * mark.size, mark.ink);
@@ -97,7 +96,7 @@ MarkScript dots(const Mark& mark, const std::string& name) {
     command += fmt::format(
         "${} using 1:2 with points pointtype 7 pointsize {:g} linecolor '#ffffff' notitle, ", name,
         mark.size);
-  return {block(name, lines),
+  return {data_block(name, lines),
           command + fmt::format("${} using 1:2 with points {} notitle", name, dot_look(mark))};
 }
 
@@ -109,7 +108,7 @@ MarkScript bars(const Mark& mark, const std::string& name) {
                            mark.low[i], mark.high[i], mark.y[i] - mark.size / 2,
                            mark.y[i] + mark.size / 2);
   if (lines.empty()) return {};
-  return {block(name, lines),
+  return {data_block(name, lines),
           fmt::format("${} using 1:2:3:4:5:6 with boxxyerror linecolor '{}' {} notitle", name,
                       mark.ink, fill_look(mark))};
 }
@@ -123,7 +122,7 @@ MarkScript cells(const Mark& mark, const std::string& name) {
                          mark.y[i] + kHalfCell, (c[0] << 16) + (c[1] << 8) + c[2]);
   }
   if (lines.empty()) return {};
-  return {block(name, lines),
+  return {data_block(name, lines),
           fmt::format("${} using 1:2:3:4:5:6:7 with boxxyerror linecolor rgb variable fillstyle "
                       "solid noborder notitle",
                       name)};

@@ -15,8 +15,11 @@ namespace {
 
 std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
-std::string column_of(const SweptQuantity& swept) {
-  return swept.unit.name == "1" ? swept.name : fmt::format("{} {}", swept.name, swept.unit.name);
+/// What is swept, or an output: "flexion deg".
+template <class Quantity>
+std::string column_of(const Quantity& quantity) {
+  return quantity.unit.name == "1" ? quantity.name
+                                   : fmt::format("{} {}", quantity.name, quantity.unit.name);
 }
 
 /// Calls `tell` with what is told of all knees, and of each where that is told.
@@ -38,8 +41,7 @@ std::string cells(const std::vector<std::vector<IndexEstimate>>& estimates,
 std::string head_of_samples(const StudyPlan& plan, const SweptQuantity& swept) {
   std::vector<std::string> parameters, outputs;
   for (const StudyParameter& parameter : plan.parameters) parameters.push_back(parameter.name);
-  for (const StudyOutput& output : plan.outputs)
-    outputs.push_back(output.unit.name == "1" ? output.name : output.name + " " + output.unit.name);
+  for (const StudyOutput& output : plan.outputs) outputs.push_back(column_of(output));
   std::string of_sweep = column_of(swept);
   for (const std::vector<std::string>* taken : {&parameters, &outputs})
     if (std::find(taken->begin(), taken->end(), of_sweep) != taken->end()) {

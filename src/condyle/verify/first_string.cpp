@@ -114,10 +114,9 @@ int TautString::deepest_in_the_way(const Place& at) const {
   return deepest;
 }
 
-bool TautString::lay(const Place& at, std::optional<int> across_rings) {
+bool TautString::lay(const Place& at, int deepest, std::optional<int> across_rings) {
   constexpr int kMost = 8;
-  for (int change = 0; change < kMost; ++change) {
-    const int deepest = deepest_in_the_way(at);
+  for (int change = 0; change < kMost; ++change, deepest = deepest_in_the_way(at)) {
     if (deepest < 0) return true;
     if (at.first.wrap == deepest || at.last.wrap == deepest) return false;
     if (!lay_over(at, static_cast<std::size_t>(deepest), across_rings)) return false;
@@ -145,10 +144,10 @@ std::optional<TautString> TautString::laid(const Scene& scene,
   const Place at = string.place_at(X_BA);
   if (string.ends_inside(at)) return std::nullopt;
   // Where a side is named only a ring that is not in the way is passed straight, on whichever side.
-  if (!path.sides.empty() && (!std::all_of(at.wraps.begin(), at.wraps.end(), is_ring) ||
-                              string.deepest_in_the_way(at) >= 0))
-    return std::nullopt;
-  if (!string.lay(at, across_rings)) return std::nullopt;
+  const bool sided = !path.sides.empty();
+  if (sided && !std::all_of(at.wraps.begin(), at.wraps.end(), is_ring)) return std::nullopt;
+  const int deepest = string.deepest_in_the_way(at);
+  if ((sided && deepest >= 0) || !string.lay(at, deepest, across_rings)) return std::nullopt;
   return string;
 }
 

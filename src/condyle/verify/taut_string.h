@@ -85,7 +85,8 @@ class TautString {
   bool lay_over(const Place& at, std::size_t wrap, std::optional<int> across_rings);
   /// Of the surfaces that are not touched the one that a straight piece runs into deepest; -1: none is in the way.
   [[nodiscard]] int deepest_in_the_way(const Place& at) const;
-  bool lay(const Place& at, std::optional<int> across_rings);
+  /// Over `deepest`, and what then is in the way; false where that does not come clear.
+  bool lay(const Place& at, int deepest, std::optional<int> across_rings);
   void set_rates(const Place& at, const std::vector<Ends>& ends);
   bool changes_touch(const Place& at);
 
