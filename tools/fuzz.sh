@@ -2,20 +2,23 @@
 # Sends what libFuzzer makes up through the doors of the program (tools/fuzz/doors.h), compiled by Clang with the sanitizers for
 # addresses and undefined behaviour, and prints a row of a table for each: docs/reliability.md.
 #
-#   tools/fuzz.sh [DOOR [MINUTES]] [--runs N]
+#   tools/fuzz.sh [DOOR [MINUTES]] [--runs N] [--rounds N]
 #
 # DOOR: a folder of tests/fuzz; all of them where none is named, or "all". MINUTES: for each door, 2. --runs ends a door after so many
-# executions. A door begins with the files of its folder and of out/fuzz/DOOR, where what it learns is kept. An input that crashes,
+# executions. A door begins with the files of its folder and of out/fuzz/DOOR, where what it learns is kept; with --rounds N it begins N
+# times with the files of its folder alone, each for its part of the minutes: what it has learned may be slow. An input that crashes,
 # leaks, takes more than 10 s or 2 GB is kept in out/fuzz, with the command that repeats it. Ends with 2 where there is one, with 77
 # where there is no Clang with libFuzzer.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 runs=-1
+rounds=0
 words=()
 while [ $# -gt 0 ]; do
   case $1 in
     --runs) runs=$2 && shift ;;
+    --rounds) rounds=$2 && shift ;;
     *) words+=("$1") ;;
   esac
   shift
@@ -42,29 +45,48 @@ export LSAN_OPTIONS=suppressions=$PWD/tools/fuzz/leaks.supp:print_suppressions=0
 export ASAN_OPTIONS=malloc_context_size=4  # a deep stack for each allocation takes a tenth of the time
 [ ! -d /dev/shm ] || export TMPDIR=/dev/shm
 
-# last WORD of a line that begins with it
-number_of() { sed -nE "s/^stat::$1: *([0-9]+)$/\1/p" "$log"; }
+# last_or_0 PATTERN: what its group matches in the log's last such line.
+last_or_0() {
+  local found_in_log
+  found_in_log=$(sed -nE "s/$1/\1/p" "$log" | tail -1)
+  echo "${found_in_log:-0}"
+}
 
-# fuzz DOOR: its row.
+larger() { echo $(($1 > $2 ? $1 : $2)); }
+
+# one_run DOOR SECONDS RUNS: adds what it did to the numbers of the row.
 found=0
-fuzz() {
-  local door=$1 status=0 begin=$SECONDS finds state more=()
+one_run() {
+  local door=$1 status=0 more=()
   mkdir -p "$kept/$door"
   [ "$door" != run ] || more=(tests/fuzz/whole_results)
   [ ! -f "tools/fuzz/$door.dict" ] || more+=("-dict=tools/fuzz/$door.dict")
   "$build/condyle_fuzz" "--door=$door" -timeout=10 -rss_limit_mb=2048 -detect_leaks=1 -entropic=0 -close_fd_mask=1 -print_funcs=0 \
-    -print_final_stats=1 "-max_total_time=$((minutes * 60))" "-runs=$runs" "-artifact_prefix=$kept/$door-" \
+    -print_final_stats=1 "-max_total_time=$2" "-runs=$3" "-artifact_prefix=$kept/$door-" \
     "$kept/$door" "tests/fuzz/$door" "${more[@]}" >"$log" 2>&1 || status=$?
-  state=$(grep -aE '^#[0-9]+' "$log" | tail -1)
-  finds=0
   if [ "$status" -ne 0 ]; then
     finds=1 found=1
     grep -aE 'ERROR|what\(\)|SUMMARY' "$log" | head -3 >&2
     sed -nE "s|.*Test unit written to (.*)|repeat: $build/condyle_fuzz --door=$door \1|p" "$log" >&2
   fi
-  printf '| %s | %s | %s | %s | %s | %s | %s |\n' "$door" "$(number_of number_of_executed_units)" "$((SECONDS - begin))" \
-    "$(number_of peak_rss_mb)" "$(sed -nE 's/.* cov: ([0-9]+).*/\1/p' <<<"$state")" \
-    "$(sed -nE 's/.* corp: ([0-9]+).*/\1/p' <<<"$state")" "$finds"
+  executions=$((executions + $(last_or_0 '^stat::number_of_executed_units: *([0-9]+)$')))
+  memory=$(larger "$memory" "$(last_or_0 '^stat::peak_rss_mb: *([0-9]+)$')")
+  edges=$(larger "$edges" "$(last_or_0 '^#[0-9].* cov: ([0-9]+).*')")
+  corpus=$(larger "$corpus" "$(last_or_0 '^#[0-9].* corp: ([0-9]+).*')")
+}
+
+# fuzz DOOR: its row.
+fuzz() {
+  local door=$1 begin=$SECONDS round finds=0 executions=0 memory=0 edges=0 corpus=0
+  if [ "$rounds" -eq 0 ]; then
+    one_run "$door" $((60 * minutes)) "$runs"
+  else
+    for ((round = 0; round < rounds && finds == 0 && (runs < 0 || executions < runs); ++round)); do
+      rm -rf "${kept:?}/$door"
+      one_run "$door" $((60 * minutes / rounds)) $((runs < 0 ? -1 : runs - executions))
+    done
+  fi
+  printf '| %s | %s | %s | %s | %s | %s | %s |\n' "$door" "$executions" "$((SECONDS - begin))" "$memory" "$edges" "$corpus" "$finds"
 }
 
 printf '| door | executions | s | MB | edges | corpus | finds |\n|---|---|---|---|---|---|---|\n'
