@@ -8,7 +8,9 @@
 #include "condyle/contact/bending.h"
 #include "condyle/contact/contact.h"
 #include "condyle/math/rotation.h"
+#include "condyle/surface/bspline_basis.h"
 #include "condyle/surface/exact_surfaces.h"
+#include "condyle/surface/patch.h"
 
 namespace condyle {
 namespace {
@@ -58,6 +60,53 @@ TEST(ContactSearch, ASolidThroughAClosedSocketIsAnOverlap) {
     ASSERT_FALSE(minima.empty()) << far;
     EXPECT_LT(minima[0].gap, -1) << far;
   }
+}
+
+/// 40 x 30 mm of z = (x² + y²)/120 mm with waves of 0.2 mm, 9 mm long; the solid is above.
+std::shared_ptr<Patch> wavy_patch() {
+  PatchData data;
+  data.degree = {3, 3};
+  data.nu = 24, data.nv = 18;
+  data.knots_u = uniform_knots(data.nu, 3, -20, 20);
+  data.knots_v = uniform_knots(data.nv, 3, -15, 15);
+  const auto at = [](const std::vector<double>& t, int i) {
+    const auto k = static_cast<std::size_t>(i);
+    return (t[k + 1] + t[k + 2] + t[k + 3]) / 3;
+  };
+  const auto wave = [](double x) { return std::cos(2 * M_PI * x / 9); };
+  for (int i = 0; i < data.nu; ++i)
+    for (int j = 0; j < data.nv; ++j) {
+      const double x = at(data.knots_u, i), y = at(data.knots_v, j);
+      data.control_points.emplace_back(x, y, (x * x + y * y) / 120 + 0.2 * wave(x) * wave(y));
+    }
+  data.orientation = -1;
+  return std::make_shared<Patch>(data);
+}
+
+// A large ball is sampled widely, and need not be: what is seen of the waves over it does not hang on its size.
+TEST(ContactSearch, SeesTheLowestWaveOverABallOfAnySize) {
+  const auto patch = wavy_patch();
+  for (const double R : {100.0, 300.0, 1000.0, 3000.0, 20000.0})
+    for (const double tilt : {0.0, 0.05, 0.1}) {
+      ContactPair pair = pair_of(make_sphere({0, 0, -R}, R, true), nullptr);
+      pair.on_A = patch;
+      RigidTransform X{exp_rotation({0, tilt, 0}), Eigen::Vector3d::Zero()};
+      const auto lowest = [&] {
+        double gap = INFINITY;
+        for (double u = -19.9; u < 20; u += 0.1)
+          for (double v = -14.9; v < 15; v += 0.1)
+            gap = std::min(gap,
+                           (X * patch->derivatives(u, v).c + Eigen::Vector3d(0, 0, R)).norm() - R);
+        return gap;
+      };
+      X.p.z() = -0.02 - lowest();
+      ContactSearch search(pair);
+      EXPECT_LT(search.deepest(), 15) << R;
+      std::vector<GapMinimum> minima;
+      search.find(X, 0, minima);
+      ASSERT_FALSE(minima.empty()) << R << ", " << tilt;
+      EXPECT_NEAR(minima[0].gap, lowest(), 1e-3) << R << ", " << tilt;
+    }
 }
 
 TEST(ContactSearch, SurfacesMuchSmallerThanTheSpacingAreSeen) {

@@ -60,33 +60,45 @@ void keep_isolated(std::vector<GapMinimum>& minima, double merge) {
 
 }  // namespace
 
-/// Both surfaces with the spacing that can be afforded.
+/// Each surface with the spacing that it can be given. The one that is seen best is sampled; of two that are seen
+/// alike the one with fewer samples.
 struct ContactCover::Samples {
-  double spacing;
+  double spacing_B, spacing_A;
   std::vector<Place> on_B, on_A;
 
   Samples(const ContactPair& pair, double wanted)
-      : spacing(std::max(affordable_spacing(*pair.on_B, spacing_for(pair, wanted)),
-                         affordable_spacing(*pair.on_A, spacing_for(pair, wanted)))),
-        on_B(pair.on_B->samples(spacing)),
-        on_A(pair.on_A->samples(spacing)) {}
-  [[nodiscard]] bool fewer_on_A() const {
-    return !on_A.empty() && (on_B.empty() || on_A.size() <= on_B.size());
+      : spacing_B(affordable_spacing(*pair.on_B, wanted)),
+        spacing_A(affordable_spacing(*pair.on_A, wanted)),
+        on_B(pair.on_B->samples(spacing_B)),
+        on_A(pair.on_A->samples(spacing_A)) {}
+  [[nodiscard]] bool on_A_are_better() const {
+    if (on_A.empty() || on_B.empty()) return on_B.empty() && !on_A.empty();
+    if (spacing_A != spacing_B) return spacing_A < spacing_B;
+    return on_A.size() <= on_B.size();
   }
 };
 
+namespace {
+
+/// What the samples of the other surface face: no finer than can be afforded.
+SurfaceCover facing_cover(const Surface& surface, double spacing) {
+  return {surface, affordable_spacing(surface, kFacingSpacing * spacing)};
+}
+
+}  // namespace
+
 ContactCover::ContactCover(const ContactPair& pair, double wanted)
-    : ContactCover(pair, Samples(pair, wanted)) {}
+    : ContactCover(pair, Samples(pair, spacing_for(pair, wanted))) {}
 
 ContactCover::ContactCover(const ContactPair& pair, Samples samples)
     : surface_B(pair.on_B),
       surface_A(pair.on_A),
-      spacing(samples.spacing),
-      sampled_on_A(samples.fewer_on_A()),
-      on_B(sampled_on_A ? SurfaceCover(*pair.on_B, kFacingSpacing * spacing)
+      sampled_on_A(samples.on_A_are_better()),
+      spacing(sampled_on_A ? samples.spacing_A : samples.spacing_B),
+      on_B(sampled_on_A ? facing_cover(*pair.on_B, spacing)
                         : SurfaceCover(*pair.on_B, spacing, std::move(samples.on_B))),
       on_A(sampled_on_A ? SurfaceCover(*pair.on_A, spacing, std::move(samples.on_A))
-                        : SurfaceCover(*pair.on_A, kFacingSpacing * spacing)),
+                        : facing_cover(*pair.on_A, spacing)),
       lines(have_straight_lines(pair, spacing)) {}
 
 ContactSearch::ContactSearch(std::shared_ptr<const ContactCover> cover)

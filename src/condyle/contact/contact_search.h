@@ -44,8 +44,8 @@ struct ContactCover {
   ContactCover(const ContactPair& pair, double wanted);
 
   std::shared_ptr<const Surface> surface_B, surface_A;
-  double spacing;     ///< that can be afforded [mm]
-  bool sampled_on_A;  ///< the surface that takes fewer samples; one without bounds has none
+  bool sampled_on_A;  ///< which surface is sampled; one without bounds has no samples
+  double spacing;     ///< of its samples, that can be afforded [mm]
   SurfaceCover on_B, on_A;
   bool lines;  ///< the surfaces may touch along a line (line_contact.h)
 
