@@ -11,7 +11,9 @@
 #include "condyle/contact/layer_contact.h"
 #include "condyle/contact/layer_side.h"
 #include "condyle/math/rotation.h"
+#include "condyle/surface/bspline_basis.h"
 #include "condyle/surface/exact_surfaces.h"
+#include "condyle/surface/patch.h"
 #include "contact/cartilage.h"
 #include "support/bumpy_patches.h"
 
@@ -237,6 +239,54 @@ TEST(LayerLattices, OfASurfaceFarLargerThanTheOtherAreLeftOut) {
   EXPECT_TRUE(has_fine_lattice(*make_sphere(up, 100, true)));
   // Two of them touch over areas as large as they are.
   EXPECT_FALSE(layer_lattice(*make_sphere(up, 1e4, true), 8).x.empty());
+}
+
+/// 44 x 30 mm of z = x²/2Rx + y²/2Ry, upright or upside down; so many control points give the same surface.
+std::shared_ptr<Patch> dome(double Rx, double Ry, int nu, int nv, int up) {
+  PatchData data;
+  data.degree = {3, 3};
+  data.nu = nu, data.nv = nv;
+  data.knots_u = uniform_knots(nu, 3, -22, 22);
+  data.knots_v = uniform_knots(nv, 3, -15, 15);
+  const auto knot = [](const std::vector<double>& t, int i) {
+    return &t[static_cast<std::size_t>(i)];
+  };
+  const auto value = [&](const double* t) { return (t[1] + t[2] + t[3]) / 3; };
+  const auto square = [&](const double* t) {
+    return (t[1] * t[2] + t[1] * t[3] + t[2] * t[3]) / 3;
+  };
+  for (int i = 0; i < nu; ++i)
+    for (int j = 0; j < nv; ++j) {
+      const double *u = knot(data.knots_u, i), *v = knot(data.knots_v, j);
+      data.control_points.emplace_back(value(u), value(v),
+                                       up * (square(u) / (2 * Rx) + square(v) / (2 * Ry)));
+    }
+  data.orientation = -up;
+  return std::make_shared<Patch>(data);
+}
+
+double force_of_domes(int nu, int nv, double x) {
+  ContactPair pair;
+  pair.on_B = dome(400, 400, nu, nv, -1);
+  pair.on_A = dome(20, 15, nu, nv, 1);
+  pair.elastic_B = pair.elastic_A = kCartilage;
+  const auto law = layer_contact({.pressure = PressureLaw::kLinear, .tolerance = 1e-3})(pair);
+  const RigidTransform X{Eigen::Matrix3d::Identity(), {x, 0, -0.2}};
+  law->prepare(X);
+  while (!law->accepts(X)) continue;
+  ContactResult result;
+  (void)law->describe(X, result);
+  return result.force;
+}
+
+// Between points of spans of 7 mm, as a fit with few control points has them, all of a contact may lie.
+TEST(LayerLattices, AreFineEnoughWhereTheSpansOfAPatchAreWide) {
+  for (double x = -6; x <= 6; x += 0.5) {
+    const double fine = force_of_domes(24, 17, x);
+    EXPECT_GT(fine, 5);
+    for (const auto& [nu, nv] : {std::pair{9, 7}, std::pair{7, 5}, std::pair{5, 4}})
+      EXPECT_NEAR(force_of_domes(nu, nv, x) / fine, 1, 4e-3) << nu << " x " << nv << ", " << x;
+  }
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ class LayerContact final : public ContactPotential {
     factor_ = 1;
     tried_ = {};
     held_ = false;
+    error_ = 0;
     forget_places();
   }
 

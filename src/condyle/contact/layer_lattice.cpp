@@ -13,11 +13,22 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Knots of a direction within its domain, without repetitions.
+constexpr double kSpan = 2;             // [mm]
+constexpr double kFine = 4;             // wide enough for a surface beside a smaller one [mm]
+constexpr int kFewest = 8, kMost = 64;  // a small or a great surface has them finer or coarser
+
+/// Knots of a direction within its domain, without repetitions. Spans between which a contact could lie, as a fit with
+/// few control points has them, are divided.
 std::vector<double> breaks(const std::vector<double>& knots, double min, double max) {
+  const double widest = std::max(kFine, (max - min) / kMost);
   std::vector<double> all;
-  for (const double t : knots)
-    if (t >= min && t <= max && (all.empty() || t > all.back())) all.push_back(t);
+  for (const double t : knots) {
+    if (t < min || t > max || (!all.empty() && t <= all.back())) continue;
+    const double last = all.empty() ? t : all.back();
+    const int parts = static_cast<int>(std::ceil((t - last) / widest));
+    for (int k = 1; k < parts; ++k) all.push_back(last + (t - last) * k / parts);
+    all.push_back(t);
+  }
   return all;
 }
 
@@ -106,10 +117,6 @@ void add_blocks(
       close_block(first, lattice);
     }
 }
-
-constexpr double kSpan = 2;             // [mm]
-constexpr double kFine = 4;             // wide enough for a surface beside a smaller one [mm]
-constexpr int kFewest = 8, kMost = 64;  // a small or a great surface has them finer or coarser
 
 /// Which of a list of cells each is.
 class CellNumbers {

@@ -2,7 +2,7 @@
 
 /// Points of a surface that stay where they are on it, each with the area it stands for: what the
 /// energy of an elastic layer is summed over (layer_contact.h). On a patch they are the midpoints
-/// of equal cells in each knot span, on an exact surface of cells of its charts. The integrand has a bounded support and a kink only at the
+/// of equal cells in each knot span, divided where it is wider than 4 mm, on an exact surface of cells of its charts. The integrand has a bounded support and a kink only at the
 /// edge of the contact, where a lattice of midpoints beats Gauss' points: with cells of H the
 /// errors of energy, force and stiffness fall as H^7/2, H^5/2, H^3/2.
 
