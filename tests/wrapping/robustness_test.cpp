@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "condyle/wrapping/touching_line.h"
 #include "support/random.h"
 #include "support/string_over.h"
 
@@ -30,6 +31,30 @@ Vector3d outside(Random& random, const WrapShape& shape) {
   for (;;) {
     const Vector3d x = random.vector(60);
     if (signed_distance(shape, x) > 0.1) return x;
+  }
+}
+
+double lowest_of_many(const WrapShape& shape, const Vector3d& U, const Vector3d& V) {
+  constexpr int kMany = 20000;
+  double lowest = INFINITY;
+  for (int k = 0; k <= kMany; ++k)
+    lowest = std::min(lowest, signed_distance(shape, U + k * (V - U) / kMany));
+  return lowest;
+}
+
+// A line that is long beside the ring it passes goes over two of its sides.
+TEST(WrappedPathRobustness, ALineIsAsHighOverARingAsItsLowestPoint) {
+  const WrapShape thin = WrapTorus{8, 1};
+  const Vector3d U(24.8, 44.838, -7.275), V(-39.538, -55.129, 9.077);
+  EXPECT_NEAR(clearance(thin, U, V), -0.256, 1e-3);
+  Random random(5);
+  for (int trial = 0; trial < 300; ++trial) {
+    const WrapShape ring = WrapTorus{random.between(5, 40), random.between(0.5, 4)};
+    const Vector3d from = random.vector(80), to = random.vector(80);
+    const double exact = lowest_of_many(ring, from, to), step = (to - from).norm() / 20000;
+    const double told = clearance(ring, from, to);
+    EXPECT_LE(told, exact + 1e-12) << trial;
+    EXPECT_GE(told, exact - step) << trial;
   }
 }
 

@@ -277,7 +277,7 @@ SurfacePoint Patch::evaluate_frame(const Place& at) const {
 CONDYLE_FMA_CLONE
 SurfacePoint Patch::point_from(const PatchDerivatives& d) const {
   const Eigen::Vector3d N = d.c_u.cross(d.c_v);
-  const double area = std::max(N.norm(), 1e-300);
+  const double area = std::max(N.norm(), 1e-150);  // whose square is a number
   const double E = d.c_u.squaredNorm(), F = d.c_u.dot(d.c_v), G = d.c_v.squaredNorm();
   const double inverse = 1 / (area * area);
   SurfacePoint point;

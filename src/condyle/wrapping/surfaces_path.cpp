@@ -349,7 +349,7 @@ void SurfacesPath::add_points(const LineEnds& ends,
                               const double*,
                               const std::vector<LineTouch>& touches,
                               std::vector<Vector3d>& points) const {
-  constexpr double kChord = 0.1;
+  constexpr double kChord = 0.1, kMostTurn = 20;
   PathEnds other;
   const PathEnds& found = ends_at(ends, X_BA, other);
   const auto anchored = [&](int end) {
@@ -363,12 +363,17 @@ void SurfacesPath::add_points(const LineEnds& ends,
   for (std::size_t i = 0; i < wraps_.size(); ++i) {
     const LineTouch& touch = touches[i];
     if (!touch.touching) continue;
-    const int chords = static_cast<int>(std::ceil(touch.turn / kChord));
+    const PathSurface& surface = surfaces_[i];
+    const auto frame = [&](const Vector3d& x, const Vector3d& t) {
+      return frame_at(surface.shape, surface.X_SW * x, surface.X_SW.R * t);
+    };
+    const SurfaceFrame from = frame(touch.P, touch.t_P), to = frame(touch.Q, touch.t_Q);
+    // More than half a turn is no angle between tangents.
+    const double turned = 0.5 * (std::abs(from.kappa) + std::abs(to.kappa)) * touch.arc;
+    const int chords =
+        static_cast<int>(std::ceil(std::min(std::max(touch.turn, turned), kMostTurn) / kChord));
     points.push_back(in_ground(touch, touch.P));
     if (chords > 1) {
-      const PathSurface& surface = surfaces_[i];
-      const SurfaceFrame from =
-          frame_at(surface.shape, surface.X_SW * touch.P, surface.X_SW.R * touch.t_P);
       const RigidTransform X = surface.on_A ? X_BA * surface.X_WS : surface.X_WS;
       add_points_along(surface.shape, from, touch.arc * (chords - 1) / chords, chords - 1, X,
                        points);

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -37,20 +38,14 @@ double clearance_of(
   return steep > 0 ? (level - 1) * level / steep : -1 / std::sqrt(M.maxCoeff());
 }
 
-/// Depth on a line that may have several deepest points: the deepest of samples, then golden section.
-double clearance_of(
-    const WrapTorus&, const WrapShape& shape, const Vector3d& U, const Vector3d& V, double* part) {
-  constexpr int kSamples = 48;
+struct LineMinimum {
+  double at, height;
+};
+
+/// Golden section between two places of which one between is lower.
+template <class Height>
+LineMinimum lowest_between(double low, double high, const Height& height) {
   constexpr double kGolden = 0.6180339887498949;
-  const auto height = [&](double at) { return signed_distance(shape, U + at * (V - U)); };
-  int best = 0;
-  double least = height(0);
-  for (int k = 1; k <= kSamples; ++k) {
-    const double h = height(static_cast<double>(k) / kSamples);
-    if (h < least) least = h, best = k;
-  }
-  double low = std::max(0, best - 1) / static_cast<double>(kSamples);
-  double high = std::min(kSamples, best + 1) / static_cast<double>(kSamples);
   double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
   double at_left = height(left), at_right = height(right);
   for (int k = 0; k < 40; ++k) {
@@ -64,9 +59,52 @@ double clearance_of(
       at_right = height(right = low + kGolden * (high - low));
     }
   }
-  const double at = 0.5 * (low + high), h = height(at);
-  if (part != nullptr) *part = h < least ? at : static_cast<double>(best) / kSamples;
-  return std::min(h, least);
+  const double at = 0.5 * (low + high);
+  return {at, height(at)};
+}
+
+/// Depth on a line that may have several deepest points: golden section at each sample that is lower than its
+/// neighbours and may be lowest, as the height changes by no more than the way. Where the line is farther from the
+/// centre than the ring's outside and the height at its point nearest to that, it is not lowest.
+double clearance_of(const WrapTorus& torus,
+                    const WrapShape& shape,
+                    const Vector3d& U,
+                    const Vector3d& V,
+                    double* part) {
+  constexpr int kSamples = 48;
+  const auto height = [&](double at) { return signed_distance(shape, U + at * (V - U)); };
+  const Vector3d d = V - U;
+  const double length = d.norm(), way = length > 0 ? -U.dot(d) / length : 0;
+  const double middle = std::clamp(way, 0.0, length);
+  LineMinimum least{length > 0 ? middle / length : 0, 0};
+  least.height = height(least.at);
+  const double far = torus.ring + torus.tube + std::max(least.height, 0.0);
+  const double half = std::sqrt(std::max(far * far - (U.squaredNorm() - way * way), 0.0));
+  const double first = std::clamp(way - half, 0.0, length),
+               last = std::clamp(way + half, 0.0, length);
+  if (length > 0 && last > first) {
+    const double step = (last - first) / length / kSamples;
+    std::array<double, kSamples + 1> h;
+    const auto at = [&](int k) { return first / length + k * step; };
+    for (int k = 0; k <= kSamples; ++k) {
+      h[static_cast<std::size_t>(k)] = height(at(k));
+      if (h[static_cast<std::size_t>(k)] < least.height)
+        least = {at(k), h[static_cast<std::size_t>(k)]};
+    }
+    const double lowest_sample = least.height;
+    for (int k = 0; k <= kSamples; ++k) {
+      const double here = h[static_cast<std::size_t>(k)];
+      if ((k > 0 && h[static_cast<std::size_t>(k) - 1] < here) ||
+          (k < kSamples && h[static_cast<std::size_t>(k) + 1] < here) ||
+          here - step * length > lowest_sample)
+        continue;
+      const LineMinimum found =
+          lowest_between(at(std::max(k - 1, 0)), at(std::min(k + 1, kSamples)), height);
+      if (found.height < least.height) least = found;
+    }
+  }
+  if (part != nullptr) *part = least.at;
+  return least.height;
 }
 
 /// Seen along the line the quadric is the ellipse xᵀNx = 1, N = M - M d dᵀM/dᵀMd, and the line is a point.
