@@ -7,6 +7,7 @@
 
 #include "condyle/pictures/color_map.h"
 #include "condyle/pictures/fitted_words.h"
+#include "condyle/pictures/gnuplot_page.h"
 #include "condyle/pictures/png_file.h"
 #include "condyle/pictures/run_program.h"
 #include "support/scratch_folder.h"
@@ -75,7 +76,7 @@ TEST(HeatMap, IsDrawnWhateverStandsInItsTitle) {
   if (run_program({"gnuplot", "--version"}, "").exit_code != 0)
     GTEST_SKIP() << "gnuplot is not installed";
   const auto folder = test::fresh_folder("condyle_heat_map");
-  plot(small_map(), folder / "map.png", PlotFormat::kPng);
+  draw_script(gnuplot_script(small_map(), PlotFormat::kPng), folder / "map.png");
   const Image image = read_png(folder / "map.png");
   const Rgb highest = map_color(ColorMap::kDiverging, 1),
             lowest = map_color(ColorMap::kDiverging, 0);

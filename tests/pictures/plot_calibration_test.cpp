@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "condyle/calibration/calibration.h"
+#include "condyle/pictures/gnuplot_page.h"
 #include "condyle/pictures/png_file.h"
 #include "condyle/pictures/run_program.h"
 #include "pictures/plot_pages.h"
@@ -41,7 +42,7 @@ void expect_drawn(const Scene& scene, const CalibrationResult& result, const cha
   const auto where = test::fresh_folder(folder);
   for (const NamedPage& page : pages) {
     const auto file = where / (page.name + ".png");
-    plot(page.page, file, PlotFormat::kPng);
+    draw_script(gnuplot_script(page.page, PlotFormat::kPng), file);
     const Image image = read_png(file);
     EXPECT_EQ(image.width, page.page.width) << page.name;
     EXPECT_EQ(image.height, page.page.height) << page.name;
@@ -295,7 +296,7 @@ TEST(PlotCalibration, NamesOfAScenesOwnAreTakenAsTheyAre) {
   auto result = test::made_up_calibration();
   result.parameters[0].name = "it's `date`.reference_strain";
   const auto file = test::fresh_folder("calibration_names") / "page.svg";
-  plot(parameter_pages(scene, result).at(0).page, file, PlotFormat::kSvg);
+  draw_script(gnuplot_script(parameter_pages(scene, result).at(0).page, PlotFormat::kSvg), file);
   std::stringstream svg;
   svg << std::ifstream(file).rdbuf();
   EXPECT_NE(svg.str().find("it's `date` strain"), std::string::npos);

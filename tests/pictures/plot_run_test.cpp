@@ -10,6 +10,7 @@
 
 #include "condyle/input_error.h"
 #include "condyle/network/simulate.h"
+#include "condyle/pictures/gnuplot_page.h"
 #include "condyle/pictures/png_file.h"
 #include "condyle/pictures/run_program.h"
 #include "pictures/plot_pages.h"
@@ -52,8 +53,8 @@ TEST(PlotRun, WritesPicturesOfEveryChart) {
   auto run = block_run();
   run.scene.title = "'s O'Brien's knee `date` \"x\" \\ $HOME_ {a}^2";
   run.sweep.poses[1].status = PoseStatus::kDiverged;
-  const auto files =
-      plot_run(run, test::fresh_folder("condyle_plots"), {PlotFormat::kPng, PlotFormat::kSvg});
+  const auto files = write_plots(run_plots(run), test::fresh_folder("condyle_plots"),
+                                 {PlotFormat::kPng, PlotFormat::kSvg});
   ASSERT_EQ(files.size(), 12u);  // six charts: no energy without a motion, no stability
   for (const auto& file : files) {
     if (file.extension() != ".png") continue;
@@ -71,7 +72,9 @@ TEST(PlotRun, ARunWithoutAnyValueStillPlots) {
   if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   auto run = block_run();
   for (PoseResult& pose : run.sweep.poses) pose.status = PoseStatus::kDiverged;
-  EXPECT_EQ(plot_run(run, test::fresh_folder("condyle_plots"), {PlotFormat::kPng}).size(), 3u)
+  EXPECT_EQ(
+      write_plots(run_plots(run), test::fresh_folder("condyle_plots"), {PlotFormat::kPng}).size(),
+      3u)
       << "joint coordinates and forces, with empty axes";
 }
 
@@ -81,11 +84,14 @@ TEST(PlotRun, ARunOfSlackLigamentsStillPlots) {
   auto run = block_run();
   for (PoseResult& pose : run.sweep.poses)
     for (LigamentResult& ligament : pose.ligaments) ligament.strain = -0.3;
-  EXPECT_GE(plot_run(run, test::fresh_folder("condyle_plots"), {PlotFormat::kPng}).size(), 3u);
+  EXPECT_GE(
+      write_plots(run_plots(run), test::fresh_folder("condyle_plots"), {PlotFormat::kPng}).size(),
+      3u);
 }
 
 TEST(PlotRun, AFolderThatDoesNotExistIsNamed) {
-  EXPECT_THROW((void)plot_run(block_run(), "no/such/folder", {PlotFormat::kPng}), InputError);
+  EXPECT_THROW((void)write_plots(run_plots(block_run()), "no/such/folder", {PlotFormat::kPng}),
+               InputError);
 }
 
 TEST(PlotRun, PlacesOfContactAreThoseOfTheTibia) {
@@ -184,7 +190,8 @@ TEST(PlotRun, RunsOverDifferentQuantitiesAreRefused) {
 
 TEST(PlotRun, WritesPdf) {
   if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
-  const auto files = plot_run(block_run(), test::fresh_folder("condyle_plots"), {PlotFormat::kPdf});
+  const auto files =
+      write_plots(run_plots(block_run()), test::fresh_folder("condyle_plots"), {PlotFormat::kPdf});
   ASSERT_FALSE(files.empty());
   std::stringstream pdf;
   pdf << std::ifstream(files[0], std::ios::binary).rdbuf();
@@ -200,6 +207,20 @@ TEST(RunProgram, SaysWhichSignalEndedTheOtherOne) {
   const ProgramResult result = run_program({"sh", "-c", "kill -9 $$"}, "");
   EXPECT_EQ(result.exit_code, -1);
   EXPECT_EQ(result.messages, "ended by a signal: Killed");
+}
+
+TEST(RunProgram, SaysWhyAProgramCannotBeStarted) {
+  const auto file = test::fresh_folder("condyle_no_program") / "program";
+  std::ofstream(file) << "#!/bin/sh\n";
+  const ProgramResult result = run_program({file.string()}, "");
+  EXPECT_FALSE(result.started);
+  EXPECT_EQ(result.messages, file.string() + " cannot be started: Permission denied");
+}
+
+// gnuplot says nothing of a disk that is full: what it writes to is none.
+TEST(RunProgram, NeedsNoRoomOnTheDisk) {
+  const ProgramResult result = run_program({"readlink", "/proc/self/fd/1", "/proc/self/fd/2"}, "");
+  EXPECT_EQ(result.output, "/memfd:condyle (deleted)\n/memfd:condyle (deleted)\n");
 }
 
 // What this program ignores the other one does not.
@@ -372,7 +393,7 @@ TEST(PlotRun, ALongTitleStandsInTwoLinesAndEndsOnThePage) {
   const auto drawn = [&](const std::string& title) {
     run.scene.title = title;
     const std::filesystem::path file = test::fresh_folder("condyle_plots") / "title.png";
-    plot(contact_force_chart(run), file, PlotFormat::kPng);
+    draw_script(gnuplot_script(contact_force_chart(run), PlotFormat::kPng), file);
     return read_png(file);
   };
   const Image short_title = drawn("Blocks");

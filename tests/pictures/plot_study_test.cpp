@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "condyle/pictures/gnuplot_page.h"
 #include "condyle/pictures/png_file.h"
 #include "condyle/pictures/run_program.h"
 #include "condyle/results/study_shown.h"
@@ -35,7 +36,7 @@ std::vector<const Mark*> marks_of(const PagePanel& panel, Mark::Kind kind) {
 void expect_drawn(const StudyView& study, const char* folder) {
   if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   const auto where = test::fresh_folder(folder);
-  const auto files = plot_study(study, where, {PlotFormat::kPng});
+  const auto files = write_plots(study_plots(study), where, {PlotFormat::kPng});
   EXPECT_EQ(files.size(), study_pages(study).size() + study_maps(study).size());
   for (const auto& file : files) {
     const Image image = read_png(file);
@@ -87,7 +88,7 @@ TEST(PlotStudy, OnePoseIsSeen) {
   EXPECT_NE(script.find("set xrange [27:33]"), std::string::npos);
   if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   const auto file = test::fresh_folder("study_of_one_pose") / "page.png";
-  plot(page, file, PlotFormat::kPng);
+  draw_script(gnuplot_script(page, PlotFormat::kPng), file);
   EXPECT_EQ(read_png(file).width, page.width);
 }
 

@@ -75,10 +75,10 @@ void export_shapes(const Run& run) {
   (void)glb_of_poses(run, shown, coarse);
 }
 
-/// Charts without a format are made and not handed to gnuplot.
+/// Charts are made and not handed to gnuplot.
 void draw([[maybe_unused]] const Run& run, [[maybe_unused]] std::uint64_t turn) {
 #ifdef CONDYLE_PICTURES
-  (void)plot_run(run, "", {});
+  (void)run_plots(run);
   const std::vector<PoseResult>& poses = run.sweep.poses;
   const auto shown = std::find_if(poses.begin(), poses.end(), has_place);
   if (shown == poses.end()) return;
@@ -103,7 +103,7 @@ void show(const Run& run, const Source& source, std::uint64_t turn) {
 
 void show(const StudyView& study, const Source&, std::uint64_t) {
 #ifdef CONDYLE_PICTURES
-  (void)plot_study(study, "", {});
+  (void)study_plots(study);
 #endif
   (void)json_study({}, study);
   (void)study_page(study, "study.h5", {.pictures = false, .on_part = {}});

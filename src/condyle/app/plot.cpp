@@ -15,7 +15,7 @@
 #include "condyle/app/talk.h"
 #include "condyle/app/tell.h"
 #include "condyle/input_error.h"
-#include "condyle/pictures/gnuplot.h"
+#include "condyle/pictures/gnuplot_page.h"
 #include "condyle/pictures/picture_folder.h"
 #include "condyle/pictures/plot_run.h"
 #include "condyle/pictures/plot_study.h"
@@ -55,17 +55,7 @@ Run read_plottable(const std::string& file, bool alone) {
   return run;
 }
 
-std::vector<std::filesystem::path> plot_all(const PlotCommand& command,
-                                            const std::vector<PlotFormat>& formats) {
-  if (command.runs.size() == 1 && is_study_file(command.runs.front())) {
-    const StudyView study = read_study_file(command.runs.front());
-    return plot_study(study, make_picture_folder(command.folder), formats);
-  }
-  if (command.runs.size() == 1) {
-    const Run run = read_plottable(command.runs.front(), true);
-    warn_of_empty_curves(command.talk, command.runs.front(), run);
-    return plot_run(run, make_picture_folder(command.folder), formats);
-  }
+std::vector<NamedPlot> plots_over_each_other(const PlotCommand& command) {
   if (command.runs.size() > kMostRunsOverEachOther)
     throw InputError(fmt::format(
         "{} runs over each other, expected at most {}: each has a style of line of its own",
@@ -78,15 +68,26 @@ std::vector<std::filesystem::path> plot_all(const PlotCommand& command,
   const std::vector<std::string> names = run_names(command.runs);
   std::vector<NamedRun> named;
   for (std::size_t i = 0; i < runs.size(); ++i) named.push_back({names[i], &runs[i]});
-  const std::vector<NamedChart> charts = overlay(named);  // refuses before a folder is made
-  return plot_charts(charts, make_picture_folder(command.folder), formats);
+  return chart_plots(overlay(named));
+}
+
+std::vector<NamedPlot> all_plots(const PlotCommand& command) {
+  if (command.runs.size() > 1) return plots_over_each_other(command);
+  const std::string& file = command.runs.front();
+  if (is_study_file(file)) return study_plots(read_study_file(file));
+  const Run run = read_plottable(file, true);
+  warn_of_empty_curves(command.talk, file, run);
+  return run_plots(run);
 }
 
 int run_plot(const PlotCommand& command) {
   std::vector<PlotFormat> formats;
   for (const std::string& text : command.formats) formats.push_back(format_from_name(text));
   CommandClock clock;
-  const std::vector<std::filesystem::path> files = plot_all(command, formats);
+  const std::vector<NamedPlot> plots = all_plots(command);
+  expect_gnuplot();  // as what is refused above, before a folder is made
+  const std::vector<std::filesystem::path> files =
+      write_plots(plots, make_picture_folder(command.folder), formats);
   for (const auto& file : files) say(command.talk, "wrote {}\n", file.string());
   CommandSummary facts =
       clock.summary(command.talk, fmt::format("{}", fmt::join(command.runs, " ")), 0);

@@ -305,8 +305,4 @@ std::string gnuplot_script(const ChartPage& page, PlotFormat format) {
   return script + "unset multiplot\nunset output\n";
 }
 
-void plot(const ChartPage& page, const std::filesystem::path& file, PlotFormat format) {
-  draw_script(gnuplot_script(page, format), file);
-}
-
 }  // namespace condyle

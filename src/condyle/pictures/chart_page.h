@@ -70,7 +70,4 @@ void lay_in_grid(ChartPage& page, int columns, double panel_height);
 
 [[nodiscard]] std::string gnuplot_script(const ChartPage& page, PlotFormat format);
 
-/// Throws as `plot` of a chart does.
-void plot(const ChartPage& page, const std::filesystem::path& file, PlotFormat format);
-
 }  // namespace condyle

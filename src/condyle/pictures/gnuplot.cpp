@@ -243,8 +243,4 @@ std::string gnuplot_script(const Chart& chart, PlotFormat format) {
   return script + "unset multiplot\nunset output\n";
 }
 
-void plot(const Chart& chart, const std::filesystem::path& file, PlotFormat format) {
-  draw_script(gnuplot_script(chart, format), file);
-}
-
 }  // namespace condyle

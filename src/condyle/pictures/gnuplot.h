@@ -40,11 +40,7 @@ struct Chart {
   std::vector<std::string> runs = {};  ///< names of the line styles; none where there is one run
 };
 
-/// The script that draws `chart` into `file`.
+/// The script that draws it.
 [[nodiscard]] std::string gnuplot_script(const Chart& chart, PlotFormat format);
-
-/// Draws; never leaves a half-written file. Throws InputError when the folder does not exist,
-/// PictureError when gnuplot is missing or refuses.
-void plot(const Chart& chart, const std::filesystem::path& file, PlotFormat format);
 
 }  // namespace condyle

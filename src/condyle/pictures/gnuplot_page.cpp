@@ -117,18 +117,26 @@ std::string title_labels(const Title& title, double left, PlotFormat format, int
   return script;
 }
 
+constexpr const char* kNoGnuplot =
+    "gnuplot is not installed: plots need it (Debian package gnuplot-nox)";
+
+void expect_gnuplot() { expect_started(run_program({"gnuplot", "--version"}, ""), kNoGnuplot); }
+
+std::string drawn(const std::string& script, const std::string& name) {
+  // Nobody's settings in ~/.gnuplot.
+  ProgramResult result = run_program({"gnuplot", "--default-settings"}, script);
+  expect_started(result, kNoGnuplot);
+  if (result.exit_code != 0 || result.output.empty())
+    throw PictureError(name + ": gnuplot did not draw it: " + result.messages);
+  return std::move(result.output);
+}
+
 void draw_script(const std::string& script, const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   if (!std::filesystem::is_directory(folder))
     throw InputError(folder.string() + ": expected a folder to write " + file.filename().string() +
                      " into");
-  // Nobody's settings in ~/.gnuplot.
-  const ProgramResult result = run_program({"gnuplot", "--default-settings"}, script);
-  if (!result.started)
-    throw PictureError("gnuplot is not installed: plots need it (Debian package gnuplot-nox)");
-  if (result.exit_code != 0 || result.output.empty())
-    throw PictureError(file.string() + ": gnuplot did not draw it: " + result.messages);
-  write_output_file(file, result.output);
+  write_output_file(file, drawn(script, file.string()));
 }
 
 }  // namespace condyle

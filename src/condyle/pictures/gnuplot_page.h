@@ -53,8 +53,11 @@ struct Title {
                                        PlotFormat format,
                                        int height);
 
-/// Gives the script to gnuplot and writes what it draws. Throws as `plot` of a chart does
-/// (gnuplot.h).
+/// Throws PictureError where gnuplot cannot be started.
+void expect_gnuplot();
+/// What gnuplot draws by the script. Throws PictureError, with `name`, where gnuplot is missing or refuses.
+[[nodiscard]] std::string drawn(const std::string& script, const std::string& name);
+/// Writes that; never leaves a half-written file. Throws InputError, too, where the folder does not exist.
 void draw_script(const std::string& script, const std::filesystem::path& file);
 
 }  // namespace condyle

@@ -266,8 +266,4 @@ std::string gnuplot_script(const HeatMap& map, PlotFormat format) {
   return Script(map, format).text();
 }
 
-void plot(const HeatMap& map, const std::filesystem::path& file, PlotFormat format) {
-  draw_script(gnuplot_script(map, format), file);
-}
-
 }  // namespace condyle

@@ -40,10 +40,12 @@ struct HeatMap {
   std::size_t beside = 2;  ///< panels beside each other; the others go below
 };
 
+struct NamedMap {
+  std::string name;  ///< of the file, without its ending
+  HeatMap map;
+};
+
 /// The script that draws it.
 [[nodiscard]] std::string gnuplot_script(const HeatMap& map, PlotFormat format);
-
-/// Errors as of plot (gnuplot.h).
-void plot(const HeatMap& map, const std::filesystem::path& file, PlotFormat format);
 
 }  // namespace condyle

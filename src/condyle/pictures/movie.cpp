@@ -15,8 +15,9 @@ Movie::Movie(std::filesystem::path path, int frames_per_second)
       frames_per_second_(frames_per_second),
       mp4_(file_ending(path_) == ".mp4"),
       animated_(frames_per_second) {
-  if (mp4_ && !run_program({"ffmpeg", "-version"}, "").started)
-    throw PictureError(path_.string() +
+  if (mp4_)
+    expect_started(run_program({"ffmpeg", "-version"}, ""),
+                   path_.string() +
                        ": ffmpeg is not installed: an MP4 needs it (Debian package ffmpeg); "
                        "an animated PNG needs nothing");
 }

@@ -15,18 +15,9 @@ std::vector<NamedChart> all_charts(const Run& run) {
   return charts;
 }
 
-std::vector<std::filesystem::path> plot_charts(const std::vector<NamedChart>& charts,
-                                               const std::filesystem::path& folder,
-                                               const std::vector<PlotFormat>& formats) {
-  std::vector<std::filesystem::path> written;
-  for (const auto& [name, chart] : charts) {
-    for (const PlotFormat format : formats) {
-      if (chart.panels.empty()) continue;
-      written.push_back(folder / (name + "." + ending(format)));
-      plot(chart, written.back(), format);
-    }
-  }
-  return written;
+std::vector<NamedPlot> chart_plots(std::vector<NamedChart> charts) {
+  std::erase_if(charts, [](const NamedChart& named) { return named.chart.panels.empty(); });
+  return plots_of(std::move(charts));
 }
 
 std::vector<NamedPage> calibration_pages(const Run& run) {
@@ -34,27 +25,11 @@ std::vector<NamedPage> calibration_pages(const Run& run) {
   return calibration_pages(run.scene, *run.calibration());
 }
 
-std::vector<std::filesystem::path> plot_pages(const std::vector<NamedPage>& pages,
-                                              const std::filesystem::path& folder,
-                                              const std::vector<PlotFormat>& formats) {
-  std::vector<std::filesystem::path> written;
-  for (const NamedPage& page : pages)
-    for (const PlotFormat format : formats) {
-      written.push_back(folder / (page.name + "." + ending(format)));
-      plot(page.page, written.back(), format);
-    }
-  return written;
-}
-
-std::vector<std::filesystem::path> plot_run(const Run& run,
-                                            const std::filesystem::path& folder,
-                                            const std::vector<PlotFormat>& formats) {
-  std::vector<std::filesystem::path> written = plot_charts(all_charts(run), folder, formats);
-  for (std::filesystem::path& file : plot_sensitivities(run, folder, formats))
-    written.push_back(std::move(file));
-  for (std::filesystem::path& file : plot_pages(calibration_pages(run), folder, formats))
-    written.push_back(std::move(file));
-  return written;
+std::vector<NamedPlot> run_plots(const Run& run) {
+  std::vector<NamedPlot> plots = chart_plots(all_charts(run));
+  append(plots, sensitivity_plots(run));
+  append(plots, plots_of(calibration_pages(run)));
+  return plots;
 }
 
 }  // namespace condyle

@@ -5,8 +5,6 @@
 #include <iterator>
 #include <utility>
 
-#include "condyle/pictures/plot_run.h"
-
 namespace condyle {
 namespace {
 
@@ -31,23 +29,15 @@ std::vector<NamedPage> study_pages(const StudyView& study) {
   return pages;
 }
 
-std::vector<std::filesystem::path> plot_study(const StudyView& study,
-                                              const std::filesystem::path& folder,
-                                              const std::vector<PlotFormat>& formats,
-                                              MapPanels panels) {
-  std::vector<std::filesystem::path> written = plot_pages(study_pages(study), folder, formats);
+std::vector<NamedPlot> study_plots(const StudyView& study, MapPanels panels) {
+  std::vector<NamedPlot> plots = plots_of(study_pages(study));
   for (NamedMap& named : study_maps(study)) {
     constexpr std::size_t kWide = 10;  // columns; twice as many could not be read
     if (named.map.columns.size() > kWide) named.map.beside = 1;
-    for (const auto& [name, map] : panels == MapPanels::kTogether
-                                       ? std::vector<NamedMap>{std::move(named)}
-                                       : panel_by_panel(named))
-      for (const PlotFormat format : formats) {
-        written.push_back(folder / (name + "." + ending(format)));
-        plot(map, written.back(), format);
-      }
+    append(plots, plots_of(panels == MapPanels::kApart ? panel_by_panel(named)
+                                                       : std::vector<NamedMap>{std::move(named)}));
   }
-  return written;
+  return plots;
 }
 
 }  // namespace condyle

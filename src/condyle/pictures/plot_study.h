@@ -3,12 +3,11 @@
 /// Charts of a study: what its samples came to, and what of that which number explains. Blue are the
 /// samples, dashed grey the knee as its scene has it; knees of a population have a colour each.
 
-#include <filesystem>
-#include <string>
 #include <vector>
 
 #include "condyle/pictures/chart_page.h"
 #include "condyle/pictures/heat_map.h"
+#include "condyle/pictures/named_plot.h"
 #include "condyle/results/study_file.h"
 
 namespace condyle {
@@ -27,10 +26,6 @@ namespace condyle {
 /// All of the above.
 [[nodiscard]] std::vector<NamedPage> study_pages(const StudyView& study);
 
-struct NamedMap {
-  std::string name;  ///< of the file, without its ending
-  HeatMap map;
-};
 /// Parameters by quantities at up to four poses: rank correlations (study_correlations) and, where there
 /// are any, total indices (study_totals). At most 40 parameters and 12 ligaments, the greatest.
 [[nodiscard]] std::vector<NamedMap> study_maps(const StudyView& study);
@@ -38,10 +33,8 @@ struct NamedMap {
 /// Of maps: two beside each other, or a file for each.
 enum class MapPanels { kTogether, kApart };
 
-/// Writes all of them; returns the paths.
-std::vector<std::filesystem::path> plot_study(const StudyView& study,
-                                              const std::filesystem::path& folder,
-                                              const std::vector<PlotFormat>& formats,
-                                              MapPanels panels = MapPanels::kTogether);
+/// All of them.
+[[nodiscard]] std::vector<NamedPlot> study_plots(const StudyView& study,
+                                                 MapPanels panels = MapPanels::kTogether);
 
 }  // namespace condyle

@@ -160,19 +160,11 @@ std::optional<HeatMap> sensitivity_map(const Run& run) {
   return map;
 }
 
-std::vector<std::filesystem::path> plot_sensitivities(const Run& run,
-                                                      const std::filesystem::path& folder,
-                                                      const std::vector<PlotFormat>& formats,
-                                                      std::size_t beside) {
-  std::vector<std::filesystem::path> written;
+std::vector<NamedPlot> sensitivity_plots(const Run& run, std::size_t beside) {
   std::optional<HeatMap> map = sensitivity_map(run);
-  if (map) map->beside = beside;
-  for (const PlotFormat format : formats) {
-    if (!map) break;
-    written.push_back(folder / (std::string("sensitivities.") + ending(format)));
-    plot(*map, written.back(), format);
-  }
-  return written;
+  if (!map) return {};
+  map->beside = beside;
+  return plots_of(std::vector<NamedMap>{{"sensitivities", std::move(*map)}});
 }
 
 }  // namespace condyle

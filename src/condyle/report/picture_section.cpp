@@ -18,7 +18,6 @@
 #include "condyle/report/sections.h"
 #include "condyle/results/digest.h"
 #include "condyle/results/run_view.h"
-#include "condyle/results/temporary_folder.h"
 
 namespace condyle {
 namespace {
@@ -125,10 +124,9 @@ std::vector<std::size_t> poses_near(const Run& run, const std::vector<double>& p
 }
 
 /// Pages of a calibration that are looked at where something else is asked.
-bool of_second_rank(const fs::path& file) {
-  const std::string name = file.stem().string();
-  return name.rfind("calibration_profiles", 0) == 0 ||
-         name.rfind("calibration_other_curves", 0) == 0;
+bool of_second_rank(const NamedPlot& plot) {
+  return plot.name.starts_with("calibration_profiles") ||
+         plot.name.starts_with("calibration_other_curves");
 }
 
 }  // namespace
@@ -168,22 +166,20 @@ std::string compared_picture_section(const RunComparison& comparison) {
 
 std::string plot_section(const Run& run) {
   if (count_with_place(run.sweep) == 0 && !run.laxity() && !run.calibration()) return "";
-  const TemporaryFolder folder;
+  std::vector<NamedPlot> plots = chart_plots(all_charts(run));
+  append(plots, plots_of(calibration_pages(run)));
   std::string body, folded;
   int count = 0;
-  for (const fs::path& file : plot_charts(all_charts(run), folder.path(), {PlotFormat::kSvg}))
-    body += plot_figure(file, fmt::format("plot{}-", ++count));
-  for (const fs::path& file : plot_pages(calibration_pages(run), folder.path(), {PlotFormat::kSvg}))
-    (of_second_rank(file) ? folded : body) += plot_figure(file, fmt::format("plot{}-", ++count));
+  for (const NamedPlot& plot : plots)
+    (of_second_rank(plot) ? folded : body) += plot_figure(plot, fmt::format("plot{}-", ++count));
   if (!folded.empty()) body += details("Profiles and the other coordinates", folded);
   return section("plots", "Plots", body);
 }
 
 std::string sensitivity_figure(const Run& run) {
-  const TemporaryFolder folder;
   std::string body;
-  for (const fs::path& file : plot_sensitivities(run, folder.path(), {PlotFormat::kSvg}, 1))
-    body += plot_figure(file, "sensitivities-");
+  for (const NamedPlot& plot : sensitivity_plots(run, 1))
+    body += plot_figure(plot, "sensitivities-");
   return body;
 }
 

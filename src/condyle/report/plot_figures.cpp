@@ -1,16 +1,9 @@
 #include "condyle/report/plot_figures.h"
 
-#include <fstream>
-#include <iterator>
 #include <string_view>
 
 namespace condyle {
 namespace {
-
-std::string svg_text(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 void replace_all(std::string& text, std::string_view from, const std::string& to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
@@ -50,8 +43,8 @@ std::string inlined(const std::string& svg, const std::string& prefix) {
 
 }  // namespace
 
-std::string plot_figure(const std::filesystem::path& svg, const std::string& prefix) {
-  return "<figure class=\"plot\">" + inlined(svg_text(svg), prefix) + "</figure>\n";
+std::string plot_figure(const NamedPlot& plot, const std::string& prefix) {
+  return "<figure class=\"plot\">" + inlined(svg_of(plot), prefix) + "</figure>\n";
 }
 
 }  // namespace condyle

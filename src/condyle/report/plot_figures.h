@@ -2,12 +2,13 @@
 
 /// Plots as parts of a page.
 
-#include <filesystem>
 #include <string>
+
+#include "condyle/pictures/named_plot.h"
 
 namespace condyle {
 
-/// An SVG file as a figure. Several share one page: `prefix` goes before its own names.
-[[nodiscard]] std::string plot_figure(const std::filesystem::path& svg, const std::string& prefix);
+/// A plot as a figure. Several share one page: `prefix` goes before its own names.
+[[nodiscard]] std::string plot_figure(const NamedPlot& plot, const std::string& prefix);
 
 }  // namespace condyle
