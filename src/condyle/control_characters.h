@@ -16,6 +16,24 @@ namespace condyle {
   return std::any_of(text.begin(), text.end(), is_control);
 }
 
+/// 0 beyond the end.
+[[nodiscard]] constexpr unsigned byte_at(std::string_view text, std::size_t at) {
+  return at < text.size() ? static_cast<unsigned char>(text[at]) : 0U;
+}
+
+/// Bytes of the letter of UTF-8 that begins here; 0 where none does.
+[[nodiscard]] constexpr std::size_t utf8_size(std::string_view text, std::size_t at) {
+  const unsigned first = byte_at(text, at);
+  const std::size_t size = first < 0x80U                     ? 1
+                           : first >= 0xc2U && first < 0xe0U ? 2
+                           : first >= 0xe0U && first < 0xf0U ? 3
+                           : first >= 0xf0U && first < 0xf5U ? 4
+                                                             : 0;
+  for (std::size_t i = 1; i < size; ++i)
+    if ((byte_at(text, at + i) & 0xc0U) != 0x80U) return 0;
+  return size;
+}
+
 /// The code point of the letter that begins at a place where it turns the direction of what follows
 /// (U+202A to U+202E, U+2066 to U+2069) or breaks the line (U+2028, U+2029), in UTF-8 of three
 /// bytes; 0 for any other. Unseen itself, it lets a name look like another one.

@@ -121,6 +121,28 @@ TEST_P(NastyNames, AreNoMarkupNoPathAndNoCommand) {
 
 INSTANTIATE_TEST_SUITE_P(All, NastyNames, testing::ValuesIn(kNasty));
 
+// XML takes no bytes that are no UTF-8.
+TEST_F(CommandLine, ARunWhoseNameIsNoUtf8IsExportedUnderOneThatIs) {
+  ASSERT_EQ(run("sweep knee.toml -o run.h5").code, 0);
+  fs::rename(folder_ / "run.h5", folder_ / "caf\xe9 \xc3\xa9.h5");
+  EXPECT_EQ(run("export 'caf\xe9 \xc3\xa9.h5' -o out --format vtk").code, 0);
+  ASSERT_TRUE(fs::exists(folder_ / "out" / "caf__\xc3\xa9.pvd"))
+      << contents(folder_ / "stdout.txt");
+  EXPECT_EQ(contents(folder_ / "out" / "caf__\xc3\xa9.pvd").find('\xe9'), std::string::npos);
+}
+
+#ifdef CONDYLE_PICTURES
+// As a service or a shell may leave it: then nobody is told how another program ended.
+TEST_F(CommandLine, PlotsWhereItsParentIgnoresTheEndOfChildren) {
+  if (std::system("command -v gnuplot >/dev/null") != 0) GTEST_SKIP() << "gnuplot is not installed";
+  ASSERT_EQ(run("sweep knee.toml -o run.h5").code, 0);
+  const std::string plot = "cd '" + folder_.string() +
+                           "' && perl -e '$SIG{CHLD} = \"IGNORE\"; exec @ARGV' '" CONDYLE_PROGRAM
+                           "' plot run.h5 -o plots >plot.txt 2>&1";
+  EXPECT_EQ(std::system(plot.c_str()), 0) << contents(folder_ / "plot.txt");
+}
+#endif
+
 /// "\e]0;" would name the window, "\e[2J" wipe it; U+009B is the same as "\e[".
 TEST_F(CommandLine, ShowsControlCharactersInsteadOfSendingThemToTheTerminal) {
   write("esc.toml", with(test::kScene, "ball and socket", "a\\u001b[2J\\u009b2Jb\\u007f\\u202ed"));

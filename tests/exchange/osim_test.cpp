@@ -226,6 +226,18 @@ TEST_F(BrokenModel, IsNamedWithWhatIsMissing) {
                "Geometry there");
 }
 
+// Where a component stands is told by all that hold it: of thousands within each other that would take minutes.
+TEST_F(BrokenModel, IsRefusedWhereItIsDeep) {
+  std::string frames, ends;
+  for (int k = 0; k < 20000; ++k) {
+    frames += "<PhysicalOffsetFrame name=\"a\">";
+    ends += "</PhysicalOffsetFrame>";
+  }
+  expect_error(
+      "<OpenSimDocument Version=\"40000\"><Model>" + frames + ends + "</Model></OpenSimDocument>",
+      ": elements lie more than 100 deep within each other, expected an OpenSim model");
+}
+
 TEST_F(BrokenModel, NeedsAKneeWithLigamentsAndContacts) {
   std::string bare = text_;
   for (std::size_t at; (at = bare.find("<Blankevoort1991Ligament")) != std::string::npos;)

@@ -4,11 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <new>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -57,6 +59,32 @@ TEST(Hdf5Process, RefusesAsThatDidAndIsAskedOn) {
   }
   EXPECT_THROW((void)process.ask({Kind::kHas, 0, "no memory", ""}), std::bad_alloc);
   EXPECT_EQ(process.ask({Kind::kHas, 5, "", ""}).number, 5u);
+}
+
+// Of copies that share its stream one could take the answer to another one's question.
+TEST(Hdf5Process, AnswersNoCopyOfTheProcessThatOpenedTheFile) {
+  Hdf5Process process("run.h5", [] { return echo; });
+  const pid_t copy = fork();
+  if (copy == 0) {
+    int code = 1;
+    try {
+      (void)process.ask({Kind::kNumbers, 7, "force", "units"});
+    } catch (const InputError& error) {
+      code = std::string(error.what()) ==
+                     "run.h5: was opened by another process, expected to be read by the one that "
+                     "opened it"
+                 ? 0
+                 : 2;
+    }
+    std::optional<Hdf5Process> own;
+    own.emplace("run.h5", [] { return echo; });
+    if (own->ask({Kind::kNumbers, 4, "", ""}).number != 4U) code = 3;
+    _exit(code);
+  }
+  int status = -1;
+  ASSERT_EQ(waitpid(copy, &status, 0), copy);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(process.ask({Kind::kNumbers, 5, "", ""}).number, 5U);
 }
 
 TEST(Hdf5Process, ThatDoesNotLiveToAnswerLeavesADamagedFile) {

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "condyle/input_error.h"
+#include "condyle/results/line_file.h"
 #include "support/small_files.h"
 
 namespace condyle {
@@ -53,6 +54,25 @@ TEST_F(WrittenFile, ReplacesAnOlderOne) {
   write_output_file(folder_ / "a", "older and longer");
   write_output_file(folder_ / "a", "new");
   EXPECT_EQ(contents(folder_ / "a"), "new");
+}
+
+// A patient's data stay as open as they are.
+TEST_F(WrittenFile, KeepsThePermissionsOfTheOneThatItReplaces) {
+  const fs::perms own = fs::perms::owner_read | fs::perms::owner_write,
+                  shared = own | fs::perms::group_read | fs::perms::group_write;
+  for (const fs::perms mode : {own, shared}) {
+    std::ofstream(folder_ / "a") << "older";
+    fs::permissions(folder_ / "a", mode);
+    write_output_file(folder_ / "a", "new");
+    EXPECT_EQ(fs::status(folder_ / "a").permissions(), mode);
+    FileBeside beside(folder_ / "a");
+    std::ofstream(beside.name()) << "newer";
+    beside.keep();
+    EXPECT_EQ(contents(folder_ / "a"), "newer");
+    EXPECT_EQ(fs::status(folder_ / "a").permissions(), mode);
+    const LineFile journal(folder_ / "a.journal", folder_ / "a");
+    EXPECT_EQ(fs::status(folder_ / "a.journal").permissions(), mode);
+  }
 }
 
 TEST_F(WrittenFile, ByTheNameOfALinkIsWhatThatNames) {

@@ -235,7 +235,7 @@ int run_calibrate(const CalibrateCommand& command) {
   const std::vector<TriangleMesh> meshes = body_meshes(scene, surfaces);
   check_text(command, scene, table, meshes);
   const CalibrationIdentity identity = calibration_identity(scene, surfaces);
-  LineFile journal_file(journal_path(command.output));
+  LineFile journal_file(journal_path(command.output), command.output);
   const CalibrationContents earlier = earlier_numbers(command, identity, scene);
   CalibrationJournal journal(journal_file, identity, earlier.whole_bytes);
   const LastWords words(fmt::format("{} holds the best numbers so far, --resume goes on with them",

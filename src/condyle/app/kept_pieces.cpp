@@ -28,7 +28,7 @@ KeptPieces::KeptPieces(const Talk& talk,
                        const JournalKind& kind,
                        const JournalParts& parts,
                        const Scene& scene)
-    : file_(journal_path(output)),
+    : file_(journal_path(output), output),
       earlier_(earlier_pieces(talk, output, resume, kind, parts, scene)),
       journal_(file_, kind, parts, earlier_.whole_bytes),
       keeping_{std::move(earlier_.sweeps), {}} {

@@ -130,7 +130,7 @@ int run_simulate(const SimulateCommand& command) {
         check_simulated_scene(s);
         check_journal_file(command.output, s, kMotionJournal);
       });
-  LineFile journal_file(journal_path(command.output));
+  LineFile journal_file(journal_path(command.output), command.output);
   const JournalParts parts = motion_parts(scene, surfaces);
   MotionContents earlier = earlier_motion(command, parts);
   MotionJournal journal(journal_file, kMotionJournal, parts, earlier.whole_bytes);

@@ -158,7 +158,7 @@ int run_sweep(const SweepCommand& command) {
   Run run = make_run(scene, surfaces);
   expect_same(meshes, run.inputs);
   tell_warnings(talk, run);
-  LineFile journal_file(journal_path(command.output));
+  LineFile journal_file(journal_path(command.output), command.output);
   EarlierPoses earlier = earlier_poses(command.output, command.resume, scene, surfaces);
   if (!earlier.message.empty()) say(talk, "{}\n\n", earlier.message);
   Journal journal(journal_file, identity(scene, surfaces), earlier.journal_bytes);

@@ -25,6 +25,8 @@ using pugi::xml_node;
 constexpr double kMillimetre = 1e3;   // per m
 constexpr double kMegapascal = 1e-6;  // per Pa; N/mm²
 constexpr int kFirstVersionWithFrames = 30505;
+constexpr int kDeepest =
+    100;  // elements within each other, of which the path of a component is made
 
 class OsimReader {
  public:
@@ -44,6 +46,7 @@ class OsimReader {
   }
 
   [[nodiscard]] OsimModel model() {
+    expect_shallow();
     const xml_node root = document_.child("OpenSimDocument");
     const xml_node model = root.child("Model");
     if (!model) throw InputError(file_ + ": holds no Model, expected an OpenSim model");
@@ -72,6 +75,16 @@ class OsimReader {
   [[nodiscard]] static pugi::xml_object_range<pugi::xml_node_iterator> objects(
       const xml_node& model, const char* set) {
     return model.child(set).child("objects").children();
+  }
+
+  void expect_shallow() {
+    struct Walk : pugi::xml_tree_walker {
+      bool for_each(xml_node&) override { return depth() < kDeepest; }
+    } walk;
+    if (!document_.traverse(walk))
+      throw InputError(fmt::format(
+          "{}: elements lie more than {} deep within each other, expected an OpenSim model", file_,
+          kDeepest));
   }
 
   [[noreturn]] void fail(const xml_node& node, const std::string& message) const {

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "condyle/control_characters.h"
+
 namespace condyle {
 namespace {
 
@@ -56,9 +58,12 @@ std::string file_word(const std::string& name) {
   while (end < name.size() && end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U)
     --end;
   std::string word = name.substr(0, end);
-  for (char& c : word) {
-    const auto u = static_cast<unsigned char>(c);
-    if (!(std::isalnum(u) || c == '-' || c == '.' || u >= 0x80)) c = '_';
+  for (std::size_t at = 0; at < word.size();) {
+    const std::size_t size = utf8_size(word, at);
+    const char c = word[at];
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.';
+    if (size <= 1 && !plain) word[at] = '_';
+    at += std::max<std::size_t>(size, 1);
   }
   return word;
 }

@@ -39,7 +39,7 @@ class BestSoFar {
     const std::filesystem::path path = journal_path(output);
     expect_calibration_journal(path);
     const CalibrationIdentity identity = calibration_identity(scene, knee.fitted().surfaces);
-    file_.emplace(path);
+    file_.emplace(path, output);
     if (resume) earlier_ = read_calibration_journal(path, identity, scene);
     journal_.emplace(*file_, identity, earlier_.whole_bytes);
   }

@@ -121,6 +121,7 @@ Hdf5Process::Hdf5Process(const std::filesystem::path& file, const std::function<
     : name_(file.string()), limits_(limits_of(file)) {
   std::array<int, 2> sockets{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) == 0) {
+    child_.of = getpid();
     child_.id = fork();
     if (child_.id == 0) {
       close(sockets[0]);
@@ -136,7 +137,7 @@ Hdf5Process::Hdf5Process(const std::filesystem::path& file, const std::function<
 }
 
 Hdf5Process::Child::~Child() {
-  if (id <= 0) return;
+  if (id <= 0 || getpid() != of) return;
   kill(id, SIGKILL);
   while (waitpid(id, nullptr, 0) < 0 && errno == EINTR) {
   }
@@ -171,6 +172,10 @@ Hdf5Answer Hdf5Process::receive() {
 }
 
 Hdf5Answer Hdf5Process::ask(const Hdf5Question& question) {
+  // Copies share its stream, and one could take the answer to another one's question.
+  if (getpid() != child_.of)
+    throw InputError(
+        name_ + ": was opened by another process, expected to be read by the one that opened it");
   const std::lock_guard lock(mutex_);
   if (!in_step_ || !send_all(fileno(stream_.get()), bytes_of(question))) damaged();
   return receive();

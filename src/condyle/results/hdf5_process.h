@@ -29,16 +29,17 @@ class Hdf5Process {
   using Answering = std::function<Hdf5Answer(const Hdf5Question&)>;
 
   /// `open` is called in the new process, which has 5 s of processor time and 1 GB of memory for a small file, more for a large
-  /// one. Throws what `open` throws, and DamagedFile where the process does not live to answer.
+  /// one. Throws what `open` throws, and DamagedFile where the process does not live to answer. It answers the process that
+  /// opened the file, and no copy of that (fork).
   Hdf5Process(const std::filesystem::path& file, const std::function<Answering()>& open);
 
-  /// Throws InputError as the other process did, std::bad_alloc for want of memory on either side, and DamagedFile. From any
+  /// Throws InputError as the other process did and to a copy of the process that opened the file, std::bad_alloc for want of memory on either side, and DamagedFile. From any
   /// thread, one at a time.
   [[nodiscard]] Hdf5Answer ask(const Hdf5Question& question);
 
  private:
   struct Child {
-    pid_t id = -1;
+    pid_t id = -1, of = -1;
     Child() = default;
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;

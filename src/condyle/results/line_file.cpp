@@ -13,10 +13,11 @@
 #include <utility>
 
 #include "condyle/input_error.h"
+#include "condyle/results/file_mode.h"
 
 namespace condyle {
 
-LineFile::LineFile(std::filesystem::path path)
+LineFile::LineFile(std::filesystem::path path, const std::filesystem::path& like)
     : path_(std::move(path)), empty_(path_, UnkeptFile::Unless::kHoldsBytes) {
   const auto fail = [&](const std::string& why) {
     if (descriptor_ >= 0) ::close(descriptor_);
@@ -33,6 +34,7 @@ LineFile::LineFile(std::filesystem::path path)
     if (::fstat(descriptor_, &state) != 0)
       fail("cannot be written: " + std::generic_category().message(errno));
   }
+  if (state.st_size == 0) take_mode(descriptor_, like);
 }
 
 LineFile::~LineFile() {

@@ -12,9 +12,9 @@ namespace condyle {
 
 class LineFile {
  public:
-  /// Takes the file, before anything is read of it. Throws InputError where it cannot be written or
-  /// another run is writing it.
-  explicit LineFile(std::filesystem::path path);
+  /// Takes the file, before anything is read of it; a new one has the permissions of `like`, where that is one.
+  /// Throws InputError where it cannot be written or another run is writing it.
+  explicit LineFile(std::filesystem::path path, const std::filesystem::path& like = {});
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
   ~LineFile();  ///< removes it where it holds nothing

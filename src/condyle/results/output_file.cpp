@@ -16,6 +16,7 @@
 
 #include "condyle/file_ending.h"
 #include "condyle/input_error.h"
+#include "condyle/results/file_mode.h"
 #include "condyle/results/sync_file.h"
 
 namespace condyle {
@@ -136,6 +137,7 @@ void OutputFile::open() {
                   LOCK_EX);  // where there are no locks nothing is taken for left behind
     if (::fstat(descriptor_, &state) != 0) fail(errno);
   }
+  take_mode(descriptor_, path_);
 }
 
 OutputFile::~OutputFile() {
@@ -179,6 +181,7 @@ FileBeside::~FileBeside() {
 
 void FileBeside::keep() {
   const int descriptor = ::open(name_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor >= 0) take_mode(descriptor, path_);
   int code = descriptor < 0 ? errno : sync_file(descriptor);
   if (descriptor >= 0) ::close(descriptor);
   if (code == 0 && ::rename(name_.c_str(), path_.c_str()) != 0) code = errno;

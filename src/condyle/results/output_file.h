@@ -1,6 +1,7 @@
 #pragma once
 
-/// Files that are there whole or not at all. A symbolic link stays: what it names is written.
+/// Files that are there whole or not at all. A symbolic link stays: what it names is written. What is written over
+/// keeps its permissions.
 
 #include <filesystem>
 #include <string>

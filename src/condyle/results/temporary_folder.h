@@ -16,7 +16,8 @@ namespace condyle {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    const std::filesystem::path parent = std::filesystem::temp_directory_path();
+    const char* named = std::getenv("TMPDIR");
+    const std::filesystem::path parent = named != nullptr ? named : "/tmp";
     std::string name = (parent / "condyle-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr)
       throw InputError(parent.string() +
