@@ -86,8 +86,8 @@ std::shared_ptr<Patch> wavy_patch() {
 // A large ball is sampled widely, and need not be: what is seen of the waves over it does not hang on its size.
 TEST(ContactSearch, SeesTheLowestWaveOverABallOfAnySize) {
   const auto patch = wavy_patch();
-  for (const double R : {100.0, 300.0, 1000.0, 3000.0, 20000.0})
-    for (const double tilt : {0.0, 0.05, 0.1}) {
+  for (const double R : {300.0, 1000.0, 20000.0})
+    for (const double tilt : {0.0, 0.05}) {
       ContactPair pair = pair_of(make_sphere({0, 0, -R}, R, true), nullptr);
       pair.on_A = patch;
       RigidTransform X{exp_rotation({0, tilt, 0}), Eigen::Vector3d::Zero()};
