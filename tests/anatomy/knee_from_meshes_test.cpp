@@ -14,6 +14,7 @@
 #include "condyle/exchange/ply_file.h"
 #include "condyle/input_error.h"
 #include "condyle/mesh_files/load_mesh.h"
+#include "condyle/results/line_file.h"
 #include "condyle/results/output_file.h"
 #include "condyle/scene/start_pose.h"
 #include "condyle/scene_file/read_scene.h"
@@ -132,6 +133,25 @@ TEST_F(NewKneeOfThePhantom, IsBroughtTogetherAndExtended) {
   EXPECT_LT(error.p.norm(), 1.5);
   EXPECT_LT(Eigen::AngleAxisd(error.R).angle() * 180 / M_PI, 2);
   EXPECT_FALSE(knee.doubts.empty());
+}
+
+TEST_F(NewKneeOfThePhantom, ConditionsOfTheTemplateThatAreLeftOutAreTold) {
+  NewKneeFiles held = files({});
+  std::string scene = bytes_of_file(held.template_scene);
+  for (std::size_t at; (at = scene.find("../../meshes/")) != std::string::npos;)
+    scene.replace(at, 13, kMeshes.string() + "/");
+  scene.insert(scene.find("[[condition]]"),
+               "[[condition]]\nname = \"adduction\"\nkind = \"adduction\"\nvalue = 0\n\n");
+  held.template_scene = held.femur.parent_path() / "held.toml";
+  write_output_file(held.template_scene, scene);
+  const std::string line =
+      "condition \"adduction\" of the template is left out: the scene prescribes flexion alone";
+  const auto told = [&](const NewKneeFiles& files) {
+    const NewKnee knee = knee_from_meshes(files, {});
+    return std::count(knee.doubts.begin(), knee.doubts.end(), line);
+  };
+  EXPECT_EQ(told(held), 1);
+  EXPECT_EQ(told(files({})), 0);
 }
 
 TEST_F(NewKneeOfThePhantom, NamesTheFileWhoseSeamsWereJoined) {

@@ -87,6 +87,21 @@ TEST(CalibrationWords, NameTheWeakestDirectionsAndWhatTheyConsistOf) {
   EXPECT_TRUE(says(told(result), "3 of 5 directions are determined"));
 }
 
+// Those at a bound stand last, with a singular value of 0: neither the data nor the prior hold them.
+TEST(CalibrationWords, NumbersAtABoundAreNoWeakDirections) {
+  CalibrationResult result = made_up_calibration();
+  result.known.singular_values << 20, 5, 0.8, 0, 0;
+  result.known.determined = 2;
+  result.known.directions.setIdentity();
+  result.at_bound.assign(result.parameters.size(), false);
+  result.at_bound[3] = result.at_bound[4] = true;
+  const std::vector<std::string> weak = weak_directions(result, 5);
+  ASSERT_EQ(weak.size(), 1U);
+  EXPECT_EQ(weak[0].substr(0, 3), "0.8");
+  EXPECT_TRUE(says(told(result),
+                   "2 of 3 directions are determined by the data (singular values 20 ... 0.8"));
+}
+
 TEST(CalibrationWords, ChiSquareHasAVerdict) {
   CalibrationResult result = made_up_calibration();
   EXPECT_TRUE(says(told(result), "The model explains the data"));

@@ -35,6 +35,38 @@ TEST(Laxity, TheCoordinateOfADeadLoadIsSeenFromTheBone) {
   EXPECT_EQ(loaded_coordinate(scene), 4U);
 }
 
+// A force aside at the ankle, 313 mm below the plateau, is a test of varus and valgus; one at the tibial tuberosity draws.
+TEST(Laxity, AForceFarFromTheJointTurnsIt) {
+  Scene scene = read_scene(kDrawer);
+  LoadDescription& load = scene.loads[static_cast<std::size_t>(scene.sweep->index)];
+  const AnatomicalFrame& tibia = scene.joint->tibia;
+  const auto along = [&](const Eigen::Vector3d& way, double below) {
+    load.vector = 30 * way;
+    load.at = tibia.origin - below * tibia.proximal;
+    return loaded_coordinate(scene);
+  };
+  EXPECT_EQ(along(tibia.lateral, 313), 1U);
+  EXPECT_EQ(along(tibia.lateral, 50), 3U);
+  EXPECT_EQ(along(tibia.anterior, 313), 4U) << "flexion is held";
+  EXPECT_EQ(along(tibia.anterior, 50), 4U);
+}
+
+// A dead load keeps its direction while the knee bends.
+TEST(Laxity, ADeadLoadThatTurnsIntoAnotherCoordinateIsTold) {
+  Scene scene = read_scene(kDrawer);
+  scene.loads[static_cast<std::size_t>(scene.sweep->index)].follows_body = false;
+  scene.laxity->cut.clear();
+  scene.laxity->flexions = {0, 90 * kDegree};
+  const LaxityResult result = test_laxity(scene, fit_surfaces(scene));
+  const std::vector<std::string> lines = laxity_lines(scene, result);
+  EXPECT_EQ(lines.back(),
+            "at 90 degrees drawer acts on distraction and not on anterior drawer: it keeps its "
+            "direction in space");
+  scene.laxity->flexions = {0, 20 * kDegree};
+  EXPECT_EQ(laxity_lines(scene, test_laxity(scene, fit_surfaces(scene))).back().substr(0, 6),
+            "intact");
+}
+
 TEST(Laxity, GoesBySteps) {
   Scene scene = read_scene(kDrawer);
   EXPECT_NO_THROW(check_laxity_scene(scene));

@@ -169,6 +169,17 @@ TEST_F(LaxityTables, StepsThatRepeatAFlexionAndALevelAreSkipped) {
             ": 1 steps repeat a flexion and a level: use = skip");
 }
 
+// As rounded numbers are written: -0 is the same level as 0 where the table is read.
+TEST_F(LaxityTables, MinusZeroIsNoLevelOfItsOwn) {
+  write("Passive_Flexion_Kinematics_in_JCS.csv",
+        "Flexion Angle (deg),Knee JCS Flexion(deg),Knee JCS Valgus(deg)\n0,0,1\n5,5.5,2\n"
+        "0,-0.000,1.5\n");
+  const LaxityTable table =
+      laxity_table({folder_ / "Passive_Flexion_Kinematics_in_JCS.csv"}, options_);
+  EXPECT_EQ(read_by_scene(table.text).rows.size(), 2u);
+  EXPECT_NE(table.text.find(",-1.5,1,skip\n"), std::string::npos) << table.text;
+}
+
 TEST_F(LaxityTables, WhatIsNotKnownIsNeverGuessed) {
   const std::string kinematics = "EI1_kinematics_in_JCS_experiment.csv";
   const std::string kinetics = "EI1_TibiaKinetics_in_TibiaCS_experiment.csv";

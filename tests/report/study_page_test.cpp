@@ -61,6 +61,36 @@ TEST(StudyPage, AQuarterWithoutSamplesHidesNoBias) {
   EXPECT_FALSE(has(page_of_study(study), "biased"));
 }
 
+// Samples of a base point, and of one point in several knees, are as one for a number that they share.
+TEST(StudyPage, SamplesThatShareANumberAreNoFurtherOnes) {
+  StudyView study = test::made_up_study(false);
+  for (auto& shares : study.all.failures.by_quartile) shares = {0.02, 0.02, 0.045, 0.045};
+  ASSERT_TRUE(failures_depend_on(study, 0));
+  study.points /= 16;  // so many knees
+  EXPECT_FALSE(failures_depend_on(study, 0));
+  study.points *= 16;
+  study.design = "saltelli";
+  EXPECT_FALSE(failures_depend_on(study, 0));
+}
+
+// Of four samples a correlation of -1 is chance.
+TEST(StudyPage, ARankCorrelationThatMayBeChanceIsNotNamed) {
+  StudyView study = test::made_up_study(false);
+  const auto largest = [&] { return largest_effects(study.all.effects[3], study.all.bands[3], 0); };
+  ASSERT_FALSE(largest().empty());
+  const std::size_t first = largest()[0].parameter;
+  study.all.effects[3].rank[first][0] = -1;
+  for (StudyBand& band : study.all.bands) band.samples.assign(study.values.size(), 10);
+  EXPECT_TRUE(largest().empty());
+  for (StudyBand& band : study.all.bands) band.samples.assign(study.values.size(), 11);
+  ASSERT_EQ(largest().size(), 1U);
+  EXPECT_EQ(largest()[0].value, -1);
+  for (StudyBand& band : study.all.bands) band.samples.assign(study.values.size(), 4);
+  const std::vector<std::string> lines = study_lines(study);
+  EXPECT_EQ(lines.back(), std::string("  ") + kChanceRanks);
+  EXPECT_EQ(sweep_effects(study, 3).first[first], 0);
+}
+
 TEST(StudyPage, TellsWhatExplainsWhatTheGreatestFirst) {
   StudyView study = test::made_up_study();
   for (auto& by_parameter : study.all.effects[3].first)
@@ -84,7 +114,7 @@ TEST(StudyPage, AnIndexThatMayBeAnythingIsNotNamed) {
   EXPECT_TRUE(has(page, kTooFewSamples));
   EXPECT_FALSE(has(page, "anterior drawer by aMCL strain (99 %)"));
   EXPECT_TRUE(has(page, "anterior drawer by "));
-  for (const EffectSize& effect : largest_effects(study.all.effects[3], 0))
+  for (const EffectSize& effect : largest_effects(study.all.effects[3], study.all.bands[3], 0))
     EXPECT_NE(effect.parameter, 4U);
   const std::vector<std::string> lines = study_lines(study);
   EXPECT_EQ(std::count(lines.begin(), lines.end(), std::string("  ") + kTooFewSamples), 1);

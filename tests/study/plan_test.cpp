@@ -333,6 +333,27 @@ TEST_F(StudyTable, ItsNumbersAreInTheUnitsOfTheScene) {
   }
 }
 
+// What is swept has its values from the sweep.
+TEST_F(StudyTable, ALoadThatIsSweptHasNoValueOfItsOwn) {
+  ReadStudy study = study_of_values();
+  study.varied[0][0].number.what = ParameterKind::kLoadScale;
+  study.scenes[0].sweep->varies_load = true;
+  study.scenes[0].sweep->index = 0;
+  study.scenes[0].loads[0].scale = 0;
+  std::ofstream(values_) << study.scenes[0].loads[0].name << ".scale\n1\n";
+  try {
+    (void)study_plan(study);
+    FAIL() << "nothing was thrown";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("values.csv:1: " + study.scenes[0].loads[0].name +
+                        ".scale, a load that is swept and has no value of its own, expected a "
+                        "table of \"changes\""),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(StudyTable, WhatIsMissingIsNamed) {
   EXPECT_NE(refusal("aACL.reference_strain,pACL.reference_strain,aACL.reference_strain\n1,2,3\n")
                 .find(":1: two columns \"aACL.reference_strain\", expected one"),

@@ -191,7 +191,7 @@ TEST(StudyFailures, AreCountedByPoseStatusAndQuarter) {
   status[2 * 6 + 1] = 4;
   status[2 * 7 + 1] = 4;
   const StudyFailures failures =
-      study_failures(status, 2, {{0, 1, 2, 3, 4, 5, 6, 7}, std::vector<double>(8, 3.)});
+      study_failures(status, 2, {{0, 1, 2, 3, 4, 5, 6, 7}, std::vector<double>(8, 3.)}, false);
   EXPECT_EQ(failures.poses, 16);
   EXPECT_EQ(failures.failed, 4);
   EXPECT_EQ(failures.incomplete, 3);
@@ -203,6 +203,22 @@ TEST(StudyFailures, AreCountedByPoseStatusAndQuarter) {
   EXPECT_EQ(failures.by_quartile[0], (std::array{0., 0., 0.5, 0.5}));
   EXPECT_EQ(failures.by_quartile[1][0], 0.25);
   EXPECT_TRUE(std::isnan(failures.by_quartile[1][1]));
+}
+
+// Of a design of Saltelli a number has each of its values in all but one of the samples of a base point: that all of
+// one point fail says nothing of it.
+TEST(StudyFailures, QuartersOfADesignOfSaltelliAreThoseOfItsOwnSamples) {
+  std::vector<double> theta;
+  std::vector<std::uint8_t> status;
+  for (int point = 0; point < 4; ++point)
+    for (int block = 0; block < 3; ++block) {
+      theta.push_back(block == 1 ? 4 + point : point);  // A, B, A with the B of this number
+      status.push_back(point == 1 ? 4 : 0);
+    }
+  theta[2] = theta[1], theta[5] = theta[4], theta[8] = theta[7], theta[11] = theta[10];
+  const StudyFailures failures = study_failures(status, 1, {theta}, true);
+  EXPECT_EQ(failures.failed, 3);
+  EXPECT_EQ(failures.by_quartile[0], (std::array{0.5, 0., 0.5, 0.}));
 }
 
 }  // namespace

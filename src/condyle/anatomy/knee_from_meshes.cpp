@@ -139,6 +139,16 @@ bool on_bone(const Scene& scene, const LigamentDescription& ligament) {
          });
 }
 
+/// What a template's scene asks for beside ligaments and loads.
+void tell_what_is_left_out(NewKnee& knee) {
+  const Scene& scene = knee.model.scene;
+  for (const ConditionDescription& condition : scene.conditions)
+    if (condition.kind != ConditionKind::kFlexion)
+      knee.doubts.push_back(fmt::format(
+          "condition \"{}\" of the template is left out: the scene prescribes flexion alone",
+          condition.name));
+}
+
 /// Laws that know their slack length can be carried to bones of another size.
 void choose_ligaments(NewKnee& knee) {
   const Scene& scene = knee.model.scene;
@@ -165,6 +175,7 @@ void choose_ligaments(NewKnee& knee) {
   if (knee.ligaments.empty())
     throw InputError(knee.files.template_scene.string() +
                      ": as a template, expected a ligament that is toe-linear or quadratic");
+  tell_what_is_left_out(knee);
   const auto layered = [](const ContactDescription& contact) { return contact.layer.has_value(); };
   if (std::any_of(scene.contacts.begin(), scene.contacts.end(), layered))
     knee.doubts.emplace_back(

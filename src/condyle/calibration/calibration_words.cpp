@@ -29,11 +29,12 @@ std::string head_line(const CalibrationResult& result) {
 Lines direction_lines(const CalibrationResult& result) {
   constexpr int kMost = 5;
   const Eigen::VectorXd& s = result.known.singular_values;
-  if (s.size() == 0) return {};
+  const Eigen::Index free = free_directions(result);
+  if (free == 0) return {};
   Lines lines = {fmt::format(
       "{} of {} directions are determined by the data (singular values {:.3g} ... {:.3g}, above 1: "
       "the data say more than the prior)",
-      result.known.determined, s.size(), s.maxCoeff(), s.minCoeff())};
+      result.known.determined, free, s.head(free).maxCoeff(), s.head(free).minCoeff())};
   const Lines weak = weak_directions(result, kMost);
   if (weak.empty()) return lines;
   lines.emplace_back("Weakest directions, known from the prior above all:");
@@ -105,11 +106,16 @@ Lines kink_lines(const Scene& scene, const CalibrationResult& result) {
 
 }  // namespace
 
+Eigen::Index free_directions(const CalibrationResult& result) {
+  const auto bound = std::count(result.at_bound.begin(), result.at_bound.end(), true);
+  return std::max<Eigen::Index>(result.known.singular_values.size() - bound, 0);
+}
+
 std::vector<std::string> weak_directions(const CalibrationResult& result, int most) {
   constexpr double kShare = 0.3;
   const Identifiability& known = result.known;
   Lines lines;
-  for (Eigen::Index k = known.singular_values.size() - 1; k >= 0; --k) {
+  for (Eigen::Index k = free_directions(result) - 1; k >= 0; --k) {
     if (!(known.singular_values[k] < 1) || static_cast<int>(lines.size()) >= most) break;
     std::vector<std::pair<double, std::string>> shares;
     for (Eigen::Index j = 0; j < known.directions.rows(); ++j)

@@ -24,7 +24,10 @@ namespace condyle {
 [[nodiscard]] std::vector<std::string> calibration_remarks(const Scene& scene,
                                                            const CalibrationResult& result);
 
-/// A line for each direction that is weaker than 1, weakest first, at most `most`: its singular value and
+/// Directions of the parameters that are not at a bound: the first ones. Those at one follow, a direction each.
+[[nodiscard]] Eigen::Index free_directions(const CalibrationResult& result);
+
+/// A line for each of these that is weaker than 1, weakest first, at most `most`: its singular value and
 /// the parameters whose share is above 0.3.
 [[nodiscard]] std::vector<std::string> weak_directions(const CalibrationResult& result, int most);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -119,24 +121,69 @@ double coordinate(const Scene& scene, const PoseResult& pose) {
                           : kNoNumber;
 }
 
-}  // namespace
+bool is_held(const Scene& scene, std::size_t coordinate) {
+  return std::any_of(scene.conditions.begin(), scene.conditions.end(),
+                     [&](const ConditionDescription& condition) {
+                       return static_cast<std::size_t>(condition.kind) == coordinate;
+                     });
+}
 
-std::size_t loaded_coordinate(const Scene& scene) {
+/// Of the load at a pose, by joint coordinates: moments [N mm], then forces [N]; a moment about the anterior axis
+/// adducts, about the proximal one rotates. Of a force the moments about the origin of its bone's frame, as forces at
+/// an arm of kArm, and none about what is held: a force at the ankle bends the knee aside, one at the tuberosity
+/// draws it.
+Eigen::Matrix<double, 6, 1> generalized_load(const Scene& scene, const RigidTransform& X_BA) {
+  constexpr double kArm = 100;  // [mm]
   const LoadDescription& load = scene.loads.at(scene.sweep->index);
-  const bool tibial = scene.joint->tibia.body == load.body;
-  const AnatomicalFrame& bone = tibial ? scene.joint->tibia : scene.joint->femur;
-  // Along lateral, anterior, proximal; a moment about the anterior axis adducts, about the proximal
-  // one rotates.
+  const AnatomicalFrame& bone =
+      scene.joint->tibia.body == load.body ? scene.joint->tibia : scene.joint->femur;
   // A dead load stands in the ground frame.
   const Eigen::Vector3d vector = load.follows_body || load.body == scene.fixed_body()
                                      ? load.vector
-                                     : start_pose(scene).R.transpose() * load.vector;
-  const Eigen::Vector3d parts(std::abs(vector.dot(bone.lateral)),
-                              std::abs(vector.dot(bone.anterior)),
-                              std::abs(vector.dot(bone.proximal)));
+                                     : X_BA.R.transpose() * load.vector;
+  const auto along_axes = [&](const Eigen::Vector3d& v) {
+    return Eigen::Vector3d(v.dot(bone.lateral), v.dot(bone.anterior), v.dot(bone.proximal));
+  };
+  Eigen::Matrix<double, 6, 1> all = Eigen::Matrix<double, 6, 1>::Zero();
+  if (load.moment) {
+    all.head<3>() = along_axes(vector);
+    return all;
+  }
+  all.head<3>() = along_axes((load.at - bone.origin).cross(vector)) / kArm;
+  for (Eigen::Index k = 0; k < 3; ++k)
+    if (is_held(scene, static_cast<std::size_t>(k))) all[k] = 0;
+  all.tail<3>() = along_axes(vector);
+  return all;
+}
+
+std::size_t loaded_coordinate(const Scene& scene, const RigidTransform& X_BA) {
   Eigen::Index k = 0;
-  parts.maxCoeff(&k);
-  return static_cast<std::size_t>(k) + (load.moment ? 0 : 3);
+  generalized_load(scene, X_BA).cwiseAbs().maxCoeff(&k);
+  return static_cast<std::size_t>(k);
+}
+
+/// Where a dead load acts along another coordinate than the one that is told.
+std::vector<std::string> turned_load_lines(const Scene& scene, const LaxityResult& result) {
+  const std::size_t told = loaded_coordinate(scene);
+  std::vector<std::string> lines;
+  for (const LaxityCurve& curve : result.curves) {
+    if (curve.cut || curve.ours.poses.empty()) continue;
+    const PoseResult& pose = curve.ours.poses[least_load(curve.ours.poses)];
+    if (!pose.converged()) continue;
+    const std::size_t here = loaded_coordinate(scene, pose.X_BA);
+    if (here != told)
+      lines.push_back(fmt::format(
+          "at {:g} degrees {} acts on {} and not on {}: it keeps its direction in space",
+          std::round(1e6 * curve.flexion / kDegree) / 1e6, scene.loads[scene.sweep->index].name,
+          kJointCoordinates[here].words, kJointCoordinates[told].words));
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::size_t loaded_coordinate(const Scene& scene) {
+  return loaded_coordinate(scene, start_pose(scene));
 }
 
 void check_laxity_scene(const Scene& scene) {
@@ -238,6 +285,7 @@ std::vector<std::string> laxity_lines(const Scene& scene, const LaxityResult& re
                                        curve.reference->poses.size())
                          : std::string()));
   }
+  for (std::string& line : turned_load_lines(scene, result)) lines.push_back(std::move(line));
   return lines;
 }
 

@@ -33,8 +33,8 @@ void check_laxity_scene(const Scene& scene);
                                        const OnProgress& on_curve = {},
                                        const SweepKeeping& keeping = {});
 
-/// Which joint coordinate (index into kJointColumns) the load acts on most: anterior drawer for a
-/// drawer force, adduction for a varus moment, ...
+/// Which joint coordinate (index into kJointColumns) the load acts on most in the start pose: anterior drawer for a
+/// drawer force, adduction for a varus moment and for a force aside at the ankle (an arm of more than 100 mm), ...
 [[nodiscard]] std::size_t loaded_coordinate(const Scene& scene);
 
 /// That coordinate over the poses of a curve [deg or mm], from where the load is least; NaN where a
@@ -44,7 +44,7 @@ void check_laxity_scene(const Scene& scene);
 /// From the first to the last value of the load; NaN where one of them is missing.
 [[nodiscard]] double laxity_of(const Scene& scene, const SweepResult& sweep);
 
-/// A table: flexion, laxity intact and cut, by both models.
+/// A table: flexion, laxity intact and cut, by both models; and where a dead load acts along another coordinate.
 [[nodiscard]] std::vector<std::string> laxity_lines(const Scene& scene, const LaxityResult& result);
 
 }  // namespace condyle

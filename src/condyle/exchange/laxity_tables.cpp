@@ -210,7 +210,9 @@ void write_test(const std::string& test,
       return signs[c] * value_of(column, step, options.mean) + offsets[c];
     };
     const double level = passive ? 0 : value_of(kinematics.columns[0], step, options.mean);
-    const std::string at = fmt::format("{:.6g},{},{:.6g}", coordinate(0), load.name, level);
+    // -0 is 0, as it is where the table is read.
+    const std::string at =
+        fmt::format("{:.6g},{},{:.6g}", coordinate(0) + 0.0, load.name, level + 0.0);
     const bool fresh = seen.insert(at).second;
     repeated += fresh ? 0 : 1;
     for (std::size_t c = 1; c < 6; ++c) {

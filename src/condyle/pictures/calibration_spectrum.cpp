@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "condyle/calibration/calibration.h"
+#include "condyle/calibration/calibration_words.h"
 #include "condyle/calibration/shown_numbers.h"
 #include "condyle/pictures/fitted_words.h"
 #include "condyle/pictures/plot_calibration.h"
@@ -18,7 +19,7 @@ constexpr double kShown = 1e-3;  // of the largest singular value: less is drawn
 constexpr double kSpectrumWidth = 380, kShareWidth = 200, kRow = 22;  // [pixel]
 
 PagePanel spectrum_panel(const CalibrationResult& result) {
-  const Eigen::VectorXd& s = result.known.singular_values;
+  const Eigen::VectorXd s = result.known.singular_values.head(free_directions(result));
   PagePanel panel;
   panel.title = "Singular values";
   panel.x_label = "Direction";
@@ -112,8 +113,8 @@ void lay_out_spectrum(ChartPage& page) {
 
 std::vector<NamedPage> spectrum_pages(const Scene& scene, const CalibrationResult& result) {
   const Identifiability& known = result.known;
-  const Eigen::Index n = known.singular_values.size();
-  if (n == 0 || known.directions.cols() != n ||
+  const Eigen::Index n = free_directions(result);
+  if (n == 0 || known.directions.cols() != known.singular_values.size() ||
       known.directions.rows() != static_cast<Eigen::Index>(result.parameters.size()) ||
       !known.singular_values.allFinite() || !known.directions.allFinite())
     return {};

@@ -56,7 +56,7 @@ Json output_of(const StudyView& view, std::size_t o) {
   json["widest_at"] = view.values[*pose];
   const StudyEffects& effects = view.all.effects[o];
   json["largest"] = {{"kind", effects.total.empty() ? "rank correlation" : "total index"}};
-  for (const EffectSize& effect : largest_effects(effects, *pose))
+  for (const EffectSize& effect : largest_effects(effects, band, *pose))
     json["largest"]["by_parameter"][view.parameters[effect.parameter].name] = effect.value;
   return json;
 }

@@ -78,11 +78,10 @@ class Reduction {
         threads_(threads),
         poses_(plan.values.size()),
         by_knee_(plan.knees.size() > 1 && plan.points > 1) {
-    const bool saltelli = plan.study.design == DesignKind::kSaltelli;
-    ranked_ = ranked_parameters(theta, saltelli && plan.knees.size() == 1);
+    ranked_ = ranked_parameters(theta, saltelli() && plan.knees.size() == 1);
     for (std::size_t k = 0; by_knee_ && k < plan.knees.size(); ++k)
       ranked_by_knee_.push_back(
-          ranked_parameters(theta_of(theta, k * plan.points, plan.points), saltelli));
+          ranked_parameters(theta_of(theta, k * plan.points, plan.points), saltelli()));
     (void)make_groups(root);
     if (!by_knee_) return;
     const Hdf5Group knees = root.create("knees");
@@ -114,16 +113,19 @@ class Reduction {
   [[nodiscard]] StudyFailures add_failures() const {
     const std::vector<double> read = outputs_.read("status", {plan_.samples(), poses_});
     const std::vector<std::uint8_t> status(read.begin(), read.end());
-    StudyFailures all = study_failures(status, poses_, theta_);
+    StudyFailures all = study_failures(status, poses_, theta_, saltelli());
     write_failures(root_.open("failures"), all);
     for (std::size_t k = 0; by_knee_ && k < plan_.knees.size(); ++k)
-      write_failures(root_.open("knees").open(names_[k]).open("failures"),
-                     study_failures(slice(status, k * plan_.points * poses_, plan_.points * poses_),
-                                    poses_, theta_of(theta_, k * plan_.points, plan_.points)));
+      write_failures(
+          root_.open("knees").open(names_[k]).open("failures"),
+          study_failures(slice(status, k * plan_.points * poses_, plan_.points * poses_), poses_,
+                         theta_of(theta_, k * plan_.points, plan_.points), saltelli()));
     return all;
   }
 
  private:
+  [[nodiscard]] bool saltelli() const { return plan_.study.design == DesignKind::kSaltelli; }
+
   static void write(const SummaryGroups& groups,
                     const StudyOutput& output,
                     const StudyBand& band,

@@ -172,6 +172,7 @@ bool has_indices(const StudyView& study) {
 
 SweepEffects sweep_effects(const StudyView& study, std::size_t output) {
   const std::vector<double>& sd = study.all.bands.at(output).sd;
+  const std::vector<long>& samples = study.all.bands.at(output).samples;
   const StudyEffects& effects = study.all.effects.at(output);
   const bool indices = !effects.total.empty();
   SweepEffects of;
@@ -180,8 +181,10 @@ SweepEffects sweep_effects(const StudyView& study, std::size_t output) {
     for (std::size_t pose = 0; pose < sd.size(); ++pose) {
       const double weight = sd[pose] * sd[pose];
       const double rank = effects.rank.empty() ? std::nan("") : effects.rank.at(j).at(pose);
-      first.add(indices ? known_value(effects.first.at(j).at(pose)) : rank * rank, weight);
-      total.add(indices ? known_value(effects.total.at(j).at(pose)) : rank * rank, weight);
+      const bool chance = std::isnan(known_rank(rank, samples.at(pose)));
+      const double square = chance ? 0 * rank : rank * rank;
+      first.add(indices ? known_value(effects.first.at(j).at(pose)) : square, weight);
+      total.add(indices ? known_value(effects.total.at(j).at(pose)) : square, weight);
     }
     of.first.push_back(first.mean());
     of.total.push_back(total.mean());

@@ -25,21 +25,24 @@ struct QuarterRange {
 [[nodiscard]] QuarterRange range_of_quarters(const std::array<double, 4>& shares);
 
 /// Whether failed poses are more frequent in some quarter of the parameter's samples than chance
-/// (four deviations, poses of a sample failing together) explains.
+/// (four deviations, poses of a sample and knees of a point failing together) explains.
 [[nodiscard]] bool failures_depend_on(const StudyView& view, std::size_t parameter);
 
 /// The parameters by the size of their effect on an output at a pose, the largest first: total index
-/// where there are indices, else rank correlation. With the word for it: "total", "rank".
+/// where there are indices, else rank correlation; those that are not known are left out.
 struct EffectSize {
   std::size_t parameter = 0;
   double value = 0;
 };
 [[nodiscard]] std::vector<EffectSize> largest_effects(const StudyEffects& effects,
+                                                      const StudyBand& band,
                                                       std::size_t pose);
 
 /// Whether some index is not known (known_value), and what is said of such indices.
 [[nodiscard]] bool has_unknown_indices(const StudyView& view);
 inline constexpr const char* kTooFewSamples =
     "Indices whose interval of 95 % is wider than 1 are left out: too few samples.";
+inline constexpr const char* kChanceRanks =
+    "Rank correlations below 3/√(n - 1) of n samples may be chance and are left out.";
 
 }  // namespace condyle

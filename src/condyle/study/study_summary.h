@@ -32,6 +32,15 @@ struct IndexEstimate {
   return index.upper - index.lower < 1 ? index.value : std::numeric_limits<double>::quiet_NaN();
 }
 
+/// NaN where it may be chance: without any dependence one of n samples has the deviation 1/√(n - 1), and three of these
+/// are passed by one in 370.
+[[nodiscard]] inline double known_rank(double correlation, long samples) {
+  constexpr double kDeviations = 3;
+  const double square = correlation * correlation * static_cast<double>(samples - 1);
+  return square > kDeviations * kDeviations ? correlation
+                                            : std::numeric_limits<double>::quiet_NaN();
+}
+
 /// By parameters and poses. Indices of designs of Saltelli only; empty else.
 struct StudyEffects {
   std::vector<std::vector<IndexEstimate>> first, total;

@@ -8,6 +8,7 @@
 #include "condyle/calibration/csv_file.h"
 #include "condyle/elements/force_law.h"
 #include "condyle/input_error.h"
+#include "condyle/scene/swept_quantity.h"
 
 namespace condyle {
 namespace {
@@ -61,14 +62,24 @@ double theta_of(double number, const FreeParameter& parameter, const Scene& scen
   return inside / nominal > 0 ? std::log(inside / nominal) : std::nan("");
 }
 
-/// What several numbers have in common is a change and no value.
-void expect_own_values(const CsvFile& csv, const std::vector<FreeParameter>& numbers) {
-  for (const FreeParameter& number : numbers)
+/// What several numbers have in common is a change and no value, and what is swept has a value of the sweep.
+void expect_own_values(const CsvFile& csv,
+                       const std::vector<FreeParameter>& numbers,
+                       const Scene& scene) {
+  const int swept = quantity_of_sweep(scene).load;
+  for (const FreeParameter& number : numbers) {
+    const ModelParameter& moved = number.moves.front().first;
+    if (moved.kind == ParameterKind::kLoadScale && static_cast<int>(moved.index) == swept)
+      throw InputError(
+          fmt::format("{}:{}: {}, a load that is swept and has no value of its own, expected a "
+                      "table of \"changes\"",
+                      csv.file.string(), csv.header.line, number.name));
     if (number.together)
       throw InputError(fmt::format(
           "{}:{}: {}, a change that several numbers have in common, expected a table of "
           "\"changes\", or together = false",
           csv.file.string(), csv.header.line, number.name));
+  }
 }
 
 }  // namespace
@@ -79,7 +90,7 @@ std::vector<std::vector<double>> read_study_table(const StudyDescription& study,
                                                   const Scene& scene) {
   const CsvFile csv = read_csv(study.table, "a table of points (CSV)");
   const std::string file = study.table.string();
-  if (study.table_holds_values) expect_own_values(csv, numbers);
+  if (study.table_holds_values) expect_own_values(csv, numbers, scene);
   std::vector<std::size_t> columns;
   for (const std::string& name : names) columns.push_back(column_of(name, csv));
   std::vector<std::vector<double>> points;

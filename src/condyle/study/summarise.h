@@ -47,9 +47,11 @@ struct RankedParameters {
                                          const std::vector<std::vector<double>>& theta,
                                          bool saltelli);
 
-/// status: PoseStatus by samples and poses.
+/// status: PoseStatus by samples and poses. `saltelli`: the quarters of a parameter are those of blocks A and B, as
+/// others repeat its values.
 [[nodiscard]] StudyFailures study_failures(const std::vector<std::uint8_t>& status,
                                            std::size_t poses,
-                                           const std::vector<std::vector<double>>& theta);
+                                           const std::vector<std::vector<double>>& theta,
+                                           bool saltelli);
 
 }  // namespace condyle
