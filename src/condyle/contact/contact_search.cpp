@@ -172,27 +172,54 @@ double ContactSearch::height_over(int sample, int neighbour) const {
   return above == 0 && neighbour > sample ? kInfinity : above;
 }
 
-/// No neighbour is lower for certain. One that faces nothing known stands for nothing, however low it
-/// is.
-bool ContactSearch::is_lowest_of_neighbours(int sample) const {
+/// A neighbour that is lower for certain, -1 where there is none. One that faces nothing known stands for nothing,
+/// however low it is.
+int ContactSearch::lower_neighbour(int sample) const {
   for (const int neighbour : sampled().neighbours(sample)) {
     if (neighbour < 0) break;
-    if (seen(neighbour).faces && height_over(sample, neighbour) <= 0) return false;
+    if (seen(neighbour).faces && height_over(sample, neighbour) <= 0) return neighbour;
   }
-  return true;
+  return -1;
 }
 
-/// The same for a measured sample; neighbours that may be lower are measured.
-bool ContactSearch::is_lowest(int sample, const RigidTransform& X_from_to) {
-  if (!is_lowest_of_neighbours(sample)) return false;
+/// The same of a measured sample; neighbours that may be lower are measured.
+int ContactSearch::lower_neighbour(int sample, const RigidTransform& X_from_to) {
+  if (const int lower = lower_neighbour(sample); lower >= 0) return lower;
   for (const int neighbour : sampled().neighbours(sample)) {
     if (neighbour < 0) break;
     if (seen(neighbour).measured || height_over(sample, neighbour) > 2 * seen(neighbour).error)
       continue;
     measure(neighbour, X_from_to);
-    if (seen(neighbour).faces && height_over(sample, neighbour) <= 0) return false;
+    if (seen(neighbour).faces && height_over(sample, neighbour) <= 0) return neighbour;
   }
-  return true;
+  return -1;
+}
+
+/// From a measured sample, lowest before all were measured, down to one that is; -1 where it was come to before.
+int ContactSearch::lowest_from(int sample, const RigidTransform& X_from_to) {
+  constexpr int kMost = 100;
+  for (int step = 0; step < kMost; ++step) {
+    const int lower = lower_neighbour(sample, X_from_to);
+    if (lower < 0) break;
+    measure(lower, X_from_to);
+    sample = lower;
+  }
+  return std::exchange(seen(sample).taken, true) ? -1 : sample;
+}
+
+/// The lowest of the samples that lie deeper than all minima that were found; -1 where there is none.
+int ContactSearch::lowest_missed(double cutoff, const std::vector<GapMinimum>& minima) const {
+  double lowest = std::min(cutoff, 0.0);
+  for (const GapMinimum& minimum : minima) lowest = std::min(lowest, minimum.gap);
+  lowest -= kModel * spacing_;
+  int missed = -1;
+  for (const int sample : near_) {
+    const Seen& now = seen(sample);
+    if (!now.measured || !now.faces || !(now.gap < lowest)) continue;
+    lowest = now.gap;
+    missed = sample;
+  }
+  return missed;
 }
 
 /// Newton to the minimum near a sample. Where that does not settle, or leads beyond the known part
@@ -205,20 +232,25 @@ std::optional<GapMinimum> ContactSearch::refine(int sample,
   const ContactPlaces start = sampled_on_A_ ? ContactPlaces{there, own} : ContactPlaces{own, there};
   ContactPlaces places = start;
   ContactLinearization at;
-  const Settled outcome =
-      settle_places(surfaces, X_BA, {kRefineReach * spacing_, true, cutoff}, places, at);
+  const Settling how{kRefineReach * spacing_, true, cutoff};
+  Settled outcome = settle_places(surfaces, X_BA, how, places, at);
+  ContactPlaces low = start;
+  if (outcome == Settled::kLost && seen(sample).lower < std::min(cutoff, 0.0)) {
+    outcome = settle_downhill(surfaces, X_BA, how, sampled_on_A_, low, at);
+    places = low;
+  }
   if (outcome == Settled::kAbove) return std::nullopt;
   if (outcome == Settled::kThere) {
     GapMinimum minimum = minimum_at(surfaces, places, at);
     minimum.refined = true;
     if (minimum.edge > -kBeyondEdge * spacing_) return minimum;
   }
-  places = start;
-  const Eigen::Vector3d& c = sampled().sample(sample).c;
+  places = low;
   if (sampled_on_A_)
-    places.on_B = surfaces.on_B.closest(X_BA * c, places.on_B);
+    places.on_B = surfaces.on_B.closest(X_BA * surfaces.on_A.evaluate(low.on_A).c, places.on_B);
   else
-    places.on_A = surfaces.on_A.closest(X_BA.inverse() * c, places.on_A);
+    places.on_A =
+        surfaces.on_A.closest(X_BA.inverse() * surfaces.on_B.evaluate(low.on_B).c, places.on_A);
   GapMinimum lowest = minimum_at(surfaces, places, linearize_contact(surfaces, places, X_BA));
   // A point within a closed solid is an overlap whichever way its own surface faces there.
   if (deepest_ == kInfinity && lowest.gap > 0 && seen(sample).gap < 0) lowest.gap = -lowest.gap;
@@ -313,7 +345,7 @@ RigidTransform ContactSearch::from_to(const RigidTransform& X_BA) const {
 void ContactSearch::gather_lowest(const RigidTransform& X_from_to) {
   lowest_.clear();
   for (const int sample : near_)
-    if (is_lowest_of_neighbours(sample)) lowest_.push_back(sample);
+    if (lower_neighbour(sample) < 0) lowest_.push_back(sample);
   for (const int sample : lowest_) measure(sample, X_from_to);
 }
 
@@ -346,8 +378,11 @@ void ContactSearch::find(const RigidTransform& X_BA,
     found_.push_back(sampled_on_A_ ? contact.on_B : contact.on_A);
   gather_lowest(X);
   for (const int sample : lowest_)
-    if (nearly_faces_known_part(sample) && is_lowest(sample, X))
-      add_minimum(sample, X_BA, cutoff, /*lowest=*/true, minima);
+    if (nearly_faces_known_part(sample)) {
+      const int lowest = lowest_from(sample, X);
+      if (lowest >= 0 && nearly_faces_known_part(lowest))
+        add_minimum(lowest, X_BA, cutoff, /*lowest=*/true, minima);
+    }
   for (const int sample : near_) {
     if (seen(sample).lower > 0) continue;
     measure(sample, X);
@@ -355,6 +390,8 @@ void ContactSearch::find(const RigidTransform& X_BA,
     if (nearly_faces_known_part(sample) && leads_elsewhere(sample, X_BA, cutoff))
       add_minimum(sample, X_BA, cutoff, /*lowest=*/false, minima);
   }
+  if (const int missed = lowest_missed(cutoff, minima); missed >= 0)
+    add_minimum(missed, X_BA, cutoff, /*lowest=*/true, minima);
   if (cutoff <= 0) add_rims(X_BA, cutoff, minima);
   keep_isolated(minima, merge);
 }

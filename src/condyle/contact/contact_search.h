@@ -123,6 +123,7 @@ class ContactSearch {
     int stamp = -1;         ///< pose at which it was computed
     bool measured = false;  ///< to the closest point, not by a quadric nearby
     bool faces = false;     ///< for certain what is known of the other surface
+    bool taken = false;     ///< as the lowest of its neighbours
   };
   /// Samples beside a known contact, and how far it is from them.
   struct NearContact {
@@ -180,8 +181,10 @@ class ContactSearch {
   bool faces_known_part(const Eigen::Vector3d& p, double r, Closest& closest, Facing& facing);
   void find_closest(const Eigen::Vector3d& p, double close, Closest& closest);
   [[nodiscard]] double height_over(int sample, int neighbour) const;
-  [[nodiscard]] bool is_lowest_of_neighbours(int sample) const;
-  [[nodiscard]] bool is_lowest(int sample, const RigidTransform& X_from_to);
+  [[nodiscard]] int lower_neighbour(int sample) const;
+  [[nodiscard]] int lower_neighbour(int sample, const RigidTransform& X_from_to);
+  [[nodiscard]] int lowest_from(int sample, const RigidTransform& X_from_to);
+  [[nodiscard]] int lowest_missed(double cutoff, const std::vector<GapMinimum>& minima) const;
   [[nodiscard]] bool nearly_faces_known_part(int sample) const;
   [[nodiscard]] bool leads_elsewhere(int sample, const RigidTransform& X_BA, double cutoff) const;
   void add_rims(const RigidTransform& X_BA, double cutoff, std::vector<GapMinimum>& minima);
