@@ -236,8 +236,13 @@ std::optional<GapMinimum> ContactSearch::refine(int sample,
   Settled outcome = settle_places(surfaces, X_BA, how, places, at);
   ContactPlaces low = start;
   if (outcome == Settled::kLost && seen(sample).lower < std::min(cutoff, 0.0)) {
-    outcome = settle_downhill(surfaces, X_BA, how, sampled_on_A_, low, at);
-    places = low;
+    places = start;
+    const Settled downhill = settle_downhill(surfaces, X_BA, how, sampled_on_A_, places, at);
+    // What lies beyond an edge is a rim's.
+    if (edge_distance(surfaces, places) >= std::min(0.0, edge_distance(surfaces, start))) {
+      outcome = downhill;
+      low = places;
+    }
   }
   if (outcome == Settled::kAbove) return std::nullopt;
   if (outcome == Settled::kThere) {
