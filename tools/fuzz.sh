@@ -48,7 +48,7 @@ export ASAN_OPTIONS=malloc_context_size=4  # a deep stack for each allocation ta
 # last_or_0 PATTERN: what its group matches in the log's last such line.
 last_or_0() {
   local found_in_log
-  found_in_log=$(sed -nE "s/$1/\1/p" "$log" | tail -1)
+  found_in_log=$(LC_ALL=C sed -nE "s/$1/\1/p" "$log" | tail -1)
   echo "${found_in_log:-0}"
 }
 
@@ -62,7 +62,7 @@ one_run() {
   [ "$door" != run ] || more=(tests/fuzz/whole_results)
   [ ! -f "tools/fuzz/$door.dict" ] || more+=("-dict=tools/fuzz/$door.dict")
   "$build/condyle_fuzz" "--door=$door" -timeout=10 -rss_limit_mb=2048 -detect_leaks=1 -entropic=0 -close_fd_mask=1 -print_funcs=0 \
-    -print_final_stats=1 "-max_total_time=$2" "-runs=$3" "-artifact_prefix=$kept/$door-" \
+    -print_final_stats=1 "-max_total_time=$(larger 1 "$2")" "-runs=$3" "-artifact_prefix=$kept/$door-" \
     "$kept/$door" "tests/fuzz/$door" "${more[@]}" >"$log" 2>&1 || status=$?
   if [ "$status" -ne 0 ]; then
     finds=1 found=1

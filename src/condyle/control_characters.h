@@ -29,6 +29,11 @@ namespace condyle {
                            : first >= 0xe0U && first < 0xf0U ? 3
                            : first >= 0xf0U && first < 0xf5U ? 4
                                                              : 0;
+  const unsigned second = byte_at(text, at + 1);
+  // Longer than need be, half of a pair of UTF-16, beyond the last letter.
+  if ((first == 0xe0U && second < 0xa0U) || (first == 0xedU && second > 0x9fU) ||
+      (first == 0xf0U && second < 0x90U) || (first == 0xf4U && second > 0x8fU))
+    return 0;
   for (std::size_t i = 1; i < size; ++i)
     if ((byte_at(text, at + i) & 0xc0U) != 0x80U) return 0;
   return size;

@@ -128,10 +128,9 @@ bool is_held(const Scene& scene, std::size_t coordinate) {
                      });
 }
 
-/// Of the load at a pose, by joint coordinates: moments [N mm], then forces [N]; a moment about the anterior axis
-/// adducts, about the proximal one rotates. Of a force the moments about the origin of its bone's frame, as forces at
-/// an arm of kArm, and none about what is held: a force at the ankle bends the knee aside, one at the tuberosity
-/// draws it.
+/// The load at a pose by joint coordinates: moments [N mm], then forces [N]; a moment about the anterior axis adducts,
+/// one about the proximal axis rotates. A force has moments about the origin of its bone's frame, too: divided by kArm
+/// to compare with forces, those about held coordinates left out. A load that is a moment is taken as it is.
 Eigen::Matrix<double, 6, 1> generalized_load(const Scene& scene, const RigidTransform& X_BA) {
   constexpr double kArm = 100;  // [mm]
   const LoadDescription& load = scene.loads.at(scene.sweep->index);

@@ -34,6 +34,7 @@ constexpr double kModel = 0.01;     // what the paraboloid of the gap may be wro
 // Points of surfaces that are looked at, about, by the time that it takes:
 constexpr long kPrediction = 3;   // where the paraboloid of the gap at a sample leads to
 constexpr long kRefinement = 40;  // to a minimum of the gap
+constexpr long kDownhill = 300;   // by steps that lower it
 constexpr long kRim = 100;        // for the lowest point of an edge
 
 /// No wider than what the smaller surface takes to be seen: lever arms of a model may be much longer than
@@ -60,8 +61,8 @@ void keep_isolated(std::vector<GapMinimum>& minima, double merge) {
 
 }  // namespace
 
-/// Each surface with the spacing that it can be given. The one that is seen best is sampled; of two that are seen
-/// alike the one with fewer samples.
+/// Each surface with the spacing that it can be given. The one with the finer spacing is sampled; of two with the
+/// same, the one with fewer samples.
 struct ContactCover::Samples {
   double spacing_B, spacing_A;
   std::vector<Place> on_B, on_A;
@@ -207,8 +208,8 @@ int ContactSearch::lowest_from(int sample, const RigidTransform& X_from_to) {
   return std::exchange(seen(sample).taken, true) ? -1 : sample;
 }
 
-/// The lowest of the samples that lie deeper than all minima that were found; -1 where there is none.
-int ContactSearch::lowest_missed(double cutoff, const std::vector<GapMinimum>& minima) const {
+/// The deepest of the samples that lie deeper than all minima that were found; -1 where there is none.
+int ContactSearch::deepest_unexplained(double cutoff, const std::vector<GapMinimum>& minima) const {
   double lowest = std::min(cutoff, 0.0);
   for (const GapMinimum& minimum : minima) lowest = std::min(lowest, minimum.gap);
   lowest -= kModel * spacing_;
@@ -226,7 +227,7 @@ int ContactSearch::lowest_missed(double cutoff, const std::vector<GapMinimum>& m
 /// while the sample itself is within, the sample stands for it.
 std::optional<GapMinimum> ContactSearch::refine(int sample,
                                                 const RigidTransform& X_BA,
-                                                double cutoff) const {
+                                                double cutoff) {
   const SurfacePair surfaces = this->surfaces();
   const Place &own = sampled().place(sample), &there = closest(sample).place;
   const ContactPlaces start = sampled_on_A_ ? ContactPlaces{there, own} : ContactPlaces{own, there};
@@ -235,7 +236,13 @@ std::optional<GapMinimum> ContactSearch::refine(int sample,
   const Settling how{kRefineReach * spacing_, true, cutoff};
   Settled outcome = settle_places(surfaces, X_BA, how, places, at);
   ContactPlaces low = start;
+  const bool below = seen(sample).measured && seen(sample).gap < cutoff;
+  const bool higher =
+      outcome == Settled::kAbove ||
+      (outcome == Settled::kThere && at.gap() > seen(sample).gap + kModel * spacing_);
+  if (below && higher) outcome = Settled::kLost;
   if (outcome == Settled::kLost && seen(sample).lower < std::min(cutoff, 0.0)) {
+    looked_at_ += kDownhill;
     places = start;
     const Settled downhill = settle_downhill(surfaces, X_BA, how, sampled_on_A_, places, at);
     // What lies beyond an edge is a rim's.
@@ -256,9 +263,10 @@ std::optional<GapMinimum> ContactSearch::refine(int sample,
   else
     places.on_A =
         surfaces.on_A.closest(X_BA.inverse() * surfaces.on_B.evaluate(low.on_B).c, places.on_A);
-  GapMinimum lowest = minimum_at(surfaces, places, linearize_contact(surfaces, places, X_BA));
-  // A point within a closed solid is an overlap whichever way its own surface faces there.
-  if (deepest_ == kInfinity && lowest.gap > 0 && seen(sample).gap < 0) lowest.gap = -lowest.gap;
+  at = linearize_contact(surfaces, places, X_BA);
+  GapMinimum lowest = minimum_at(surfaces, places, at);
+  // By the normal at the closest point: normals are not opposite there.
+  if (!sampled_on_A_) lowest.gap = -at.m.dot(at.g);
   return lowest;
 }
 
@@ -395,7 +403,7 @@ void ContactSearch::find(const RigidTransform& X_BA,
     if (nearly_faces_known_part(sample) && leads_elsewhere(sample, X_BA, cutoff))
       add_minimum(sample, X_BA, cutoff, /*lowest=*/false, minima);
   }
-  if (const int missed = lowest_missed(cutoff, minima); missed >= 0)
+  if (const int missed = deepest_unexplained(cutoff, minima); missed >= 0)
     add_minimum(missed, X_BA, cutoff, /*lowest=*/true, minima);
   if (cutoff <= 0) add_rims(X_BA, cutoff, minima);
   keep_isolated(minima, merge);

@@ -123,7 +123,7 @@ class ContactSearch {
     int stamp = -1;         ///< pose at which it was computed
     bool measured = false;  ///< to the closest point, not by a quadric nearby
     bool faces = false;     ///< for certain what is known of the other surface
-    bool taken = false;     ///< as the lowest of its neighbours
+    bool taken = false;     ///< was come to already as lower than all its neighbours
   };
   /// Samples beside a known contact, and how far it is from them.
   struct NearContact {
@@ -184,7 +184,7 @@ class ContactSearch {
   [[nodiscard]] int lower_neighbour(int sample) const;
   [[nodiscard]] int lower_neighbour(int sample, const RigidTransform& X_from_to);
   [[nodiscard]] int lowest_from(int sample, const RigidTransform& X_from_to);
-  [[nodiscard]] int lowest_missed(double cutoff, const std::vector<GapMinimum>& minima) const;
+  [[nodiscard]] int deepest_unexplained(double cutoff, const std::vector<GapMinimum>& minima) const;
   [[nodiscard]] bool nearly_faces_known_part(int sample) const;
   [[nodiscard]] bool leads_elsewhere(int sample, const RigidTransform& X_BA, double cutoff) const;
   void add_rims(const RigidTransform& X_BA, double cutoff, std::vector<GapMinimum>& minima);
@@ -202,7 +202,7 @@ class ContactSearch {
   /// Nothing where the minimum near the sample lies above the cutoff.
   [[nodiscard]] std::optional<GapMinimum> refine(int sample,
                                                  const RigidTransform& X_BA,
-                                                 double cutoff) const;
+                                                 double cutoff);
   [[nodiscard]] SurfacePair surfaces() const { return {*cover_->surface_B, *cover_->surface_A}; }
   [[nodiscard]] const SurfaceCover& sampled() const {
     return sampled_on_A_ ? cover_->on_A : cover_->on_B;

@@ -153,7 +153,7 @@ Settled settle_downhill(const SurfacePair& surfaces,
   ContactPlaces settled = places;
   ContactLinearization there;
   const Settled outcome = settle_places(surfaces, X_BA, how, settled, there);
-  if (outcome != Settled::kThere) return outcome;
+  if (outcome != Settled::kThere || point.height(there) > point.height(at)) return Settled::kLost;
   places = settled;
   at = there;
   return outcome;

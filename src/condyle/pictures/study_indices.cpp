@@ -10,7 +10,7 @@
 #include "condyle/pictures/gnuplot_page.h"
 #include "condyle/pictures/plot_study.h"
 #include "condyle/results/study_shown.h"
-#include "condyle/study/summarise.h"
+#include "condyle/results/study_words.h"
 
 namespace condyle {
 namespace {
@@ -160,13 +160,6 @@ HeatMap map_of(const StudyView& study, const char* what, const At& at) {
   return map;
 }
 
-/// How many correlations are of; of a design of Saltelli blocks A and B have numbers of their own.
-long ranked_samples(const StudyView& study) {
-  const long blocks = static_cast<long>(study.parameters.size()) + 2;
-  const long own = study.design == "saltelli" ? 2 * study.samples / blocks : study.samples;
-  return std::min(own, static_cast<long>(kMostRanked));
-}
-
 }  // namespace
 
 std::vector<NamedPage> study_index_pages(const StudyView& study) {
@@ -202,10 +195,10 @@ std::vector<NamedMap> study_maps(const StudyView& study) {
              [](const StudyEffects& effects, std::size_t row, std::size_t pose) {
                return effects.rank.empty() ? std::nan("") : effects.rank.at(row).at(pose);
              });
-  const long samples = ranked_samples(study);
-  const double chance = 1.96 / std::sqrt(std::max(1.0, static_cast<double>(samples)));
+  const double samples = independent_samples(study);
   ranks.notes.push_back(
-      fmt::format("Of {} samples; what is below {:.2g} may be chance.", samples, chance));
+      fmt::format("Of {:.0f} independent samples; what is below {:.2g} may be chance.", samples,
+                  std::min(1.0, chance_rank(samples))));
   keep("study_correlations", std::move(ranks));
   if (!has_indices(study)) return maps;
   HeatMap totals = map_of(

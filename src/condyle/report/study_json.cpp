@@ -55,8 +55,9 @@ Json output_of(const StudyView& view, std::size_t o) {
   if (!pose) return json;
   json["widest_at"] = view.values[*pose];
   const StudyEffects& effects = view.all.effects[o];
-  json["largest"] = {{"kind", effects.total.empty() ? "rank correlation" : "total index"}};
-  for (const EffectSize& effect : largest_effects(effects, band, *pose))
+  json["largest"] = {{"kind", effects.total.empty() ? "rank correlation" : "total index"},
+                     {"by_parameter", Json::object()}};
+  for (const EffectSize& effect : largest_effects(view, o, *pose))
     json["largest"]["by_parameter"][view.parameters[effect.parameter].name] = effect.value;
   return json;
 }

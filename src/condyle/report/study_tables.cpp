@@ -109,7 +109,8 @@ std::string study_effect_section(const StudyView& study) {
       "effects", "What explains what",
       (indices ? in_one_sentence(study, outputs) : "") +
           (has_unknown_indices(study) ? "<p>" + escaped(kTooFewSamples) + "</p>\n" : "") +
-          html(table) + (indices ? by_pose(study, outputs) : ""));
+          (has_chance_ranks(study) ? "<p>" + escaped(kChanceRanks) + "</p>\n" : "") + html(table) +
+          (indices ? by_pose(study, outputs) : ""));
 }
 
 std::string study_band_section(const StudyView& study) {

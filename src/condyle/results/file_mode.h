@@ -6,7 +6,8 @@
 
 namespace condyle {
 
-/// The permissions of `of` where that is a plain file; as they are where it is none, or they cannot be set.
-void take_mode(int descriptor, const std::filesystem::path& of);
+/// The permissions of `of` where that is a plain file, and `at_least` those; as they are where it is none, or they
+/// cannot be set.
+void take_mode(int descriptor, const std::filesystem::path& of, unsigned at_least = 0);
 
 }  // namespace condyle

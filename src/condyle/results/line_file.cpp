@@ -34,7 +34,7 @@ LineFile::LineFile(std::filesystem::path path, const std::filesystem::path& like
     if (::fstat(descriptor_, &state) != 0)
       fail("cannot be written: " + std::generic_category().message(errno));
   }
-  if (state.st_size == 0) take_mode(descriptor_, like);
+  if (state.st_size == 0) take_mode(descriptor_, like, S_IRUSR | S_IWUSR);  // to be resumed
 }
 
 LineFile::~LineFile() {

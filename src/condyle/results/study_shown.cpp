@@ -8,6 +8,7 @@
 
 #include "condyle/calibration/shown_numbers.h"
 #include "condyle/input_error.h"
+#include "condyle/results/study_words.h"
 #include "condyle/scene_file/read_scene.h"
 
 namespace condyle {
@@ -171,8 +172,8 @@ bool has_indices(const StudyView& study) {
 }
 
 SweepEffects sweep_effects(const StudyView& study, std::size_t output) {
-  const std::vector<double>& sd = study.all.bands.at(output).sd;
-  const std::vector<long>& samples = study.all.bands.at(output).samples;
+  const StudyBand& band = study.all.bands.at(output);
+  const std::vector<double>& sd = band.sd;
   const StudyEffects& effects = study.all.effects.at(output);
   const bool indices = !effects.total.empty();
   SweepEffects of;
@@ -181,7 +182,7 @@ SweepEffects sweep_effects(const StudyView& study, std::size_t output) {
     for (std::size_t pose = 0; pose < sd.size(); ++pose) {
       const double weight = sd[pose] * sd[pose];
       const double rank = effects.rank.empty() ? std::nan("") : effects.rank.at(j).at(pose);
-      const bool chance = std::isnan(known_rank(rank, samples.at(pose)));
+      const bool chance = std::isnan(known_rank(rank, independent_samples(study, band, pose)));
       const double square = chance ? 0 * rank : rank * rank;
       first.add(indices ? known_value(effects.first.at(j).at(pose)) : square, weight);
       total.add(indices ? known_value(effects.total.at(j).at(pose)) : square, weight);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "condyle/contact/pose_status.h"
+#include "condyle/study/summarise.h"
 
 namespace condyle {
 namespace {
@@ -49,17 +50,17 @@ std::string line_of_quartiles(const StudyView& view, std::size_t parameter) {
                      view.parameters[parameter].name, rates);
 }
 
+constexpr double kSmall = 0.05;  // not named
+
 bool is_unknown(const IndexEstimate& index) {
   return std::isfinite(index.value) && std::isnan(known_value(index));
 }
 
 std::string effects_in_words(const StudyView& view, std::size_t output, std::size_t pose) {
   constexpr std::size_t kMost = 3;
-  constexpr double kSmall = 0.05;
   std::string words;
   std::size_t count = 0;
-  for (const EffectSize& effect :
-       largest_effects(view.all.effects[output], view.all.bands[output], pose)) {
+  for (const EffectSize& effect : largest_effects(view, output, pose)) {
     if (std::abs(effect.value) < kSmall || count++ == kMost) break;
     words += fmt::format("{} {:.2f}, ", view.parameters[effect.parameter].name, effect.value);
   }
@@ -95,10 +96,6 @@ bool failures_depend_on(const StudyView& view, std::size_t parameter) {
   const StudyFailures& failures = view.all.failures;
   if (failures.failed == 0 || failures.incomplete == 0) return false;
   const auto samples = static_cast<double>(view.samples);
-  // Of a design of Saltelli blocks A and B are by themselves.
-  const double own =
-      view.design == "saltelli" ? 2 / (2 + static_cast<double>(view.parameters.size())) : 1;
-  const double independent = own * static_cast<double>(view.points);
   const auto failed = static_cast<double>(failures.failed);
   const double poses = static_cast<double>(failures.poses) / samples;
   const double share = failed / static_cast<double>(failures.poses);
@@ -106,24 +103,53 @@ bool failures_depend_on(const StudyView& view, std::size_t parameter) {
   const double together = failed / static_cast<double>(failures.incomplete) / poses;
   const double variance = share * std::max(together - share, (1 - share) / poses);
   const auto [low, high] = range_of_quarters(failures.by_quartile.at(parameter));
-  return high - low > kDeviations * std::sqrt(2 * variance / std::max(1.0, independent / 4));
+  return high - low >
+         kDeviations * std::sqrt(2 * variance / std::max(1.0, independent_samples(view) / 4));
 }
 
-std::vector<EffectSize> largest_effects(const StudyEffects& effects,
-                                        const StudyBand& band,
+double independent_samples(const StudyView& view) {
+  const auto numbers = static_cast<double>(view.parameters.size());
+  const double own = view.design == "saltelli" ? 2 / (2 + numbers) : 1;
+  return std::min(own * static_cast<double>(view.points), static_cast<double>(kMostRanked));
+}
+
+double independent_samples(const StudyView& view, const StudyBand& band, std::size_t pose) {
+  const double solved =
+      static_cast<double>(band.samples.at(pose)) / static_cast<double>(std::max(view.samples, 1L));
+  return solved * independent_samples(view);
+}
+
+std::vector<EffectSize> largest_effects(const StudyView& view,
+                                        std::size_t output,
                                         std::size_t pose) {
+  const StudyEffects& effects = view.all.effects[output];
+  const double samples = independent_samples(view, view.all.bands[output], pose);
   std::vector<EffectSize> sizes;
   const std::size_t d = effects.total.empty() ? effects.rank.size() : effects.total.size();
   for (std::size_t i = 0; i < d; ++i) {
-    const double value = effects.total.empty()
-                             ? known_rank(effects.rank[i][pose], band.samples[pose])
-                             : known_value(effects.total[i][pose]);
+    const double value = effects.total.empty() ? known_rank(effects.rank[i][pose], samples)
+                                               : known_value(effects.total[i][pose]);
     if (!std::isnan(value)) sizes.push_back({i, value});
   }
   std::stable_sort(sizes.begin(), sizes.end(), [](const EffectSize& a, const EffectSize& b) {
     return std::abs(a.value) > std::abs(b.value);
   });
   return sizes;
+}
+
+bool has_chance_ranks(const StudyView& view) {
+  const auto is_chance = [](double rank, double samples) {
+    return std::abs(rank) >= kSmall && std::isnan(known_rank(rank, samples));
+  };
+  for (std::size_t o = 0; o < view.all.effects.size(); ++o) {
+    const StudyEffects& effects = view.all.effects[o];
+    const std::optional<std::size_t> pose = widest_pose(view.all.bands[o]);
+    if (!pose || !effects.total.empty()) continue;
+    const double samples = independent_samples(view, view.all.bands[o], *pose);
+    for (const std::vector<double>& by_pose : effects.rank)
+      if (is_chance(by_pose[*pose], samples)) return true;
+  }
+  return false;
 }
 
 bool has_unknown_indices(const StudyView& view) {
@@ -146,22 +172,21 @@ std::vector<std::string> study_lines(const StudyView& view) {
   lines.emplace_back();
   lines.push_back(fmt::format("where each band is widest: 5, 50 and 95 %, and the largest {}",
                               indices ? "total indices" : "rank correlations"));
-  bool unknown = false, chance = false;
+  bool unknown = false;
   for (std::size_t o = 0; o < view.outputs.size(); ++o) {
     const StudyBand& band = view.all.bands[o];
     const std::optional<std::size_t> pose = widest_pose(band);
     if (!pose) continue;
     for (const std::vector<IndexEstimate>& by_pose : view.all.effects[o].total)
       unknown = unknown || is_unknown(by_pose[*pose]);
-    const std::string named = effects_in_words(view, o, *pose);
-    chance = chance || (!indices && named.empty());
-    lines.push_back(fmt::format(
-        "  {:<24} at {:>6.4g}{}: {:>9.4g} {:>9.4g} {:>9.4g} {:<4}  {}", view.outputs[o].name,
-        view.values[*pose], view.swept.unit_after_number(), band.quantiles[0][*pose],
-        band.quantiles[2][*pose], band.quantiles[4][*pose], view.outputs[o].units, named));
+    lines.push_back(fmt::format("  {:<24} at {:>6.4g}{}: {:>9.4g} {:>9.4g} {:>9.4g} {:<4}  {}",
+                                view.outputs[o].name, view.values[*pose],
+                                view.swept.unit_after_number(), band.quantiles[0][*pose],
+                                band.quantiles[2][*pose], band.quantiles[4][*pose],
+                                view.outputs[o].units, effects_in_words(view, o, *pose)));
   }
   if (unknown) lines.push_back(std::string("  ") + kTooFewSamples);
-  if (chance) lines.push_back(std::string("  ") + kChanceRanks);
+  if (has_chance_ranks(view)) lines.push_back(std::string("  ") + kChanceRanks);
   return lines;
 }
 

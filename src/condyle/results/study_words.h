@@ -34,15 +34,26 @@ struct EffectSize {
   std::size_t parameter = 0;
   double value = 0;
 };
-[[nodiscard]] std::vector<EffectSize> largest_effects(const StudyEffects& effects,
-                                                      const StudyBand& band,
+[[nodiscard]] std::vector<EffectSize> largest_effects(const StudyView& view,
+                                                      std::size_t output,
                                                       std::size_t pose);
+
+/// Samples whose numbers are independent: knees share the numbers of a point, and of a design of Saltelli blocks A and
+/// B are by themselves.
+[[nodiscard]] double independent_samples(const StudyView& view);
+/// Of these, those of an output at a pose that have a result.
+[[nodiscard]] double independent_samples(const StudyView& view,
+                                         const StudyBand& band,
+                                         std::size_t pose);
+
+/// Whether some rank correlation that would be named may be chance (known_rank), and what is said of them.
+[[nodiscard]] bool has_chance_ranks(const StudyView& view);
+inline constexpr const char* kChanceRanks =
+    "Rank correlations below 3/√(n - 1) of n independent samples may be chance and are left out.";
 
 /// Whether some index is not known (known_value), and what is said of such indices.
 [[nodiscard]] bool has_unknown_indices(const StudyView& view);
 inline constexpr const char* kTooFewSamples =
     "Indices whose interval of 95 % is wider than 1 are left out: too few samples.";
-inline constexpr const char* kChanceRanks =
-    "Rank correlations below 3/√(n - 1) of n samples may be chance and are left out.";
 
 }  // namespace condyle

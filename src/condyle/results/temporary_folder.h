@@ -17,7 +17,7 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     const char* named = std::getenv("TMPDIR");
-    const std::filesystem::path parent = named != nullptr ? named : "/tmp";
+    const std::filesystem::path parent = named != nullptr && *named != '\0' ? named : "/tmp";
     std::string name = (parent / "condyle-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr)
       throw InputError(parent.string() +

@@ -3,7 +3,9 @@
 /// What a study says, told from its samples in their order: plain data. Of each knee of a population by
 /// itself where there are samples of it, and of all together.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -32,13 +34,16 @@ struct IndexEstimate {
   return index.upper - index.lower < 1 ? index.value : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// NaN where it may be chance: without any dependence one of n samples has the deviation 1/√(n - 1), and three of these
-/// are passed by one in 370.
-[[nodiscard]] inline double known_rank(double correlation, long samples) {
+/// What a rank correlation of so many independent samples exceeds by chance in one case of 370: without any dependence
+/// its standard deviation is 1/√(n - 1).
+[[nodiscard]] inline double chance_rank(double samples) {
   constexpr double kDeviations = 3;
-  const double square = correlation * correlation * static_cast<double>(samples - 1);
-  return square > kDeviations * kDeviations ? correlation
-                                            : std::numeric_limits<double>::quiet_NaN();
+  return kDeviations / std::sqrt(std::max(samples - 1, 1e-9));
+}
+/// NaN where it may be chance.
+[[nodiscard]] inline double known_rank(double correlation, double samples) {
+  return std::abs(correlation) > chance_rank(samples) ? correlation
+                                                      : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// By parameters and poses. Indices of designs of Saltelli only; empty else.
