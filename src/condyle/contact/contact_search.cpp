@@ -236,7 +236,8 @@ std::optional<GapMinimum> ContactSearch::refine(int sample,
   const Settling how{kRefineReach * spacing_, true, cutoff};
   Settled outcome = settle_places(surfaces, X_BA, how, places, at);
   ContactPlaces low = start;
-  const bool below = seen(sample).measured && seen(sample).gap < cutoff;
+  // On a line a sample may lie lower than where the line settles, on the way to its end.
+  const bool below = !cover_->lines && seen(sample).measured && seen(sample).gap < cutoff;
   const bool higher =
       outcome == Settled::kAbove ||
       (outcome == Settled::kThere && at.gap() > seen(sample).gap + kModel * spacing_);
