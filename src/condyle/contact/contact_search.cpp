@@ -236,13 +236,13 @@ std::optional<GapMinimum> ContactSearch::refine(int sample,
   const Settling how{kRefineReach * spacing_, true, cutoff};
   Settled outcome = settle_places(surfaces, X_BA, how, places, at);
   ContactPlaces low = start;
-  // On a line a sample may lie lower than where the line settles, on the way to its end.
-  const bool below = !cover_->lines && seen(sample).measured && seen(sample).gap < cutoff;
+  const bool below = seen(sample).measured && seen(sample).gap < cutoff;
   const bool higher =
       outcome == Settled::kAbove ||
       (outcome == Settled::kThere && at.gap() > seen(sample).gap + kModel * spacing_);
-  if (below && higher) outcome = Settled::kLost;
-  if (outcome == Settled::kLost && seen(sample).lower < std::min(cutoff, 0.0)) {
+  if (below && higher && !cover_->lines) outcome = Settled::kLost;
+  // Lines lie lower on the way to their ends, which are looked for by themselves.
+  if (outcome == Settled::kLost && !cover_->lines && seen(sample).lower < std::min(cutoff, 0.0)) {
     looked_at_ += kDownhill;
     places = start;
     const Settled downhill = settle_downhill(surfaces, X_BA, how, sampled_on_A_, places, at);
