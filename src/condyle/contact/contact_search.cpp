@@ -223,52 +223,57 @@ int ContactSearch::deepest_unexplained(double cutoff, const std::vector<GapMinim
   return missed;
 }
 
-/// Newton to the minimum near a sample. Where that does not settle, or leads beyond the known part
-/// while the sample itself is within, the sample stands for it.
+/// The gap of a point of the sampled surface to the closest one of the other, by the normal there: those of both are
+/// not opposite.
+GapMinimum ContactSearch::gap_at(ContactPlaces places, const RigidTransform& X_BA) const {
+  const SurfacePair surfaces = this->surfaces();
+  if (sampled_on_A_)
+    places.on_B = surfaces.on_B.closest(X_BA * surfaces.on_A.evaluate(places.on_A).c, places.on_B);
+  else
+    places.on_A =
+        surfaces.on_A.closest(X_BA.inverse() * surfaces.on_B.evaluate(places.on_B).c, places.on_A);
+  const ContactLinearization at = linearize_contact(surfaces, places, X_BA);
+  GapMinimum there = minimum_at(surfaces, places, at);
+  if (!sampled_on_A_) there.gap = -at.m.dot(at.g);
+  return there;
+}
+
+/// Newton to the minimum near a sample. Where that does not settle, or leads beyond the known part while the sample
+/// itself is within, the sample stands for it; where only its cell may touch, the lowest place that steps downhill
+/// come to.
 std::optional<GapMinimum> ContactSearch::refine(int sample,
                                                 const RigidTransform& X_BA,
                                                 double cutoff) {
   const SurfacePair surfaces = this->surfaces();
   const Place &own = sampled().place(sample), &there = closest(sample).place;
   const ContactPlaces start = sampled_on_A_ ? ContactPlaces{there, own} : ContactPlaces{own, there};
+  const Settling how{kRefineReach * spacing_, true, cutoff};
   ContactPlaces places = start;
   ContactLinearization at;
-  const Settling how{kRefineReach * spacing_, true, cutoff};
-  Settled outcome = settle_places(surfaces, X_BA, how, places, at);
-  ContactPlaces low = start;
-  const bool below = seen(sample).measured && seen(sample).gap < cutoff;
-  const bool higher =
-      outcome == Settled::kAbove ||
-      (outcome == Settled::kThere && at.gap() > seen(sample).gap + kModel * spacing_);
-  if (below && higher && !cover_->lines) outcome = Settled::kLost;
-  // Lines lie lower on the way to their ends, which are looked for by themselves.
-  if (outcome == Settled::kLost && !cover_->lines && seen(sample).lower < std::min(cutoff, 0.0)) {
-    looked_at_ += kDownhill;
-    places = start;
-    const Settled downhill = settle_downhill(surfaces, X_BA, how, sampled_on_A_, places, at);
-    // What lies beyond an edge is a rim's.
-    if (edge_distance(surfaces, places) >= std::min(0.0, edge_distance(surfaces, start))) {
-      outcome = downhill;
-      low = places;
-    }
-  }
-  if (outcome == Settled::kAbove) return std::nullopt;
-  if (outcome == Settled::kThere) {
+  const Settled outcome = settle_places(surfaces, X_BA, how, places, at);
+  const Seen& now = seen(sample);
+  const bool below = now.measured && now.gap < cutoff && !cover_->lines;
+  if (outcome == Settled::kAbove && !below) return std::nullopt;
+  if (outcome == Settled::kThere && !(below && at.gap() > now.gap + kModel * spacing_)) {
     GapMinimum minimum = minimum_at(surfaces, places, at);
     minimum.refined = true;
     if (minimum.edge > -kBeyondEdge * spacing_) return minimum;
+    return gap_at(start, X_BA);
   }
-  places = low;
-  if (sampled_on_A_)
-    places.on_B = surfaces.on_B.closest(X_BA * surfaces.on_A.evaluate(low.on_A).c, places.on_B);
-  else
-    places.on_A =
-        surfaces.on_A.closest(X_BA.inverse() * surfaces.on_B.evaluate(low.on_B).c, places.on_A);
-  at = linearize_contact(surfaces, places, X_BA);
-  GapMinimum lowest = minimum_at(surfaces, places, at);
-  // By the normal at the closest point: normals are not opposite there.
-  if (!sampled_on_A_) lowest.gap = -at.m.dot(at.g);
-  return lowest;
+  const GapMinimum standing = gap_at(start, X_BA);
+  const double touching = std::min(cutoff, 0.0);
+  // Lines lie lower on the way to their ends, which are looked for by themselves.
+  if (cover_->lines || standing.gap < touching || now.lower >= touching) return standing;
+  looked_at_ += kDownhill;
+  places = start;
+  const Settled downhill = settle_downhill(surfaces, X_BA, how, sampled_on_A_, places, at);
+  // What lies beyond an edge is a rim's.
+  if (edge_distance(surfaces, places) < std::min(0.0, edge_distance(surfaces, start)))
+    return standing;
+  if (downhill != Settled::kThere) return gap_at(places, X_BA);
+  GapMinimum minimum = minimum_at(surfaces, places, at);
+  minimum.refined = true;
+  return minimum;
 }
 
 void ContactSearch::add_minimum(int sample,

@@ -199,6 +199,7 @@ class ContactSearch {
                    bool lowest,
                    std::vector<GapMinimum>& minima);
   [[nodiscard]] RigidTransform from_to(const RigidTransform& X_BA) const;
+  [[nodiscard]] GapMinimum gap_at(ContactPlaces places, const RigidTransform& X_BA) const;
   /// Nothing where the minimum near the sample lies above the cutoff.
   [[nodiscard]] std::optional<GapMinimum> refine(int sample,
                                                  const RigidTransform& X_BA,
