@@ -34,7 +34,6 @@ constexpr double kModel = 0.01;     // what the paraboloid of the gap may be wro
 // Points of surfaces that are looked at, about, by the time that it takes:
 constexpr long kPrediction = 3;   // where the paraboloid of the gap at a sample leads to
 constexpr long kRefinement = 40;  // to a minimum of the gap
-constexpr long kDownhill = 300;   // by steps that lower it
 constexpr long kRim = 100;        // for the lowest point of an edge
 
 /// No wider than what the smaller surface takes to be seen: lever arms of a model may be much longer than
@@ -264,9 +263,9 @@ std::optional<GapMinimum> ContactSearch::refine(int sample,
   const double touching = std::min(cutoff, 0.0);
   // Lines lie lower on the way to their ends, which are looked for by themselves.
   if (cover_->lines || standing.gap < touching || now.lower >= touching) return standing;
-  looked_at_ += kDownhill;
   places = start;
-  const Settled downhill = settle_downhill(surfaces, X_BA, how, sampled_on_A_, places, at);
+  const Settled downhill =
+      settle_downhill(surfaces, X_BA, how, sampled_on_A_, places, at, looked_at_);
   // What lies beyond an edge is a rim's.
   if (edge_distance(surfaces, places) < std::min(0.0, edge_distance(surfaces, start)))
     return standing;

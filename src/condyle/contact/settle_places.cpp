@@ -127,11 +127,14 @@ Settled settle_downhill(const SurfacePair& surfaces,
                         const Settling& how,
                         bool point_of_A,
                         ContactPlaces& places,
-                        ContactLinearization& at) {
+                        ContactLinearization& at,
+                        long& points) {
   constexpr int kMost = 60;
+  constexpr long kLook = 4, kLast = 40;  // points that it takes the time of
   constexpr double kFirst = 0.1, kPolish = 1e-3, kShortest = 1e-5;  // of the reach
   const PointOverSurface point(surfaces, X_BA, point_of_A);
   at = point.at(places);
+  points += kLook + kLast;
   const Eigen::Vector3d start = at.B.c;
   double way = kFirst * how.reach;
   for (int step = 0; step < kMost && way > kShortest * how.reach; ++step) {
@@ -142,6 +145,7 @@ Settled settle_downhill(const SurfacePair& surfaces,
       ContactPlaces next =
           newton ? point.by_newton(places, at, way) : point.by_slope(places, at, way);
       const ContactLinearization there = point.at(next);
+      points += kLook;
       lower = point.height(there) < point.height(at);
       if (!lower) continue;
       places = next;
