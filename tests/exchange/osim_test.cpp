@@ -235,7 +235,7 @@ TEST_F(BrokenModel, IsRefusedWhereItIsDeep) {
   }
   expect_error(
       "<OpenSimDocument Version=\"40000\"><Model>" + frames + ends + "</Model></OpenSimDocument>",
-      ": elements lie more than 100 deep within each other, expected an OpenSim model");
+      ": components lie more than 100 deep within each other, expected an OpenSim model");
 }
 
 TEST_F(BrokenModel, NeedsAKneeWithLigamentsAndContacts) {

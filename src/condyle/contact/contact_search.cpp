@@ -172,39 +172,27 @@ double ContactSearch::height_over(int sample, int neighbour) const {
   return above == 0 && neighbour > sample ? kInfinity : above;
 }
 
-/// A neighbour that is lower for certain, -1 where there is none. One that faces nothing known stands for nothing,
-/// however low it is.
-int ContactSearch::lower_neighbour(int sample) const {
+/// No neighbour is lower for certain. One that faces nothing known stands for nothing, however low it
+/// is.
+bool ContactSearch::is_lowest_of_neighbours(int sample) const {
   for (const int neighbour : sampled().neighbours(sample)) {
     if (neighbour < 0) break;
-    if (seen(neighbour).faces && height_over(sample, neighbour) <= 0) return neighbour;
+    if (seen(neighbour).faces && height_over(sample, neighbour) <= 0) return false;
   }
-  return -1;
+  return true;
 }
 
-/// The same of a measured sample; neighbours that may be lower are measured.
-int ContactSearch::lower_neighbour(int sample, const RigidTransform& X_from_to) {
-  if (const int lower = lower_neighbour(sample); lower >= 0) return lower;
+/// The same for a measured sample; neighbours that may be lower are measured.
+bool ContactSearch::is_lowest(int sample, const RigidTransform& X_from_to) {
+  if (!is_lowest_of_neighbours(sample)) return false;
   for (const int neighbour : sampled().neighbours(sample)) {
     if (neighbour < 0) break;
     if (seen(neighbour).measured || height_over(sample, neighbour) > 2 * seen(neighbour).error)
       continue;
     measure(neighbour, X_from_to);
-    if (seen(neighbour).faces && height_over(sample, neighbour) <= 0) return neighbour;
+    if (seen(neighbour).faces && height_over(sample, neighbour) <= 0) return false;
   }
-  return -1;
-}
-
-/// From a measured sample, lowest before all were measured, down to one that is; -1 where it was come to before.
-int ContactSearch::lowest_from(int sample, const RigidTransform& X_from_to) {
-  constexpr int kMost = 100;
-  for (int step = 0; step < kMost; ++step) {
-    const int lower = lower_neighbour(sample, X_from_to);
-    if (lower < 0) break;
-    measure(lower, X_from_to);
-    sample = lower;
-  }
-  return std::exchange(seen(sample).taken, true) ? -1 : sample;
+  return true;
 }
 
 /// The deepest of the samples that lie deeper than all minima that were found; -1 where there is none.
@@ -238,11 +226,12 @@ GapMinimum ContactSearch::gap_at(ContactPlaces places, const RigidTransform& X_B
 }
 
 /// Newton to the minimum near a sample. Where that does not settle, or leads beyond the known part while the sample
-/// itself is within, the sample stands for it; where only its cell may touch, the lowest place that steps downhill
-/// come to.
+/// itself is within, the sample stands for it; of one that is lowest of its neighbours, where only its cell may touch,
+/// the lowest place that steps downhill come to.
 std::optional<GapMinimum> ContactSearch::refine(int sample,
                                                 const RigidTransform& X_BA,
-                                                double cutoff) {
+                                                double cutoff,
+                                                bool lowest) {
   const SurfacePair surfaces = this->surfaces();
   const Place &own = sampled().place(sample), &there = closest(sample).place;
   const ContactPlaces start = sampled_on_A_ ? ContactPlaces{there, own} : ContactPlaces{own, there};
@@ -262,7 +251,7 @@ std::optional<GapMinimum> ContactSearch::refine(int sample,
   const GapMinimum standing = gap_at(start, X_BA);
   const double touching = std::min(cutoff, 0.0);
   // Lines lie lower on the way to their ends, which are looked for by themselves.
-  if (cover_->lines || standing.gap < touching || now.lower >= touching) return standing;
+  if (!lowest || cover_->lines || standing.gap < touching || now.lower >= touching) return standing;
   places = start;
   const Settled downhill =
       settle_downhill(surfaces, X_BA, how, sampled_on_A_, places, at, looked_at_);
@@ -284,7 +273,7 @@ void ContactSearch::add_minimum(int sample,
   // The ends of a line may lie lower than any minimum.
   const std::optional<GapMinimum> minimum =
       // NOLINTNEXTLINE(bugprone-narrowing-conversions) as above
-      refine(sample, X_BA, cover_->lines ? kInfinity : cutoff);
+      refine(sample, X_BA, cover_->lines ? kInfinity : cutoff, lowest);
   if (!minimum) return;
   // A sample stands for a minimum of its own only where it is the lowest and faces what is known.
   if (!minimum->refined && !(lowest && seen(sample).faces)) return;
@@ -363,7 +352,7 @@ RigidTransform ContactSearch::from_to(const RigidTransform& X_BA) const {
 void ContactSearch::gather_lowest(const RigidTransform& X_from_to) {
   lowest_.clear();
   for (const int sample : near_)
-    if (lower_neighbour(sample) < 0) lowest_.push_back(sample);
+    if (is_lowest_of_neighbours(sample)) lowest_.push_back(sample);
   for (const int sample : lowest_) measure(sample, X_from_to);
 }
 
@@ -396,11 +385,8 @@ void ContactSearch::find(const RigidTransform& X_BA,
     found_.push_back(sampled_on_A_ ? contact.on_B : contact.on_A);
   gather_lowest(X);
   for (const int sample : lowest_)
-    if (nearly_faces_known_part(sample)) {
-      const int lowest = lowest_from(sample, X);
-      if (lowest >= 0 && nearly_faces_known_part(lowest))
-        add_minimum(lowest, X_BA, cutoff, /*lowest=*/true, minima);
-    }
+    if (nearly_faces_known_part(sample) && is_lowest(sample, X))
+      add_minimum(sample, X_BA, cutoff, /*lowest=*/true, minima);
   for (const int sample : near_) {
     if (seen(sample).lower > 0) continue;
     measure(sample, X);

@@ -123,7 +123,6 @@ class ContactSearch {
     int stamp = -1;         ///< pose at which it was computed
     bool measured = false;  ///< to the closest point, not by a quadric nearby
     bool faces = false;     ///< for certain what is known of the other surface
-    bool taken = false;     ///< was come to already as lower than all its neighbours
   };
   /// Samples beside a known contact, and how far it is from them.
   struct NearContact {
@@ -181,9 +180,8 @@ class ContactSearch {
   bool faces_known_part(const Eigen::Vector3d& p, double r, Closest& closest, Facing& facing);
   void find_closest(const Eigen::Vector3d& p, double close, Closest& closest);
   [[nodiscard]] double height_over(int sample, int neighbour) const;
-  [[nodiscard]] int lower_neighbour(int sample) const;
-  [[nodiscard]] int lower_neighbour(int sample, const RigidTransform& X_from_to);
-  [[nodiscard]] int lowest_from(int sample, const RigidTransform& X_from_to);
+  [[nodiscard]] bool is_lowest_of_neighbours(int sample) const;
+  [[nodiscard]] bool is_lowest(int sample, const RigidTransform& X_from_to);
   [[nodiscard]] int deepest_unexplained(double cutoff, const std::vector<GapMinimum>& minima) const;
   [[nodiscard]] bool nearly_faces_known_part(int sample) const;
   [[nodiscard]] bool leads_elsewhere(int sample, const RigidTransform& X_BA, double cutoff) const;
@@ -203,7 +201,8 @@ class ContactSearch {
   /// Nothing where the minimum near the sample lies above the cutoff.
   [[nodiscard]] std::optional<GapMinimum> refine(int sample,
                                                  const RigidTransform& X_BA,
-                                                 double cutoff);
+                                                 double cutoff,
+                                                 bool lowest);
   [[nodiscard]] SurfacePair surfaces() const { return {*cover_->surface_B, *cover_->surface_A}; }
   [[nodiscard]] const SurfaceCover& sampled() const {
     return sampled_on_A_ ? cover_->on_A : cover_->on_B;

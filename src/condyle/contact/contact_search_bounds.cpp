@@ -347,7 +347,6 @@ void ContactSearch::estimate(int sample,
   }
   Seen& now = seen(sample);
   now.measured = !facing.at;
-  now.taken = false;
   now.stamp = now_;
   if (now.measured) facing = face_closest(p, r, there);
   now.faces = now.measured ? faces_known_part(p, r, there, facing)

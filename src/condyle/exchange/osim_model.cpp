@@ -46,7 +46,6 @@ class OsimReader {
   }
 
   [[nodiscard]] OsimModel model() {
-    expect_shallow();
     const xml_node root = document_.child("OpenSimDocument");
     const xml_node model = root.child("Model");
     if (!model) throw InputError(file_ + ": holds no Model, expected an OpenSim model");
@@ -75,16 +74,6 @@ class OsimReader {
   [[nodiscard]] static pugi::xml_object_range<pugi::xml_node_iterator> objects(
       const xml_node& model, const char* set) {
     return model.child(set).child("objects").children();
-  }
-
-  void expect_shallow() {
-    struct Walk : pugi::xml_tree_walker {
-      bool for_each(xml_node&) override { return depth() < kDeepest; }
-    } walk;
-    if (!document_.traverse(walk))
-      throw InputError(fmt::format(
-          "{}: elements lie more than {} deep within each other, expected an OpenSim model", file_,
-          kDeepest));
   }
 
   [[noreturn]] void fail(const xml_node& node, const std::string& message) const {
@@ -168,9 +157,14 @@ class OsimReader {
 
   /// Where a component stands: the names of those that hold it. A set of the model is called by its
   /// type, whatever its name.
-  [[nodiscard]] static std::string path_of(const xml_node& node) {
+  [[nodiscard]] std::string path_of(const xml_node& node) const {
     std::string path;
+    int depth = 0;
     for (xml_node at = node; at && std::strcmp(at.name(), "Model") != 0; at = at.parent()) {
+      if (++depth > kDeepest)
+        throw InputError(fmt::format(
+            "{}: components lie more than {} deep within each other, expected an OpenSim model",
+            file_, kDeepest));
       std::string name = at.attribute("name").value();
       if (std::strcmp(at.parent().name(), "Model") == 0 && at.child("objects")) {
         name = at.name();
