@@ -104,7 +104,6 @@ TEST(ContactSearch, SeesTheLowestWaveOverABallOfAnySize) {
       };
       X.p.z() = -0.02 - lowest();
       ContactSearch search(pair);
-      EXPECT_LT(search.deepest(), 15) << R;
       std::vector<GapMinimum> minima;
       search.find(X, 0, minima);
       ASSERT_FALSE(minima.empty()) << R << ", " << tilt;

@@ -39,7 +39,7 @@ TEST(StudyPage, HoldsItsSectionsInOrder) {
 }
 
 TEST(StudyPage, FailuresThatDependOnANumberAreABias) {
-  StudyView study = test::made_up_study();
+  StudyView study = test::made_up_study(false);
   const std::string page = page_of_study(study);
   EXPECT_TRUE(has(page, "poses without a result depend on " + shown_parameters(study)[2] + "."));
   EXPECT_TRUE(has(page, std::string("240 ") + name(PoseStatus::kLeftPatch)));
@@ -54,7 +54,7 @@ TEST(StudyPage, FailuresThatDependOnANumberAreABias) {
 
 // Three levels of a grid leave one quarter without samples.
 TEST(StudyPage, AQuarterWithoutSamplesHidesNoBias) {
-  StudyView study = test::made_up_study();
+  StudyView study = test::made_up_study(false);
   for (auto& shares : study.all.failures.by_quartile) shares = {0.02, 0.02, 0.06, std::nan("")};
   EXPECT_TRUE(has(page_of_study(study), "biased"));
   for (auto& shares : study.all.failures.by_quartile) shares = {0.033, 0.032, 0.033, std::nan("")};

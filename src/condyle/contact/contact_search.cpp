@@ -95,6 +95,7 @@ ContactCover::ContactCover(const ContactPair& pair, Samples samples)
       surface_A(pair.on_A),
       sampled_on_A(samples.on_A_are_better()),
       spacing(sampled_on_A ? samples.spacing_A : samples.spacing_B),
+      coarsest(std::max(samples.spacing_A, samples.spacing_B)),
       on_B(sampled_on_A ? facing_cover(*pair.on_B, spacing)
                         : SurfaceCover(*pair.on_B, spacing, std::move(samples.on_B))),
       on_A(sampled_on_A ? SurfaceCover(*pair.on_A, spacing, std::move(samples.on_A))

@@ -46,6 +46,7 @@ struct ContactCover {
   std::shared_ptr<const Surface> surface_B, surface_A;
   bool sampled_on_A;  ///< which surface is sampled; one without bounds has no samples
   double spacing;     ///< of its samples, that can be afforded [mm]
+  double coarsest;    ///< of the samples that either surface can be given [mm]
   SurfaceCover on_B, on_A;
   bool lines;  ///< the surfaces may touch along a line (line_contact.h)
 
@@ -68,11 +69,13 @@ class ContactSearch {
       : ContactSearch(std::make_shared<const ContactCover>(pair, spacing)) {}
 
   /// What lies deeper behind a surface with an edge is taken for no overlap [mm].
-  [[nodiscard]] double deepest() const { return kDeepest * spacing_; }
+  [[nodiscard]] double deepest() const { return kDeepest * cover_->coarsest; }
 
   /// What lengths of this pair are measured by [mm]: L of the model, or less where its surfaces are small for that:
   /// lever arms may be much longer.
-  [[nodiscard]] double length(double L) const { return std::min(L, spacing_ / kSampleSpacing); }
+  [[nodiscard]] double length(double L) const {
+    return std::min(L, cover_->coarsest / kSampleSpacing);
+  }
 
   /// As newly made. Allocates nothing.
   void reset();
