@@ -2,18 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 
 #include "condyle/contact/bending.h"
 #include "condyle/contact/contact.h"
 #include "condyle/math/rotation.h"
-#include "condyle/surface/bspline_basis.h"
 #include "condyle/surface/exact_surfaces.h"
-#include "condyle/surface/patch.h"
-#include "support/random.h"
 
 namespace condyle {
 namespace {
@@ -63,90 +58,6 @@ TEST(ContactSearch, ASolidThroughAClosedSocketIsAnOverlap) {
     ASSERT_FALSE(minima.empty()) << far;
     EXPECT_LT(minima[0].gap, -1) << far;
   }
-}
-
-/// 40 x 30 mm of z = (x² + y²)/120 mm with waves of 0.2 mm, 9 mm long; the solid is above.
-std::shared_ptr<Patch> wavy_patch() {
-  PatchData data;
-  data.degree = {3, 3};
-  data.nu = 24, data.nv = 18;
-  data.knots_u = uniform_knots(data.nu, 3, -20, 20);
-  data.knots_v = uniform_knots(data.nv, 3, -15, 15);
-  const auto at = [](const std::vector<double>& t, int i) {
-    const auto k = static_cast<std::size_t>(i);
-    return (t[k + 1] + t[k + 2] + t[k + 3]) / 3;
-  };
-  const auto wave = [](double x) { return std::cos(2 * M_PI * x / 9); };
-  for (int i = 0; i < data.nu; ++i)
-    for (int j = 0; j < data.nv; ++j) {
-      const double x = at(data.knots_u, i), y = at(data.knots_v, j);
-      data.control_points.emplace_back(x, y, (x * x + y * y) / 120 + 0.2 * wave(x) * wave(y));
-    }
-  data.orientation = -1;
-  return std::make_shared<Patch>(data);
-}
-
-// A large ball is sampled widely, and need not be: what is seen of the waves over it does not hang on its size.
-TEST(ContactSearch, SeesTheLowestWaveOverABallOfAnySize) {
-  const auto patch = wavy_patch();
-  for (const double R : {300.0, 1000.0, 20000.0})
-    for (const double tilt : {0.0, 0.05}) {
-      ContactPair pair = pair_of(make_sphere({0, 0, -R}, R, true), nullptr);
-      pair.on_A = patch;
-      RigidTransform X{exp_rotation({0, tilt, 0}), Eigen::Vector3d::Zero()};
-      const auto lowest = [&] {
-        double gap = INFINITY;
-        for (double u = -19.9; u < 20; u += 0.1)
-          for (double v = -14.9; v < 15; v += 0.1)
-            gap = std::min(gap,
-                           (X * patch->derivatives(u, v).c + Eigen::Vector3d(0, 0, R)).norm() - R);
-        return gap;
-      };
-      X.p.z() = -0.02 - lowest();
-      ContactSearch search(pair);
-      std::vector<GapMinimum> minima;
-      search.find(X, 0, minima);
-      ASSERT_FALSE(minima.empty()) << R << ", " << tilt;
-      EXPECT_NEAR(minima[0].gap, lowest(), 1e-3) << R << ", " << tilt;
-    }
-}
-
-/// A point of an ellipsoid and its normal.
-struct OfEllipsoid {
-  Eigen::Vector3d c, n;
-  OfEllipsoid(const Eigen::Vector3d& axes, const Eigen::Vector3d& u)
-      : c(axes.cwiseProduct(u.normalized())), n(u.normalized().cwiseQuotient(axes).normalized()) {}
-};
-
-// Blades, needles and discs, whose curvature changes within the spacing of samples: two convex solids overlap by what
-// they are pushed into each other at a point where their normals are opposite.
-TEST(ContactSearch, SeesAGrazingOverlapOfAnyTwoEllipsoids) {
-  test::Random random(11);
-  const auto axes = [&] {
-    const Eigen::Vector3d logs(random.between(0, 4.1), random.between(0, 4.1),
-                               random.between(0, 4.1));
-    return Eigen::Vector3d(logs.array().exp());
-  };
-  int refined = 0;
-  constexpr int kTrials = 400;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    const Eigen::Vector3d of_A = axes(), of_B = axes();
-    const OfEllipsoid a(of_A, random.vector(1)), b(of_B, random.vector(1));
-    const ContactPair pair =
-        pair_of(make_ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), of_B, true),
-                make_ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), of_A, true));
-    const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(a.n, -b.n).toRotationMatrix();
-    const double depth = std::exp(random.between(-6, -3));
-    RigidTransform X{exp_rotation(random.between(-3, 3) * b.n) * turn, {}};
-    X.p = b.c - depth * b.n - X.R * a.c;
-    ContactSearch search(pair);
-    std::vector<GapMinimum> minima;
-    search.find(X, 0, minima);
-    ASSERT_FALSE(minima.empty()) << trial << ", " << depth;
-    EXPECT_LT(minima[0].gap, -depth + 1e-9) << trial;
-    refined += minima[0].refined ? 1 : 0;
-  }
-  EXPECT_GT(refined, 0.9 * kTrials);
 }
 
 TEST(ContactSearch, SurfacesMuchSmallerThanTheSpacingAreSeen) {

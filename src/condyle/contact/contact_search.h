@@ -44,9 +44,8 @@ struct ContactCover {
   ContactCover(const ContactPair& pair, double wanted);
 
   std::shared_ptr<const Surface> surface_B, surface_A;
-  bool sampled_on_A;  ///< which surface is sampled; one without bounds has no samples
-  double spacing;     ///< of its samples, that can be afforded [mm]
-  double coarsest;    ///< of the samples that either surface can be given [mm]
+  double spacing;     ///< that can be afforded [mm]
+  bool sampled_on_A;  ///< the surface that takes fewer samples; one without bounds has none
   SurfaceCover on_B, on_A;
   bool lines;  ///< the surfaces may touch along a line (line_contact.h)
 
@@ -69,13 +68,11 @@ class ContactSearch {
       : ContactSearch(std::make_shared<const ContactCover>(pair, spacing)) {}
 
   /// What lies deeper behind a surface with an edge is taken for no overlap [mm].
-  [[nodiscard]] double deepest() const { return kDeepest * cover_->coarsest; }
+  [[nodiscard]] double deepest() const { return kDeepest * spacing_; }
 
   /// What lengths of this pair are measured by [mm]: L of the model, or less where its surfaces are small for that:
   /// lever arms may be much longer.
-  [[nodiscard]] double length(double L) const {
-    return std::min(L, cover_->coarsest / kSampleSpacing);
-  }
+  [[nodiscard]] double length(double L) const { return std::min(L, spacing_ / kSampleSpacing); }
 
   /// As newly made. Allocates nothing.
   void reset();
@@ -185,7 +182,6 @@ class ContactSearch {
   [[nodiscard]] double height_over(int sample, int neighbour) const;
   [[nodiscard]] bool is_lowest_of_neighbours(int sample) const;
   [[nodiscard]] bool is_lowest(int sample, const RigidTransform& X_from_to);
-  [[nodiscard]] int deepest_unexplained(double cutoff, const std::vector<GapMinimum>& minima) const;
   [[nodiscard]] bool nearly_faces_known_part(int sample) const;
   [[nodiscard]] bool leads_elsewhere(int sample, const RigidTransform& X_BA, double cutoff) const;
   void add_rims(const RigidTransform& X_BA, double cutoff, std::vector<GapMinimum>& minima);
@@ -200,12 +196,10 @@ class ContactSearch {
                    bool lowest,
                    std::vector<GapMinimum>& minima);
   [[nodiscard]] RigidTransform from_to(const RigidTransform& X_BA) const;
-  [[nodiscard]] GapMinimum gap_at(ContactPlaces places, const RigidTransform& X_BA) const;
   /// Nothing where the minimum near the sample lies above the cutoff.
   [[nodiscard]] std::optional<GapMinimum> refine(int sample,
                                                  const RigidTransform& X_BA,
-                                                 double cutoff,
-                                                 bool lowest);
+                                                 double cutoff) const;
   [[nodiscard]] SurfacePair surfaces() const { return {*cover_->surface_B, *cover_->surface_A}; }
   [[nodiscard]] const SurfaceCover& sampled() const {
     return sampled_on_A_ ? cover_->on_A : cover_->on_B;
