@@ -335,10 +335,13 @@ TEST_F(StudyTable, ItsNumbersAreInTheUnitsOfTheScene) {
 
 // What is swept has its values from the sweep.
 TEST_F(StudyTable, ALoadThatIsSweptHasNoValueOfItsOwn) {
-  ReadStudy study = study_of_values();
+  ReadStudy study = small_study("wismans-type/drawer.toml", 1);
+  study.study.design = DesignKind::kTable;
+  study.study.table = values_;
+  study.study.table_holds_values = true;
+  study.varied[0] = {study.varied[0][0]};
+  study.varied[0][0].number.of = {0};
   study.varied[0][0].number.what = ParameterKind::kLoadScale;
-  study.scenes[0].sweep->varies_load = true;
-  study.scenes[0].sweep->index = 0;
   study.scenes[0].loads[0].scale = 0;
   std::ofstream(values_) << study.scenes[0].loads[0].name << ".scale\n1\n";
   try {
