@@ -57,6 +57,13 @@ class LaxityTables : public CommandLine {
     return read_measurements(scene);
   }
 
+  /// Of a passive path: what is driven, flexion and valgus.
+  [[nodiscard]] LaxityTable passive_table(const std::string& rows) const {
+    write("Passive_Flexion_Kinematics_in_JCS.csv",
+          "Flexion Angle (deg),Knee JCS Flexion(deg),Knee JCS Valgus(deg)\n" + rows);
+    return laxity_table({folder_ / "Passive_Flexion_Kinematics_in_JCS.csv"}, options_);
+  }
+
   LaxityTableOptions options_;
 };
 
@@ -158,11 +165,7 @@ TEST_F(LaxityTables, APassivePathNeedsNoLoads) {
 
 /// Loaded and unloaded at one flexion: a table of measurements has each row once.
 TEST_F(LaxityTables, StepsThatRepeatAFlexionAndALevelAreSkipped) {
-  write("Passive_Flexion_Kinematics_in_JCS.csv",
-        "Flexion Angle (deg),Knee JCS Flexion(deg),Knee JCS Valgus(deg)\n0,0.5,1\n5,5.5,2\n"
-        "0,0.5,1.5\n");
-  const LaxityTable table =
-      laxity_table({folder_ / "Passive_Flexion_Kinematics_in_JCS.csv"}, options_);
+  const LaxityTable table = passive_table("0,0.5,1\n5,5.5,2\n0,0.5,1.5\n");
   EXPECT_EQ(read_by_scene(table.text).rows.size(), 2u);
   EXPECT_NE(table.text.find(",-1.5,1,skip\n"), std::string::npos) << table.text;
   EXPECT_EQ(table.notes[0].substr(table.notes[0].find(':')),
@@ -171,11 +174,7 @@ TEST_F(LaxityTables, StepsThatRepeatAFlexionAndALevelAreSkipped) {
 
 // As rounded numbers are written: -0 is the same level as 0 where the table is read.
 TEST_F(LaxityTables, MinusZeroIsNoLevelOfItsOwn) {
-  write("Passive_Flexion_Kinematics_in_JCS.csv",
-        "Flexion Angle (deg),Knee JCS Flexion(deg),Knee JCS Valgus(deg)\n0,0,1\n5,5.5,2\n"
-        "0,-0.000,1.5\n");
-  const LaxityTable table =
-      laxity_table({folder_ / "Passive_Flexion_Kinematics_in_JCS.csv"}, options_);
+  const LaxityTable table = passive_table("0,0,1\n5,5.5,2\n0,-0.000,1.5\n");
   EXPECT_EQ(read_by_scene(table.text).rows.size(), 2u);
   EXPECT_NE(table.text.find(",-1.5,1,skip\n"), std::string::npos) << table.text;
 }

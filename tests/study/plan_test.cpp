@@ -230,8 +230,9 @@ class StudyTable : public testing::Test {
   }
 
   /// With values of the first ligament in `values_`.
-  [[nodiscard]] ReadStudy study_of_values() const {
-    ReadStudy study = small_study("wismans-type/knee.toml", 0);
+  [[nodiscard]] ReadStudy study_of_values(
+      const std::string& scene = "wismans-type/knee.toml") const {
+    ReadStudy study = small_study(scene, 0);
     study.study.design = DesignKind::kTable;
     study.study.table = values_;
     study.study.table_holds_values = true;
@@ -335,12 +336,7 @@ TEST_F(StudyTable, ItsNumbersAreInTheUnitsOfTheScene) {
 
 // What is swept has its values from the sweep.
 TEST_F(StudyTable, ALoadThatIsSweptHasNoValueOfItsOwn) {
-  ReadStudy study = small_study("wismans-type/drawer.toml", 1);
-  study.study.design = DesignKind::kTable;
-  study.study.table = values_;
-  study.study.table_holds_values = true;
-  study.varied[0] = {study.varied[0][0]};
-  study.varied[0][0].number.of = {0};
+  ReadStudy study = study_of_values("wismans-type/drawer.toml");
   study.varied[0][0].number.what = ParameterKind::kLoadScale;
   study.scenes[0].loads[0].scale = 0;
   std::ofstream(values_) << study.scenes[0].loads[0].name << ".scale\n1\n";

@@ -121,11 +121,17 @@ double coordinate(const Scene& scene, const PoseResult& pose) {
                           : kNoNumber;
 }
 
-bool is_held(const Scene& scene, std::size_t coordinate) {
-  return std::any_of(scene.conditions.begin(), scene.conditions.end(),
-                     [&](const ConditionDescription& condition) {
-                       return static_cast<std::size_t>(condition.kind) == coordinate;
-                     });
+/// The condition that holds a joint coordinate; null where it is free.
+const ConditionDescription* holding(const Scene& scene, std::size_t coordinate) {
+  const auto found = std::find_if(scene.conditions.begin(), scene.conditions.end(),
+                                  [&](const ConditionDescription& condition) {
+                                    return static_cast<std::size_t>(condition.kind) == coordinate;
+                                  });
+  return found == scene.conditions.end() ? nullptr : &*found;
+}
+
+double shown_flexion(const LaxityCurve& curve) {
+  return std::round(1e6 * curve.flexion / kDegree) / 1e6;
 }
 
 /// The load at a pose by joint coordinates: moments [N mm], then forces [N]; a moment about the anterior axis adducts,
@@ -150,7 +156,7 @@ Eigen::Matrix<double, 6, 1> generalized_load(const Scene& scene, const RigidTran
   }
   all.head<3>() = along_axes((load.at - bone.origin).cross(vector)) / kArm;
   for (Eigen::Index k = 0; k < 3; ++k)
-    if (is_held(scene, static_cast<std::size_t>(k))) all[k] = 0;
+    if (holding(scene, static_cast<std::size_t>(k)) != nullptr) all[k] = 0;
   all.tail<3>() = along_axes(vector);
   return all;
 }
@@ -173,8 +179,8 @@ std::vector<std::string> turned_load_lines(const Scene& scene, const LaxityResul
     if (here != told)
       lines.push_back(fmt::format(
           "at {:g} degrees {} acts on {} and not on {}: it keeps its direction in space",
-          std::round(1e6 * curve.flexion / kDegree) / 1e6, scene.loads[scene.sweep->index].name,
-          kJointCoordinates[here].words, kJointCoordinates[told].words));
+          shown_flexion(curve), scene.loads[scene.sweep->index].name, kJointCoordinates[here].words,
+          kJointCoordinates[told].words));
   }
   return lines;
 }
@@ -193,13 +199,12 @@ void check_laxity_scene(const Scene& scene) {
     throw InputError(scene.file.string() +
                      ": [sweep]: path = \"arc length\", expected \"steps\" for a test of laxity");
   const std::size_t along = loaded_coordinate(scene);
-  for (std::size_t i = 0; i < scene.conditions.size(); ++i)
-    if (static_cast<std::size_t>(scene.conditions[i].kind) == along)
-      throw InputError(fmt::format(
-          "{}: [laxity]: load \"{}\" acts along {}, which condition \"{}\" holds, expected a load "
-          "along a coordinate that is free",
-          scene.file.string(), scene.loads.at(scene.sweep->index).name,
-          kJointCoordinates[along].words, scene.conditions[i].name));
+  if (const ConditionDescription* held = holding(scene, along))
+    throw InputError(fmt::format(
+        "{}: [laxity]: load \"{}\" acts along {}, which condition \"{}\" holds, expected a load "
+        "along a coordinate that is free",
+        scene.file.string(), scene.loads.at(scene.sweep->index).name,
+        kJointCoordinates[along].words, held->name));
 }
 
 LaxityResult test_laxity(const Scene& scene,
@@ -275,14 +280,13 @@ std::vector<std::string> laxity_lines(const Scene& scene, const LaxityResult& re
   for (const LaxityCurve& curve : result.curves) {
     const bool lost = curve.reference && curve.reference->count_converged() <
                                              static_cast<int>(curve.reference->poses.size());
-    lines.push_back(
-        fmt::format("{:<10}{:<10g}{:>10}{:>12}{:>8} of {}{}", curve.cut ? "cut" : "intact",
-                    std::round(1e6 * curve.flexion / kDegree) / 1e6, told(curve.ours),
-                    curve.reference ? told(*curve.reference) : "-", curve.ours.count_converged(),
-                    curve.ours.poses.size(),
-                    lost ? fmt::format(", reference {} of {}", curve.reference->count_converged(),
-                                       curve.reference->poses.size())
-                         : std::string()));
+    lines.push_back(fmt::format(
+        "{:<10}{:<10g}{:>10}{:>12}{:>8} of {}{}", curve.cut ? "cut" : "intact",
+        shown_flexion(curve), told(curve.ours), curve.reference ? told(*curve.reference) : "-",
+        curve.ours.count_converged(), curve.ours.poses.size(),
+        lost ? fmt::format(", reference {} of {}", curve.reference->count_converged(),
+                           curve.reference->poses.size())
+             : std::string()));
   }
   for (std::string& line : turned_load_lines(scene, result)) lines.push_back(std::move(line));
   return lines;

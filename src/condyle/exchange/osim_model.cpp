@@ -25,8 +25,7 @@ using pugi::xml_node;
 constexpr double kMillimetre = 1e3;   // per m
 constexpr double kMegapascal = 1e-6;  // per Pa; N/mm²
 constexpr int kFirstVersionWithFrames = 30505;
-constexpr int kDeepest =
-    100;  // elements within each other, of which the path of a component is made
+constexpr int kDeepest = 100;  // elements that hold a component: its path is made of them
 
 class OsimReader {
  public:

@@ -33,13 +33,13 @@ class Hdf5Process {
   /// opened the file, and no copy of that (fork).
   Hdf5Process(const std::filesystem::path& file, const std::function<Answering()>& open);
 
-  /// Throws InputError as the other process did and to a copy of the process that opened the file, std::bad_alloc for want of memory on either side, and DamagedFile. From any
-  /// thread, one at a time.
+  /// Throws InputError as the other process did and to a copy of the process that opened the file, std::bad_alloc for
+  /// want of memory on either side, and DamagedFile. From any thread, one at a time.
   [[nodiscard]] Hdf5Answer ask(const Hdf5Question& question);
 
  private:
   struct Child {
-    pid_t id = -1, of = -1;
+    pid_t id = -1, of = -1;  ///< and of which process
     Child() = default;
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;

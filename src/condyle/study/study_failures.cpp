@@ -15,15 +15,15 @@ constexpr auto kSolved = static_cast<std::uint8_t>(PoseStatus::kConverged);
 /// Share of failed poses in the quarters of a parameter's samples that `own` lists; equal values are in the same
 /// quarter, and a quarter that has none is NaN.
 std::array<double, 4> failed_by_quarter(const std::vector<double>& theta,
-                                        const std::vector<std::size_t>& own,
+                                        const std::vector<std::uint32_t>& own,
                                         const std::vector<std::uint32_t>& failed,
                                         std::size_t poses) {
   std::vector<double> sorted;
-  for (const std::size_t k : own) sorted.push_back(theta[k]);
+  for (const std::uint32_t k : own) sorted.push_back(theta[k]);
   const std::array<double, 3> levels = {0.25, 0.5, 0.75};
   const std::vector<double> edges = take_quantiles(sorted, levels);
   std::array<double, 4> all{}, bad{}, share{};
-  for (const std::size_t k : own) {
+  for (const std::uint32_t k : own) {
     const auto quarter = static_cast<std::size_t>((theta[k] > edges[0]) + (theta[k] > edges[1]) +
                                                   (theta[k] > edges[2]));
     all[quarter] += static_cast<double>(poses);
@@ -53,9 +53,7 @@ StudyFailures study_failures(const std::vector<std::uint8_t>& status,
     ++failed[i / poses];
   }
   failures.incomplete = std::count_if(failed.begin(), failed.end(), [](auto n) { return n > 0; });
-  std::vector<std::size_t> own;
-  for (std::size_t k = 0; k < failed.size(); ++k)
-    if (!saltelli || k % (theta.size() + 2) < 2) own.push_back(k);
+  const std::vector<std::uint32_t> own = own_samples(failed.size(), theta.size(), saltelli);
   for (const std::vector<double>& parameter : theta)
     failures.by_quartile.push_back(failed_by_quarter(parameter, own, failed, poses));
   return failures;

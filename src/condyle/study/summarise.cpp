@@ -110,12 +110,18 @@ StudyBand study_band(const OutputSamples& samples,
   return band;
 }
 
+std::vector<std::uint32_t> own_samples(std::size_t samples, std::size_t parameters, bool saltelli) {
+  std::vector<std::uint32_t> own;
+  for (std::uint32_t k = 0; k < samples; ++k)
+    if (!saltelli || k % (parameters + 2) < 2) own.push_back(k);
+  return own;
+}
+
 RankedParameters ranked_parameters(const std::vector<std::vector<double>>& theta, bool saltelli) {
   RankedParameters ranked;
   ranked.saltelli = saltelli;
   const std::size_t samples = theta.empty() ? 0 : theta.front().size();
-  for (std::uint32_t k = 0; k < samples; ++k)
-    if (!saltelli || k % (theta.size() + 2) < 2) ranked.samples.push_back(k);
+  ranked.samples = own_samples(samples, theta.size(), saltelli);
   thin_out(ranked.samples);
   std::vector<double> values(ranked.samples.size());
   for (const std::vector<double>& parameter : theta) {

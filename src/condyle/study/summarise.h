@@ -33,6 +33,11 @@ struct RankedParameters {
   std::vector<Places> places;  ///< by parameters, of these samples
 };
 
+/// Samples, in order, whose values of a number are not those of others: all, or blocks A and B of a design of Saltelli.
+[[nodiscard]] std::vector<std::uint32_t> own_samples(std::size_t samples,
+                                                     std::size_t parameters,
+                                                     bool saltelli);
+
 /// `theta`: by parameters, then samples. `saltelli`: whether samples stand in the order of
 /// SampleDesign's kSaltelli (then rank correlations are those of blocks A and B).
 [[nodiscard]] RankedParameters ranked_parameters(const std::vector<std::vector<double>>& theta,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "condyle/wrapping/shape_geometry.h"
@@ -63,44 +64,47 @@ LineMinimum lowest_between(double low, double high, const Height& height) {
   return {at, height(at)};
 }
 
+/// From where to where, from 0 at U to 1 at V, a line may be lower over a ring than `height` at its point nearest to
+/// the centre: farther from the centre than the ring's outside and that it is not.
+std::array<double, 2> part_beside(const WrapTorus& torus,
+                                  const Vector3d& U,
+                                  const Vector3d& d,
+                                  double height) {
+  const double length = d.norm(), way = -U.dot(d) / length;
+  const double far = torus.ring + torus.tube + std::max(height, 0.0);
+  const double half = std::sqrt(std::max(far * far - (U.squaredNorm() - way * way), 0.0));
+  return {std::clamp(way - half, 0.0, length) / length,
+          std::clamp(way + half, 0.0, length) / length};
+}
+
 /// Depth on a line that may have several deepest points: golden section at each sample that is lower than its
-/// neighbours and may be lowest, as the height changes by no more than the way. Where the line is farther from the
-/// centre than the ring's outside and the height at its point nearest to that, it is not lowest.
+/// neighbours and may be lowest, as the height changes by no more than the way.
 double clearance_of(const WrapTorus& torus,
                     const WrapShape& shape,
                     const Vector3d& U,
                     const Vector3d& V,
                     double* part) {
-  constexpr int kSamples = 48;
-  const auto height = [&](double at) { return signed_distance(shape, U + at * (V - U)); };
+  constexpr std::size_t kSamples = 49;
   const Vector3d d = V - U;
-  const double length = d.norm(), way = length > 0 ? -U.dot(d) / length : 0;
-  const double middle = std::clamp(way, 0.0, length);
-  LineMinimum least{length > 0 ? middle / length : 0, 0};
-  least.height = height(least.at);
-  const double far = torus.ring + torus.tube + std::max(least.height, 0.0);
-  const double half = std::sqrt(std::max(far * far - (U.squaredNorm() - way * way), 0.0));
-  const double first = std::clamp(way - half, 0.0, length),
-               last = std::clamp(way + half, 0.0, length);
-  if (length > 0 && last > first) {
-    const double step = (last - first) / length / kSamples;
-    std::array<double, kSamples + 1> h;
-    const auto at = [&](int k) { return first / length + k * step; };
-    for (int k = 0; k <= kSamples; ++k) {
-      h[static_cast<std::size_t>(k)] = height(at(k));
-      if (h[static_cast<std::size_t>(k)] < least.height)
-        least = {at(k), h[static_cast<std::size_t>(k)]};
-    }
-    const double lowest_sample = least.height;
-    for (int k = 0; k <= kSamples; ++k) {
-      const double here = h[static_cast<std::size_t>(k)];
-      if ((k > 0 && h[static_cast<std::size_t>(k) - 1] < here) ||
-          (k < kSamples && h[static_cast<std::size_t>(k) + 1] < here) ||
-          here - step * length > lowest_sample)
-        continue;
-      const LineMinimum found =
-          lowest_between(at(std::max(k - 1, 0)), at(std::min(k + 1, kSamples)), height);
-      if (found.height < least.height) least = found;
+  const double square = d.squaredNorm();
+  const auto height = [&](double at) { return signed_distance(shape, U + at * d); };
+  const auto minimum = [&](double at) { return LineMinimum{at, height(at)}; };
+  LineMinimum least = minimum(square > 0 ? std::clamp(-U.dot(d) / square, 0.0, 1.0) : 0);
+  const auto [first, last] =
+      square > 0 ? part_beside(torus, U, d, least.height) : std::array{0., 0.};
+  if (last > first) {
+    const double step = (last - first) / (kSamples - 1);
+    std::array<double, kSamples + 2> h;  // and one more on either side
+    h.front() = h.back() = std::numeric_limits<double>::infinity();
+    const auto at = [&](std::size_t k) { return first + (static_cast<double>(k) - 1) * step; };
+    for (std::size_t k = 1; k <= kSamples; ++k) h[k] = height(at(k));
+    const double lowest = std::min(least.height, *std::min_element(h.begin(), h.end()));
+    for (std::size_t k = 1; k <= kSamples; ++k) {
+      if (h[k] > std::min(h[k - 1], h[k + 1]) || h[k] - step * d.norm() > lowest) continue;
+      const LineMinimum between =
+          lowest_between(std::max(at(k - 1), first), std::min(at(k + 1), last), height);
+      for (const LineMinimum& found : {LineMinimum{at(k), h[k]}, between})
+        if (found.height < least.height) least = found;
     }
   }
   if (part != nullptr) *part = least.at;
