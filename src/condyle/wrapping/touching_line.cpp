@@ -90,8 +90,9 @@ double clearance_of(const WrapTorus& torus,
   const auto height = [&](double at) { return signed_distance(shape, U + at * d); };
   const auto minimum = [&](double at) { return LineMinimum{at, height(at)}; };
   LineMinimum least = minimum(square > 0 ? std::clamp(-U.dot(d) / square, 0.0, 1.0) : 0);
-  const auto [first, last] =
+  const std::array<double, 2> ends =
       square > 0 ? part_beside(torus, U, d, least.height) : std::array{0., 0.};
+  const double first = ends[0], last = ends[1];  // Clang 14 captures no structured binding
   if (last > first) {
     const double step = (last - first) / (kSamples - 1);
     std::array<double, kSamples + 2> h;  // and one more on either side
