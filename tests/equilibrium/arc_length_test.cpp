@@ -11,6 +11,7 @@
 #include "condyle/scene_file/read_scene.h"
 #include "condyle/specimen/fit_surfaces.h"
 #include "condyle/specimen/fit_wraps.h"
+#include "support/drawer_knee.h"
 #include "support/quadric_knee.h"
 #include "support/report_problems.h"
 #include "support/truss.h"
@@ -146,6 +147,81 @@ TEST(ArcLength, SaysWhyItStopped) {
   const SweepResult path = follow_path(solver, kPress, 0, 3, 0.1, {.most_poses = 200});
   EXPECT_FALSE(path.poses.back().converged());
   EXPECT_FALSE(path.poses.back().reason.empty());
+}
+
+// A point at the end of a rod of 10 mm, pushed along x: the path is a circle.
+TEST(ArcLength, SaysWhereAPathClosesOnItself) {
+  Model model;
+  for (int i = 0; i < 6; ++i) {
+    KinematicCondition hold;
+    hold.kind = i < 2 ? ConditionKind::kTranslation : ConditionKind::kRotation;
+    hold.axis = Eigen::Vector3d::Unit(i % 2);
+    hold.cardan_axis = i < 2 ? 0 : i - 2;
+    if (i == 5) {
+      hold.kind = ConditionKind::kDistance;
+      hold.value = 10;
+    }
+    model.conditions.push_back(hold);
+    model.condition_names.push_back("hold " + std::to_string(i));
+  }
+  model.start.p = {0, 0, 10};
+  model.length = 10;
+  EquilibriumSolver solver(std::move(model));
+  const SweepResult path = follow_path(solver, condition_value(0), 0, 20, 1);
+  const PoseResult& last = path.poses.back();
+  EXPECT_EQ(last.status, PoseStatus::kIterationLimit);
+  EXPECT_NE(last.reason.find("closes on itself"), std::string::npos) << last.reason;
+  EXPECT_LT(path.poses.size(), 100U);
+  ASSERT_EQ(path.events.size(), 2U);
+  EXPECT_NEAR(path.events[0].value, 10, 1e-9);
+  EXPECT_NEAR(path.events[1].value, -10, 1e-9);
+}
+
+// A contact that closes beyond an edge leaves nothing before it closes.
+TEST(ArcLength, TellsAClosingBeforeWhatTheClosedContactDoes) {
+  const test::DrawerKnee knee{{}, 0, {100, 0, 0}, {0, 0, 213}, true};
+  std::vector<double> factors;
+  for (double factor = 0; factor < 61; factor += 4) factors.push_back(factor);
+  const Scene scene = knee.scene(factors, true);
+  const SweepResult path = sweep(scene, fit_surfaces(scene));
+  bool left = false;
+  std::vector<int> open;
+  for (const Event& event : path.events) {
+    SCOPED_TRACE(event.value);
+    if (event.kind == EventKind::kOpening) open.push_back(event.contact);
+    if (event.kind == EventKind::kClosing) std::erase(open, event.contact);
+    if (event.kind != EventKind::kLeavingPatch) continue;
+    left = true;
+    EXPECT_EQ(std::count(open.begin(), open.end(), event.contact), 0);
+  }
+  EXPECT_TRUE(left);
+}
+
+// A step may come to another path; up to where contacts change on that one this one cannot be followed.
+TEST(ArcLength, TakesAShorterStepWhereOneLeadsToAnotherPath) {
+  std::vector<std::vector<double>> told;
+  for (const double step : {10.0, 2.0, 0.5}) {
+    const test::DrawerKnee knee{{"pACL", "dMCL", "mCAP", "OPL"},
+                                20,
+                                {-75.0496246596568, -151.62128950149597, 218.28834757369196},
+                                {-33.76905847349758, -96.26881073956172, 28.5622875060225},
+                                true};
+    std::vector<double> factors;
+    for (double factor = 0; factor <= 100; factor += step) factors.push_back(factor);
+    Scene scene = knee.scene(factors, true);
+    ConditionDescription& tie = scene.conditions.emplace_back();
+    tie.name = "tie";
+    tie.kind = ConditionKind::kDistance;
+    tie.value = 60;
+    tie.ends = {Attachment{0, {50, 0, 20}}, Attachment{1, {40, 0, 180}}};
+    const SweepResult path = sweep(scene, fit_surfaces(scene));
+    EXPECT_GT(path.poses.size(), 20U) << step << ": " << path.poses.back().reason;
+    told.emplace_back();
+    for (const Event& event : path.events) told.back().push_back(event.value);
+  }
+  ASSERT_GE(told[0].size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i)
+    for (const int k : {1, 2}) EXPECT_NEAR(told[k].at(i), told[0][i], 1e-6) << i;
 }
 
 /// The truss of data/hard that snaps through, pulled by a string over a post as well.

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "condyle/equilibrium/sweep.h"
 #include "condyle/math/rotation.h"
+#include "condyle/specimen/fit_surfaces.h"
+#include "support/drawer_knee.h"
 #include "support/hold.h"
 #include "support/report_problems.h"
 #include "support/truss.h"
@@ -44,6 +47,72 @@ TEST(Events, NothingHappensOnAQuietSweep) {
   model.start.R = exp_rotation({0, -1.3, 0});
   EquilibriumSolver solver(std::move(model));
   EXPECT_TRUE(run(solver, condition_value(0), {0, 0.5, 1, 1.5}).events.empty());
+}
+
+// A stop holds the truss where it is unstable. As the load falls it lifts off where it carries without the stop, and on
+// from there only more load would hold it: it snaps up, at the very load.
+TEST(Events, AnOpeningFromWhichTheWayLeadsBackIsALimitPoint) {
+  constexpr double kHeight = 1;
+  ASSERT_LT(kHeight, test::Truss::limit_height());
+  for (const double step : {4.0, 1.0, 0.3}) {
+    SCOPED_TRACE(step);
+    Model model = test::Truss::with_floor();
+    model.pairs[0].on_B = make_plane({0, 0, kHeight - 1}, {0, 0, 1});
+    model.start.p.z() = kHeight;
+    std::vector<double> loads;
+    for (double load = 12; load > 0; load -= step) loads.push_back(load);
+    EquilibriumSolver solver(std::move(model));
+    const SweepResult result = run(solver, load_scale(0), loads);
+    ASSERT_EQ(result.events.size(), 2u);
+    EXPECT_EQ(result.events[0].kind, EventKind::kOpening);
+    EXPECT_EQ(result.events[1].kind, EventKind::kLimitPoint);
+    for (const Event& event : result.events)
+      EXPECT_NEAR(event.value, test::Truss::load(kHeight), 1e-6);
+    for (const PoseResult& pose : result.poses) {
+      const bool pressed = pose.value > test::Truss::load(kHeight);
+      EXPECT_EQ(pose.contacts[0].closed, pressed) << pose.value;
+      // Between the two loads the truss may also rest above the stop.
+      EXPECT_EQ(pose.remark.find("second position") != std::string::npos,
+                pressed && pose.value < test::Truss::limit_load())
+          << pose.value << ": " << pose.remark;
+    }
+  }
+}
+
+const std::vector<double> kFactors = {0, 2. / 3,  4. / 3,  2, 8. / 3, 10. / 3,
+                                      4, 14. / 3, 16. / 3, 6, 20. / 3};
+
+// Beyond an edge the way goes on, to a pose that counts for less than one on the surfaces: no branch ends there.
+TEST(Events, NoLimitPointIsToldWhereTheWayGoesOnBeyondAnEdge) {
+  const Scene scene =
+      test::DrawerKnee{{"aMCL", "oMCL", "mCAP", "lCAP"},
+                       0,
+                       {-30.98241225692403, 123.82618252751358, -157.87768262354703},
+                       {-23.591690276489164, -58.356072419255575, 20.125866359379728}}
+          .scene(kFactors, false);
+  const SweepResult result = sweep(scene, fit_surfaces(scene));
+  ASSERT_FALSE(result.events.empty());
+  EXPECT_EQ(result.events[0].kind, EventKind::kLeavingPatch);
+  EXPECT_TRUE(result.poses.back().converged());
+  for (const Event& event : result.events)
+    EXPECT_NE(event.kind, EventKind::kLimitPoint) << event.value;
+}
+
+// What closes where the body snaps is told there, and not where a gap would have closed before.
+TEST(Events, OfASnapHaveItsValueAndAreInOrder) {
+  const Scene scene = test::DrawerKnee{
+      {"aACL", "pACL", "aPCL", "aMCL", "LCL", "lCAP", "OPL", "APL"},
+      60,
+      {23.014121430364355, -125.76535885093556, -71.33013841219629},
+      {-42.50842377033737, 7.432759117062185,
+       179.9101201319507}}.scene(kFactors, false);
+  const SweepResult result = sweep(scene, fit_surfaces(scene));
+  ASSERT_GE(result.events.size(), 3U);
+  EXPECT_EQ(result.events[0].kind, EventKind::kLimitPoint);
+  EXPECT_EQ(result.events[1].kind, EventKind::kClosing);
+  EXPECT_EQ(result.events[1].value, result.events[0].value);
+  EXPECT_TRUE(std::is_sorted(result.events.begin(), result.events.end(),
+                             [](const Event& a, const Event& b) { return a.value < b.value; }));
 }
 
 // A ball that may only move up and down is carried along over two ridges: the contact jumps from

@@ -64,6 +64,25 @@ TEST(Resume, KeepsWhatIsSaidOfSecondEquilibriaAndJumps) {
   }
 }
 
+// What an earlier sweep with other steps said of the pose before is not so any more.
+TEST(Resume, TellsOfJumpsFromThePoseThatIsNowBefore) {
+  const auto sweep_by = [](double step, std::vector<KnownPose> known) {
+    SweepOptions options;
+    options.known = std::move(known);
+    Values loads;
+    for (double load = 0; load < 12.1; load += step) loads.push_back(load);
+    EquilibriumSolver solver(test::Truss::model());
+    return sweep(solver, load_scale(0), loads, options);
+  };
+  for (const auto& [earlier, now] : {std::pair(4.0, 1.0), std::pair(0.5, 1.0)}) {
+    const SweepResult whole = sweep_by(now, {});
+    const SweepResult resumed = sweep_by(now, known_poses(sweep_by(earlier, {})));
+    ASSERT_EQ(resumed.poses.size(), whole.poses.size());
+    for (std::size_t k = 0; k < whole.poses.size(); ++k)
+      EXPECT_EQ(resumed.poses[k].remark, whole.poses[k].remark) << earlier << ", " << k;
+  }
+}
+
 TEST(Resume, GoesOnWhereTheSweepWasStopped) {
   PulledSphere whole, part, rest;
   const SweepResult uninterrupted = whole.run(kThereAndBack);

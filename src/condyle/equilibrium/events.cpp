@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "condyle/equilibrium/closing_event.h"
+#include "condyle/equilibrium/corner_limit.h"
 #include "condyle/equilibrium/path_system.h"
 #include "condyle/equilibrium/pose_changes.h"
 #include "condyle/math/pose_step.h"
@@ -142,6 +143,19 @@ class EventSearch {
     return true;
   }
 
+  /// Does the body lie elsewhere, as no motion within the tolerance explains?
+  [[nodiscard]] bool jumps(const SolvedPose& before, const SolvedPose& after) const {
+    const double L = walker_.model().length;
+    return body_motion(before, after, L) >= options_.jump * L;
+  }
+
+  /// Does the path turn back where a contact opens or closes between two poses, and the body lie on another branch at
+  /// the next one?
+  bool snaps_at_corner(const SolvedPose& before, const SolvedPose& after, const SolvedPose& next) {
+    return moved_unexpectedly(after, next) &&
+           turns_back(path_at(after.value), walker_.model(), before, after);
+  }
+
   /// Did the body go much farther than the tangents of its path say at either end?
   bool moved_unexpectedly(const SolvedPose& left, const SolvedPose& right) {
     constexpr double kMuch = 2;
@@ -154,15 +168,15 @@ class EventSearch {
 
   /// Follows the greater part of the motion of the body; true when it stays a jump.
   bool bisect_snap(SolvedPose& left, SolvedPose& right) {
-    const double L = walker_.model().length, jump = options_.jump * L;
+    const double L = walker_.model().length;
     while (std::abs(right.value - left.value) > options_.tolerance) {
-      if (body_motion(left, right, L) < jump) return false;
+      if (!jumps(left, right)) return false;
       std::optional<SolvedPose> middle = between(left, right);
       if (!middle) return false;
       const bool in_left = body_motion(left, *middle, L) > body_motion(*middle, right, L);
       (in_left ? right : left) = *middle;
     }
-    return body_motion(left, right, L) >= jump;
+    return jumps(left, right);
   }
 
   /// Follows the greater part of the motion of one contact; true when it stays a jump.
@@ -178,10 +192,11 @@ class EventSearch {
     return motion(left.result, right.result, contact) >= jump;
   }
 
-  /// Where between two poses on either side of a change it lies: where a gap closes, or half way.
-  /// `length` of the sweep on which the gaps are as good as straight.
+  /// Where between two poses on either side of a change it lies: where a gap closes, or half way, as where the body
+  /// jumps. `length` of the sweep on which the gaps are as good as straight.
   double exact_value(const SolvedPose& before, const SolvedPose& after, double length) {
     const double middle = 0.5 * (before.value + after.value);
+    if (jumps(before, after)) return middle;
     const std::optional<SolvedPose> earlier =
         pose_at(before.value - std::copysign(length, after.value - before.value), before);
     if (!earlier || !same_contacts(earlier->result, before.result)) return middle;
@@ -189,31 +204,34 @@ class EventSearch {
         .value_or(middle);
   }
 
-  /// Where the way from `before` arrives at the value of `right`, if it goes on past `after`, which lies within the
-  /// tolerance of it; nothing where the way ends between, or arrives in `right` itself.
+  /// The pose of equilibrium in which the way from `before` arrives at the value of `right`, if it goes on past `after`,
+  /// which lies within the tolerance of it; nothing where the way ends between, or arrives in `right` itself.
   std::optional<SolvedPose> arrival(const SolvedPose& before,
                                     const SolvedPose& after,
                                     const SolvedPose& right) {
     if (!options_.arrival) return std::nullopt;
-    const double L = walker_.model().length, far = options_.jump * L;
     std::optional<SolvedPose> there = pose_at(after.value, before);
-    if (!there || body_motion(before, *there, L) >= far) return std::nullopt;
+    if (!there || jumps(before, *there)) return std::nullopt;
     if (after.value != right.value) there = pose_at(right.value, *there);
-    if (!there || !there->result.converged() || body_motion(*there, right, L) < far)
-      return std::nullopt;
+    if (!there || !jumps(*there, right)) return std::nullopt;
     const bool falls = there->result.stability == 0 && right.result.stability == 1;
     return falls ? std::nullopt : there;
   }
 
  private:
+  PathSystem& path_at(double value) {
+    if (!path_) {
+      path_.emplace(walker_.model(), walker_.swept(), walker_.drive_at(value), 1);
+      path_->set_parameters(walker_.solver().parameters());
+    }
+    return *path_;
+  }
+
   /// What the tangent at one pose says about the way to the value of another [mm].
   double foretold_motion(const SolvedPose& at, const SolvedPose& to) {
     PathSystem::Direction tangent;
-    if (!path_) {
-      path_.emplace(walker_.model(), walker_.swept(), walker_.drive_at(at.value), 1);
-      path_->set_parameters(walker_.solver().parameters());
-    }
-    if (!path_->tangent({at.state, at.value}, tangent) || tangent.value() == 0) return INFINITY;
+    if (!path_at(at.value).tangent({at.state, at.value}, tangent) || tangent.value() == 0)
+      return INFINITY;
     double square = 0;
     for (std::size_t i = 0; i < 6; ++i) square += tangent.d[i] * tangent.d[i];
     return std::sqrt(square) * std::abs((to.value - at.value) / tangent.value());
@@ -243,9 +261,17 @@ std::optional<SolvedPose> locate_events(Walker& walker,
                                         const EventOptions& options) {
   EventSearch search(walker, options);
   const std::size_t told = events.size();
-  const auto instead = [&](std::optional<SolvedPose> there) {
-    if (there) events.resize(told);
-    return there;
+  std::optional<SolvedPose> there;
+  // The way from `left` goes on. Beyond an edge it ends in no pose that counts more than `right`: what differs is told
+  // there, and no limit point.
+  const auto goes_on = [&](const SolvedPose& before, const SolvedPose& after) {
+    there = search.arrival(before, after, right);
+    if (!there) return false;
+    events.resize(told);
+    if (there->result.converged()) return true;
+    append_changes(left.result, right.result, right.value, events);
+    there.reset();
+    return true;
   };
   const double L = walker.model().length, straight = kStraight * std::abs(right.value - left.value);
   SolvedPose from = left;
@@ -255,31 +281,35 @@ std::optional<SolvedPose> locate_events(Walker& walker,
       append_changes(from.result, right.result, right.value, events);
       return std::nullopt;
     }
-    if (body_motion(before, after, L) >= options.jump * L) {
-      if (auto there = instead(search.arrival(before, after, right))) return there;
+    if (search.jumps(before, after)) {
+      if (goes_on(before, after)) return there;
       append_limit(before, after, events);
     }
-    append_changes(before.result, after.result, search.exact_value(before, after, straight),
-                   events);
+    const double value = search.exact_value(before, after, straight);
+    append_changes(before.result, after.result, value, events);
+    if (search.snaps_at_corner(before, after, right)) {
+      events.push_back({value, EventKind::kLimitPoint, -1});
+      append_changes(after.result, right.result, value, events);
+      return std::nullopt;
+    }
     from = after;
   }
   append_changes(from.result, right.result, right.value, events);
-  if (same_contacts(left.result, right.result) && search.moved_unexpectedly(left, right)) {
+  if (!same_contacts(left.result, right.result)) return std::nullopt;
+  if (search.moved_unexpectedly(left, right)) {
     SolvedPose before = left, after = right;
     // Contacts that jump with the body are not told of again.
     if (search.bisect_snap(before, after)) {
-      if (auto there = instead(search.arrival(before, after, right))) return there;
+      if (goes_on(before, after)) return there;
       append_limit(before, after, events);
       return std::nullopt;
     }
   }
   for (std::size_t c = 0; c < left.result.contacts.size(); ++c) {
-    if (!same_contacts(left.result, right.result) ||
-        motion(left.result, right.result, c) < options.far * L)
-      continue;
+    if (motion(left.result, right.result, c) < options.far * L) continue;
     SolvedPose before = left, after = right;
     if (!search.bisect_jump(before, after, c, options.jump * L)) continue;
-    if (auto there = instead(search.arrival(before, after, right))) return there;
+    if (goes_on(before, after)) return there;
     events.push_back(
         {search.exact_value(before, after, straight), EventKind::kJump, static_cast<int>(c)});
   }

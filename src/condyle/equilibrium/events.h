@@ -9,7 +9,8 @@
 /// between two poses are found one after the other. Where a contact merely moved far, the half with
 /// the greater part of the motion is followed: a motion that does not shrink with the bracket is a
 /// jump. The body itself is followed likewise where it moved much farther than its path's tangent
-/// foretold: where it jumps, its branch of equilibria ends in a limit point (snap-through).
+/// foretold: where it jumps, its branch of equilibria ends in a limit point (snap-through). So it does where a contact
+/// opens or closes and the branch that begins there leads back (corner_limit.h).
 
 #include <optional>
 #include <vector>

@@ -33,18 +33,19 @@ bool PathFollower::turn_corner() {
   return false;
 }
 
-double PathFollower::last_without_change(double length) {
-  double good = 0, bad = length;
-  while (bad - good > 1e-12 * model_.length + 1e-14 * length) {
-    const double middle = 0.5 * (good + bad);
+PathFollower::Bracket PathFollower::first_change(double length) {
+  Bracket part{0, length};
+  while (part.after - part.before > 1e-12 * model_.length + 1e-14 * length) {
+    const double middle = 0.5 * (part.before + part.after);
     const std::optional<PathPoint> point = at(middle);
-    (point && !changes_at(*point).any() ? good : bad) = middle;
+    (point && !changes_at(*point).any() ? part.before : part.after) = middle;
   }
-  return bad;
+  return part;
 }
 
-bool PathFollower::change_contacts(double length) {
-  const std::optional<PathPoint> there = at(length);
+bool PathFollower::change_contacts(const Bracket& part) {
+  const double length = part.after;
+  const std::optional<PathPoint> last = at(part.before), there = at(length);
   const ContactChanges changes = there ? changes_at(*there) : ContactChanges();
   if (!changes.any()) {
     stop("contacts could not be followed farther along the path");
@@ -66,8 +67,10 @@ bool PathFollower::change_contacts(double length) {
                      model_.pairs[static_cast<std::size_t>(pair)].name, name(kind)));
     return false;
   }
+  if (been_at(changed)) return false;
+  // Before it, as the solver itself would change contacts after it.
   Ahead unchanged;
-  (void)look_ahead(*there, length, unchanged);
+  if (last) (void)look_ahead(*last, length, unchanged);
   located_.insert(located_.end(), unchanged.events.begin(), unchanged.events.end());
   if (unchanged.usable) told_ = std::move(unchanged.pose.result);
   located_.push_back({length, {changed.value, kind, pair}});
@@ -83,6 +86,18 @@ bool PathFollower::change_contacts(double length) {
       located_.push_back({length, event});
   told_ = std::move(there_now.result);
   return true;
+}
+
+bool PathFollower::been_at(const PathPoint& point) {
+  constexpr double kSame = 1e-7;  // [L]
+  for (const PathPoint& turn : turns_)
+    if (system_.distance(turn, point) < kSame * model_.length &&
+        turn.state.contacts.size() == point.state.contacts.size()) {
+      stop("the path closes on itself and does not come to its end");
+      return true;
+    }
+  turns_.push_back(point);
+  return false;
 }
 
 bool PathFollower::release(int contact, PathPoint& point, Direction& tangent) {

@@ -121,7 +121,8 @@ bool PathFollower::try_step() {
   std::optional<PathPoint> next;
   Direction next_tangent;
   Ahead ahead;
-  bool near = false;  // where a path that turns has a corner
+  std::optional<Bracket> change;  // of contacts
+  bool near = false;              // where a path that turns has a corner
   for (;; length /= 2) {
     if (length < kShortest * model_.length) {
       stop(kEnds);
@@ -134,32 +135,39 @@ bool PathFollower::try_step() {
     next = at(length);
     if (!next || !system_.tangent(*next, next_tangent)) continue;
     if (system_.product(next_tangent, tangent_) < 0) reverse(next_tangent);
-    if (near && system_.distance(point_, *next) < 2 * length) {
+    const bool at_corner = near && system_.distance(point_, *next) < 2 * length;
+    if (at_corner) {
       (void)look_ahead(*next, length, ahead);
-      break;
+    } else if (system_.product(next_tangent, tangent_) <= 0.8 ||
+               std::abs(next->value - point_.value) >= kMostOfStep * largest_step_ ||
+               !look_ahead(*next, length, ahead)) {
+      // A path that turns much within a step was perhaps left for another, and beyond a corner its value may run away.
+      continue;
     }
-    // A path that turns much within a step was perhaps left for another, and beyond a corner its value may run away.
-    if (system_.product(next_tangent, tangent_) > 0.8 &&
-        std::abs(next->value - point_.value) < kMostOfStep * largest_step_ &&
-        look_ahead(*next, length, ahead))
-      break;
+    if (!changes_at(*next).any()) break;
+    change = first_change(length);
+    // Where the way up to the change cannot be followed, the step has led to another path.
+    if (at_corner || at(change->after)) break;
+    change.reset();
   }
-  const bool changes = changes_at(*next).any();
-  if (changes) length = last_without_change(length);
+  if (change) length = change->after;
   const std::optional<Sample> last =
-      changes ? sample(length) : sample_of(length, *next, next_tangent);
+      change ? sample(length) : sample_of(length, *next, next_tangent);
   const std::vector<Sample> ways = last ? ways_to(*last) : std::vector<Sample>();
   const std::optional<double> end = length_to_end(ways);
-  for (std::size_t i = 1; i + 1 < ways.size() && !(end && ways[i].length > *end); ++i)
+  for (std::size_t i = 1; i + 1 < ways.size() && !(end && ways[i].length > *end); ++i) {
+    const std::optional<PathPoint> limit = at(ways[i].length);
+    if (limit && been_at(*limit)) return false;
     located_.push_back({ways[i].length, {ways[i].value, EventKind::kLimitPoint, -1}});
+  }
   if (end) return finish(*end);
-  if (!changes) {
+  if (!change) {
     if (!tell(std::move(ahead))) return false;
     point_ = *next;
     tangent_ = next_tangent;
     return true;
   }
-  return change_contacts(length);
+  return change_contacts(*change);
 }
 
 std::optional<double> PathFollower::length_to_end(const std::vector<Sample>& ways) {

@@ -38,6 +38,10 @@ class PathFollower {
   struct Sample {
     double length, value, rate;  ///< rate: of the value by that length
   };
+  /// Lengths ahead between which contacts change.
+  struct Bracket {
+    double before, after;
+  };
   struct Ahead {
     SolvedPose pose;
     bool usable = false;  ///< of equilibrium
@@ -73,11 +77,13 @@ class PathFollower {
   /// Where a ligament comes to lie on a surface or leaves it stiffness jumps, and the path may turn by any angle: on
   /// along the tangent that it has with the ligament as it lies just ahead, in the sense in which it stays so.
   bool turn_corner();
-  /// Bisection for the length up to which contacts push and nothing overlaps.
-  double last_without_change(double length);
-  /// Releases the contact that pulls at `length`, or closes the one that overlaps there, and turns
+  /// Bisection for the length up to which contacts push and nothing overlaps, or to which the path can be followed.
+  Bracket first_change(double length);
+  /// Releases the contact that pulls after a change, or closes the one that overlaps there, and turns
   /// into the branch that agrees with it.
-  bool change_contacts(double length);
+  bool change_contacts(const Bracket& part);
+  /// Has the path turned here before? It runs round for ever then, and stops.
+  bool been_at(const PathPoint& point);
   bool release(int contact, PathPoint& point, Direction& tangent);
   bool close(const ClosedContact& contact, PathPoint& point, Direction& tangent);
   /// Back to equilibrium with changed contacts, along the new path's own normal.
@@ -114,6 +120,7 @@ class PathFollower {
   PathPoint point_;
   std::optional<PoseResult> told_;  ///< at that point, where that is known
   Direction tangent_;
+  std::vector<PathPoint> turns_;  ///< where contacts changed and the swept value turned so far
   std::vector<Located> located_;  ///< in this step
   SweepResult result_;
 };

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "condyle/math/rotation.h"
 
@@ -40,16 +42,39 @@ std::string second_equilibrium(const Model& model,
       way(model, here, there));
 }
 
+namespace {
+
+constexpr std::string_view kSince = "since the pose before it the body moved";
+constexpr std::string_view kBetween = "; ";  // sentences of a remark
+
+}  // namespace
+
 std::string jump(const Model& model, const RigidTransform& carried, const RigidTransform& here) {
   constexpr double kJump = 0.5;  // of L
   if (distance(model, carried, here) < kJump) return {};
-  return fmt::format("since the pose before it the body moved {} beyond what is prescribed",
-                     way(model, carried, here));
+  return fmt::format("{} {} beyond what is prescribed", kSince, way(model, carried, here));
+}
+
+void tell_jump(PoseResult& pose, const std::string& words) {
+  const std::size_t begin = pose.remark.find(kSince);
+  if (begin == std::string::npos) {
+    if (!words.empty()) add_remark(pose, words);
+    return;
+  }
+  std::size_t end = std::min(pose.remark.find(kBetween, begin), pose.remark.size());
+  if (!words.empty()) {
+    pose.remark.replace(begin, end - begin, words);
+  } else if (begin > 0) {
+    pose.remark.erase(begin - kBetween.size(), end - begin + kBetween.size());
+  } else {
+    end = std::min(end + kBetween.size(), pose.remark.size());
+    pose.remark.erase(0, end);
+  }
 }
 
 void add_remark(PoseResult& pose, const std::string& remark) {
   if (pose.remark.find(remark) != std::string::npos) return;
-  if (!pose.remark.empty()) pose.remark += "; ";
+  if (!pose.remark.empty()) pose.remark += kBetween;
   pose.remark += remark;
 }
 

@@ -29,6 +29,9 @@ namespace condyle {
                                const RigidTransform& carried,
                                const RigidTransform& here);
 
+/// The remark of a pose tells of this jump (as `jump` has it, or nothing) and of no other.
+void tell_jump(PoseResult& pose, const std::string& words);
+
 /// Adds a sentence to the remark of a pose, once.
 void add_remark(PoseResult& pose, const std::string& remark);
 

@@ -142,11 +142,13 @@ void SweepWalk::tell() {
 
 /// Says so where the body moved far since the pose before, by more than what is prescribed.
 void SweepWalk::note_jump(Stop& stop) {
-  if (!stop.converged() || told_ == 0 || !stops_[told_ - 1].converged()) return;
-  const RigidTransform before = in_model(stops_[told_ - 1].at.result);
-  const std::string words = jump(model(), carried(model(), walker_.drive_at(stop.at.value), before),
-                                 in_model(stop.at.result));
-  if (!words.empty()) add_remark(stop.at.result, words);
+  std::string words;
+  if (stop.converged() && told_ > 0 && stops_[told_ - 1].converged()) {
+    const RigidTransform before = in_model(stops_[told_ - 1].at.result);
+    words = jump(model(), carried(model(), walker_.drive_at(stop.at.value), before),
+                 in_model(stop.at.result));
+  }
+  tell_jump(stop.at.result, words);  // a known pose may tell of the one that stood before it then
 }
 
 /// Events since the last solved pose. The solver then stands at the last converged one.
@@ -162,7 +164,7 @@ void SweepWalk::find_events(Stop& stop) {
   const auto begin = std::chrono::steady_clock::now();
   EventOptions options;
   options.tolerance = event_tolerance_;
-  options.arrival = last.converged() && stop.converged() && stop.taken == nullptr;
+  options.arrival = stop.converged() && stop.taken == nullptr;
   if (auto there = locate_events(walker_, last.at, stop.at, stop.events, options)) {
     put_in_place(std::move(*there), stop);
     options.arrival = false;
@@ -191,7 +193,9 @@ void SweepWalk::stand_at_last_converged() {
 bool SweepWalk::continuous(std::size_t a, std::size_t b) const {
   if (b > a + 1 || stops_[a].from_elsewhere || stops_[b].from_elsewhere) return false;
   for (const Event& event : stops_[b].events)
-    if (event.kind == EventKind::kJump || event.kind == EventKind::kLimitPoint) return false;
+    if (event.kind == EventKind::kJump || event.kind == EventKind::kLimitPoint ||
+        event.value == stops_[b].at.value)  // told there as it could not be located
+      return false;
   return true;
 }
 
