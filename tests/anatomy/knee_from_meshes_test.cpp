@@ -18,6 +18,7 @@
 #include "condyle/results/output_file.h"
 #include "condyle/scene/start_pose.h"
 #include "condyle/scene_file/read_scene.h"
+#include "support/closed_shapes.h"
 #include "support/cracked_mesh.h"
 #include "support/scratch_folder.h"
 
@@ -113,6 +114,23 @@ TEST_F(NewKneeOfThePhantom, MirroredIsALeftKneeThatMovesTheSame) {
           << l;
   EXPECT_NEAR(left.start.scan.adduction, right.start.scan.adduction, 1e-4);
   EXPECT_NEAR(left.start.shifted, right.start.shifted, 0.01);
+}
+
+// A fabella, or what a segmentation left behind the condyles.
+TEST_F(NewKneeOfThePhantom, IsThePhantomWithALoosePieceBehindIt) {
+  NewKneeFiles with_piece = files({});
+  TriangleMesh femur = load_mesh(kMeshes / "femur.stl", 1),
+               piece = test::ellipsoid_solid({8, 8, 8}, 1);
+  for (Vector3d& p : piece.vertices) p += Vector3d(-60, 20, 0);
+  test::append(femur, piece);
+  write_output_file(with_piece.femur, ply(femur));
+  const NewKnee knee = knee_from_meshes(with_piece, {});
+  EXPECT_LT(farthest(knee, {}), 0.5);
+  EXPECT_TRUE(std::any_of(knee.doubts.begin(), knee.doubts.end(), [](const std::string& doubt) {
+    return doubt.find(
+               "a piece that is no part of the bone, 16 by 16 by 16 mm about [-60.0, 20.0, 0.0] "
+               "mm") != std::string::npos;
+  }));
 }
 
 TEST_F(NewKneeOfThePhantom, IsBroughtTogetherAndExtended) {

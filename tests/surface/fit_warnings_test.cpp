@@ -112,6 +112,29 @@ TEST_F(FitWarnings, NameASeamAndJoinIt) {
   }
 }
 
+// Bone and cartilage in one file: what touches is the cartilage.
+TEST_F(FitWarnings, NameASheetBelowTheOneThatIsFitted) {
+  const TriangleMesh bone = phantom_femur();
+  const FittedSurface alone = fit(bone, medial());
+  EXPECT_EQ(alone.report->sheet_below, 0);
+  TriangleMesh cartilage = alone.region;
+  const std::vector<Vector3d> normals = vertex_normals(cartilage);
+  for (std::size_t i = 0; i < normals.size(); ++i) cartilage.vertices[i] += 2 * normals[i];
+  TriangleMesh both = bone;
+  test::append(both, cartilage);
+  const FittedSurface found = fit(both, medial());
+  EXPECT_TRUE(
+      holds(found.report->notes, "warning: two sheets: the mesh has another surface 2.0 mm"));
+  EXPECT_NEAR(found.report->sheet_below, 2, 0.05);
+  for (const Place& place : found.surface->samples(4)) {
+    if (found.surface->edge_distance(place) < 2) continue;
+    const Vector3d p = found.surface->evaluate(place).c;
+    const SurfacePoint there =
+        alone.surface->evaluate(alone.surface->closest(p, alone.surface->seed(p)));
+    EXPECT_NEAR((there.c - p).norm(), 2, 0.1);
+  }
+}
+
 TEST_F(FitWarnings, NameAHole) {
   TriangleMesh mesh = phantom_femur();
   const Vector3d distal(0, -21, -23);

@@ -47,7 +47,7 @@ void check_cartilage(const TriangleMesh& cartilage,
       across < 0.3 * size || across > 3 * size)
     throw InputError(
         fmt::format("the {} cartilage is {:.3g} long, its bone {:.3g} wide, in the unit of the "
-                    "files: expected both in one unit",
+                    "files: expected both in one unit, and of one knee",
                     name, across, size));
   const std::vector<double> to_own = distances_to(cartilage, own),
                             to_other = distances_to(cartilage, other);
@@ -130,7 +130,7 @@ void check_meshes(const KneeMeshes& meshes) {
   if (std::max(femur, tibia) > 8 * std::min(femur, tibia))
     throw InputError(
         fmt::format("the femur is {:.3g} long and the tibia {:.3g}, in the unit of the files: "
-                    "expected both in one unit",
+                    "expected both in one unit, and no vertex far from all others",
                     femur, tibia));
   const std::vector<double> apart = distances_to(meshes.tibia, meshes.femur);
   if (apart[apart.size() / 2] < 0.01 * tibia)

@@ -12,6 +12,7 @@
 #include "condyle/anatomy/new_start.h"
 #include "condyle/input_error.h"
 #include "condyle/mesh/clean_mesh.h"
+#include "condyle/mesh/main_parts.h"
 #include "condyle/mesh_files/load_mesh.h"
 #include "condyle/scene/ligament_path.h"
 #include "condyle/scene/start_pose.h"
@@ -45,6 +46,7 @@ struct Loaded {
   KneeMeshes meshes;
   std::vector<Vector3d> tibial_centers;  // of each file with tibial cartilage
   std::vector<std::pair<std::filesystem::path, WeldedSeams>> seams;  // of files that had some
+  std::vector<std::pair<std::filesystem::path, MainParts>> parts;    // of bones that had others
 };
 
 TriangleMesh cleaned(const std::filesystem::path& file, Loaded& loaded) {
@@ -61,6 +63,24 @@ TriangleMesh cleaned(const std::filesystem::path& file, Loaded& loaded) {
   }
 }
 
+/// Without what lies about it, which tells nothing of its frame.
+TriangleMesh bone(const std::filesystem::path& file, Loaded& loaded) {
+  MainParts parts = main_parts(cleaned(file, loaded));
+  TriangleMesh mesh = std::move(parts.mesh);
+  if (parts.left_out > 0) loaded.parts.emplace_back(file, std::move(parts));
+  return mesh;
+}
+
+std::string describe(const MainParts& parts, double to_mm) {
+  const bool one = parts.left_out == 1;
+  const Vector3d size = to_mm * parts.size, at = to_mm * parts.middle;
+  return fmt::format(
+      "{} no part of the bone, {}{:.0f} by {:.0f} by {:.0f} mm about [{:.1f}, {:.1f}, {:.1f}] mm: "
+      "its frame is told without",
+      one ? "a piece that is" : fmt::format("{} pieces that are", parts.left_out),
+      one ? "" : "the largest ", size.x(), size.y(), size.z(), at.x(), at.y(), at.z());
+}
+
 void scale(TriangleMesh& mesh, double factor) {
   for (Vector3d& v : mesh.vertices) v *= factor;
 }
@@ -73,8 +93,8 @@ Vector3d centroid(const TriangleMesh& mesh) {
 
 Loaded load(const NewKneeFiles& files) {
   Loaded loaded;
-  loaded.meshes.femur = cleaned(files.femur, loaded);
-  loaded.meshes.tibia = cleaned(files.tibia, loaded);
+  loaded.meshes.femur = bone(files.femur, loaded);
+  loaded.meshes.tibia = bone(files.tibia, loaded);
   if (files.cartilage.empty()) return loaded;
   loaded.meshes.femoral_cartilage = cleaned(files.cartilage[0], loaded);
   TriangleMesh tibial;
@@ -260,6 +280,8 @@ NewKnee knee_from_meshes(const NewKneeFiles& files, const RecogniseOptions& opti
   knee.doubts = knee.shape.doubts;
   for (const auto& [file, seams] : loaded.seams)
     knee.doubts.push_back(file.string() + ": " + describe(seams, knee.shape.to_mm));
+  for (const auto& [file, parts] : loaded.parts)
+    knee.doubts.push_back(file.string() + ": " + describe(parts, knee.shape.to_mm));
   scale(loaded.meshes.femur, knee.shape.to_mm);
   scale(loaded.meshes.tibia, knee.shape.to_mm);
   for (std::optional<TriangleMesh>* cartilage :

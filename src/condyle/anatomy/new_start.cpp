@@ -56,6 +56,7 @@ class Gaps {
     return patch == nullptr ? 0 : kOfHollow * sharpest_hollow(*patch).radius;
   }
   void set_offset(const Offsets& offset) { offset_ = offset; }
+  [[nodiscard]] const std::vector<FittedSurface>& surfaces() const { return surfaces_; }
 
  private:
   static constexpr double kOfHollow = 0.7;
@@ -115,6 +116,21 @@ Vector2d close_gaps(Gaps& gaps, const JointFrames& frames, const JointCoordinate
     step.x() -= least;
   }
   return touching;
+}
+
+/// A bone with its cartilage in one mesh, or with what lies within it.
+void doubt_sheets(NewKnee& knee, const std::vector<FittedSurface>& surfaces) {
+  std::string where;
+  for (const FittedSurface& surface : surfaces)
+    if (surface.report && surface.report->sheet_below > 0)
+      where += fmt::format("{}{:.1f} mm ({})", where.empty() ? "" : ", ",
+                           surface.report->sheet_below, surface.report->surface);
+  if (!where.empty())
+    knee.doubts.push_back(
+        fmt::format("a mesh has two surfaces over each other, the inner one by {} below: the outer "
+                    "one is taken; cartilage comes in a "
+                    "mesh of its own (--cartilage)",
+                    where));
 }
 
 void doubt_start(NewKnee& knee, bool bare, const Vector2d& after) {
@@ -190,6 +206,7 @@ void find_start(NewKnee& knee) {
     throw InputError(fmt::format(
         "{} and {}: the bones lie {:.0f} mm inside each other, expected them as scanned",
         knee.files.femur.string(), knee.files.tibia.string(), -before.minCoeff()));
+  doubt_sheets(knee, gaps.surfaces());
   const bool bare = knee.files.cartilage.empty();
   if (bare) gaps.set_offset(start.offset = cartilage_offsets(gaps, before));
   const Vector2d step = close_gaps(gaps, frames, q);

@@ -29,6 +29,7 @@ struct FitReport {
   std::array<double, 2> extent = {0, 0};  ///< of the part that can touch, along u and v [mm]
   std::array<double, 2> turn = {0, 0};    ///< of the normal along them [rad]
   double area = 0;                        ///< of that part [mm²]
+  double sheet_below = 0;                 ///< to another sheet of the mesh, left out; 0: none [mm]
   double seconds = 0;
   std::vector<std::string> notes;  ///< what was dropped, mended or suspicious, one line each
 };

@@ -92,6 +92,13 @@ FitReport report_of(const std::string& name, const ArticularRegion& region, cons
         "warning: poor fit: {:.2f} mm rms and up to {:.2f} mm off the mesh away from its "
         "edge, expected at most {:g} mm rms: more control points or less smoothing",
         figures.core_rms, figures.core_max, kPoor));
+  report.sheet_below = region.sheet_below;
+  if (region.sheet_below > 0)
+    report.notes.push_back(
+        fmt::format("warning: two sheets: the mesh has another surface {:.1f} mm below, as of a "
+                    "bone under its cartilage, which is "
+                    "left out: expected one of them",
+                    region.sheet_below));
   constexpr double kThin = 4;  // [mm]
   if (figures.depth < kThin)
     report.notes.push_back(

@@ -7,6 +7,7 @@
 
 #include "condyle/input_error.h"
 #include "condyle/mesh/drop_flat_vertices.h"
+#include "condyle/mesh/main_parts.h"
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/scene/scene_place.h"
 #include "condyle/surface/bone_check.h"
@@ -147,8 +148,9 @@ void load_source(const Scene& scene, const MeshReader& read, PatchSource& source
       check_is_no_femur(source.mesh, bone_frame(scene.joint->tibia, source));
     }
     if (!needs_axis(scene, source)) return;
+    const TriangleMesh bone = main_parts(mesh).mesh;
     source.axis =
-        fit_condylar_axis(mesh, vertex_normals(mesh), bone_frame(scene.joint->femur, source));
+        fit_condylar_axis(bone, vertex_normals(bone), bone_frame(scene.joint->femur, source));
     check_is_femur(*source.axis);
   } catch (const InputError& error) {
     throw error_of_mesh(source.file,

@@ -11,9 +11,9 @@
 #include "condyle/input_error.h"
 #include "condyle/math/decompositions.h"
 #include "condyle/mesh/mesh_measures.h"
-#include "condyle/mesh/orient_mesh.h"
 #include "condyle/surface/condyle_chart.h"
 #include "condyle/surface/grow_region.h"
+#include "condyle/surface/outermost_part.h"
 
 namespace condyle {
 namespace {
@@ -49,24 +49,14 @@ std::vector<Vector3d> smoothed_normals(const TriangleMesh& mesh, double distance
   return normals;
 }
 
-/// Keeps the linked part of the largest area.
-std::vector<bool> largest_part(const TriangleMesh& mesh, const std::vector<bool>& keep) {
-  const SubMesh part = sub_mesh(mesh, keep);
-  const std::vector<int> component = find_components(part.mesh, TriangleLinks(part.mesh));
-  std::vector<bool> result(keep.size(), false);
-  for (std::size_t t = 0, k = 0; t < keep.size(); ++t)
-    if (keep[t]) result[t] = component[k++] == 0;
-  return result;
-}
-
-/// The largest linked part of the triangles whose three vertices all pass.
-std::vector<bool> select(const TriangleMesh& mesh, const std::vector<bool>& vertex_passes) {
+/// The largest linked part of the triangles whose three vertices all pass, of those that lie outermost.
+OutermostPart select(const TriangleMesh& mesh, const std::vector<bool>& vertex_passes) {
   std::vector<bool> keep(mesh.triangles.size());
   for (std::size_t t = 0; t < keep.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     keep[t] = vertex_passes[a] && vertex_passes[b] && vertex_passes[c];
   }
-  return largest_part(mesh, keep);
+  return outermost_part(mesh, keep);
 }
 
 using Chart = std::function<Vector2d(const Vector3d&)>;
@@ -226,11 +216,11 @@ ArticularRegion femoral_region(const TriangleMesh& mesh,
   const auto beyond = [half](const AboutAxis& q) {
     return half == Half::kMedial ? q.along : -q.along;
   };
-  const std::vector<bool> crest = passing([&](std::size_t i, const AboutAxis& q) {
+  const auto [crest, crest_below] = passing([&](std::size_t i, const AboutAxis& q) {
     return beyond(q) < 0 && normals[i].dot(q.radial) > kCrestCosine;
   });
   const CondyleChart chart(mesh, crest, axis, radius);
-  const std::vector<bool> keep = passing([&](std::size_t i, const AboutAxis& q) {
+  const auto [keep, below] = passing([&](std::size_t i, const AboutAxis& q) {
     return beyond(q) < kBeyondDivide && normals[i].dot(q.radial) > options.femur_least_cosine &&
            normals[i].dot(chart.direction(mesh.vertices[i])) > kChartCosine;
   });
@@ -250,6 +240,7 @@ ArticularRegion femoral_region(const TriangleMesh& mesh,
   region.notes.push_back(fmt::format(
       "condylar axis: radius {:.2f} mm, {:.2f} mm rms; condyle from {:.0f} to {:.0f} degrees",
       radius, axis.rms, low * 180 / M_PI, high * 180 / M_PI));
+  region.sheet_below = std::max(below, crest_below);
   return region;
 }
 
@@ -289,15 +280,16 @@ ArticularRegion tibial_region(const TriangleMesh& mesh,
     }
     return select(mesh, passes);
   };
-  std::vector<bool> face;
+  OutermostPart outermost;
+  const std::vector<bool>& face = outermost.keep;
   for (int round = 0; round < 3; ++round) {
-    face = passing(ends.face, 0, kPlateauCosine);
+    outermost = passing(ends.face, 0, kPlateauCosine);
     if (std::find(face.begin(), face.end(), true) == face.end())
       throw InputError("no tibial plateau found");
     height = total_area(mesh, face).normalized();
   }
   const double middle = frame.lateral.dot(centroid(mesh, face) - frame.origin);
-  const std::vector<bool> keep = passing(ends.all, middle, options.tibia_least_cosine);
+  const auto [keep, below] = passing(ends.all, middle, options.tibia_least_cosine);
   std::vector<bool> grows(mesh.vertices.size());
   for (std::size_t i = 0; i < grows.size(); ++i)
     grows[i] = is_on_side(ends.all, i) && normals[i].dot(height) > kGrownCosine;
@@ -307,6 +299,7 @@ ArticularRegion tibial_region(const TriangleMesh& mesh,
   region.notes.push_back(
       fmt::format("plateau slopes {:.1f} degrees backwards, {:.1f} towards lateral",
                   std::atan2(-h.x(), h.y()) * 180 / M_PI, std::atan2(h.z(), h.y()) * 180 / M_PI));
+  region.sheet_below = std::max(below, outermost.below);
   return region;
 }
 
@@ -317,12 +310,12 @@ ArticularRegion box_region(const TriangleMesh& mesh, const std::array<Vector3d, 
   box = {box.min() - round_off, box.max() + round_off};
   std::vector<bool> inside(mesh.vertices.size());
   for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = box.contains(mesh.vertices[i]);
-  const std::vector<bool> all = select(mesh, inside);
+  const std::vector<bool> all = select(mesh, inside).keep;
   const Vector3d height = total_area(mesh, all).stableNormalized();
   const std::vector<Vector3d> normals = vertex_normals(mesh);
   for (std::size_t i = 0; i < inside.size(); ++i)
     inside[i] = inside[i] && normals[i].dot(height) > 0.25;
-  const std::vector<bool> keep = select(mesh, inside);
+  const auto [keep, below] = select(mesh, inside);
   if (std::find(keep.begin(), keep.end(), true) == keep.end())
     throw InputError("the region box holds no part of the mesh");
 
@@ -340,7 +333,9 @@ ArticularRegion box_region(const TriangleMesh& mesh, const std::array<Vector3d, 
     if (keep[t])
       third += std::pow(forward.dot(triangle_middle(mesh, mesh.triangles[t]) - center), 3);
   if (third < 0) forward = -forward;
-  return plane_region(mesh, keep, keep, center, height, forward);
+  ArticularRegion region = plane_region(mesh, keep, keep, center, height, forward);
+  region.sheet_below = below;
+  return region;
 }
 
 }  // namespace condyle

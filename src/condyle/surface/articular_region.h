@@ -27,6 +27,8 @@ struct ArticularRegion {
   std::vector<double> slope;  ///< cosine between normal and chart direction at the vertices
   std::vector<bool> face;     ///< vertices of the articular face proper, without flanks and crests;
                               ///< empty: all. It sets the smoothing.
+  double sheet_below =
+      0;  ///< to another sheet of the mesh, left out, as a bone under its cartilage; 0: none [mm]
   std::vector<std::string> notes;  ///< what was chosen and left out, one line each
 };
 
