@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +11,7 @@
 #include "condyle/contact/contact.h"
 #include "condyle/math/rotation.h"
 #include "condyle/surface/exact_surfaces.h"
+#include "support/random.h"
 
 namespace condyle {
 namespace {
@@ -58,6 +61,44 @@ TEST(ContactSearch, ASolidThroughAClosedSocketIsAnOverlap) {
     ASSERT_FALSE(minima.empty()) << far;
     EXPECT_LT(minima[0].gap, -1) << far;
   }
+}
+
+/// A point of an ellipsoid and its normal.
+struct OfEllipsoid {
+  Eigen::Vector3d c, n;
+  OfEllipsoid(const Eigen::Vector3d& axes, const Eigen::Vector3d& u)
+      : c(axes.cwiseProduct(u.normalized())), n(u.normalized().cwiseQuotient(axes).normalized()) {}
+};
+
+// Blades, needles and discs, whose curvature changes within the spacing of samples: two convex solids overlap by what
+// they are pushed into each other at a point where their normals are opposite.
+TEST(ContactSearch, SeesAGrazingOverlapOfAnyTwoEllipsoids) {
+  test::Random random(11);
+  const auto axes = [&] {
+    const Eigen::Vector3d logs(random.between(0, 4.1), random.between(0, 4.1),
+                               random.between(0, 4.1));
+    return Eigen::Vector3d(logs.array().exp());
+  };
+  int refined = 0;
+  constexpr int kTrials = 400;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const Eigen::Vector3d of_A = axes(), of_B = axes();
+    const OfEllipsoid a(of_A, random.vector(1)), b(of_B, random.vector(1));
+    const ContactPair pair =
+        pair_of(make_ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), of_B, true),
+                make_ellipsoid({0, 0, 0}, Eigen::Matrix3d::Identity(), of_A, true));
+    const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(a.n, -b.n).toRotationMatrix();
+    const double depth = std::exp(random.between(-6, -3));
+    RigidTransform X{exp_rotation(random.between(-3, 3) * b.n) * turn, {}};
+    X.p = b.c - depth * b.n - X.R * a.c;
+    ContactSearch search(pair);
+    std::vector<GapMinimum> minima;
+    search.find(X, 0, minima);
+    ASSERT_FALSE(minima.empty()) << trial << ", " << depth;
+    EXPECT_LT(minima[0].gap, -depth + 1e-9) << trial;
+    refined += minima[0].refined ? 1 : 0;
+  }
+  EXPECT_GT(refined, 0.9 * kTrials);
 }
 
 TEST(ContactSearch, SurfacesMuchSmallerThanTheSpacingAreSeen) {

@@ -183,34 +183,81 @@ bool ContactSearch::is_lowest(int sample, const RigidTransform& X_from_to) {
   return true;
 }
 
-/// Newton to the minimum near a sample. Where that does not settle, or leads beyond the known part
-/// while the sample itself is within, the sample stands for it.
+/// The deepest of the samples that lie deeper than all minima that were found; -1 where there is none.
+int ContactSearch::deepest_unexplained(double cutoff, const std::vector<GapMinimum>& minima) const {
+  double lowest = std::min(cutoff, 0.0);
+  for (const GapMinimum& minimum : minima) lowest = std::min(lowest, minimum.gap);
+  lowest -= kModel * spacing_;
+  int missed = -1;
+  for (const int sample : near_) {
+    const Seen& now = seen(sample);
+    if (!now.measured || !now.faces || !(now.gap < lowest)) continue;
+    lowest = now.gap;
+    missed = sample;
+  }
+  return missed;
+}
+
+/// The gap of a point of the sampled surface to the closest one of the other, by the normal there: those of both are
+/// not opposite.
+GapMinimum ContactSearch::gap_at(ContactPlaces places, const RigidTransform& X_BA) const {
+  const SurfacePair surfaces = this->surfaces();
+  if (sampled_on_A_)
+    places.on_B = surfaces.on_B.closest(X_BA * surfaces.on_A.evaluate(places.on_A).c, places.on_B);
+  else
+    places.on_A =
+        surfaces.on_A.closest(X_BA.inverse() * surfaces.on_B.evaluate(places.on_B).c, places.on_A);
+  const ContactLinearization at = linearize_contact(surfaces, places, X_BA);
+  GapMinimum there = minimum_at(surfaces, places, at);
+  if (!sampled_on_A_) there.gap = -at.m.dot(at.g);
+  return there;
+}
+
+/// Newton to the minimum near a sample. Where that does not settle, or leads beyond the known part while the sample
+/// itself is within, the sample stands for it.
 std::optional<GapMinimum> ContactSearch::refine(int sample,
                                                 const RigidTransform& X_BA,
-                                                double cutoff) const {
+                                                double cutoff,
+                                                bool lowest) {
   const SurfacePair surfaces = this->surfaces();
   const Place &own = sampled().place(sample), &there = closest(sample).place;
   const ContactPlaces start = sampled_on_A_ ? ContactPlaces{there, own} : ContactPlaces{own, there};
+  const Settling how{kRefineReach * spacing_, true, cutoff};
   ContactPlaces places = start;
   ContactLinearization at;
-  const Settled outcome =
-      settle_places(surfaces, X_BA, {kRefineReach * spacing_, true, cutoff}, places, at);
-  if (outcome == Settled::kAbove) return std::nullopt;
-  if (outcome == Settled::kThere) {
+  const Settled outcome = settle_places(surfaces, X_BA, how, places, at);
+  const Seen& now = seen(sample);
+  const bool below = now.measured && now.gap < cutoff && !cover_->lines;
+  if (outcome == Settled::kAbove && !below) return std::nullopt;
+  if (outcome == Settled::kThere && !(below && at.gap() > now.gap + kModel * spacing_)) {
     GapMinimum minimum = minimum_at(surfaces, places, at);
     minimum.refined = true;
     if (minimum.edge > -kBeyondEdge * spacing_) return minimum;
+    return gap_at(start, X_BA);
   }
-  places = start;
-  const Eigen::Vector3d& c = sampled().sample(sample).c;
-  if (sampled_on_A_)
-    places.on_B = surfaces.on_B.closest(X_BA * c, places.on_B);
-  else
-    places.on_A = surfaces.on_A.closest(X_BA.inverse() * c, places.on_A);
-  GapMinimum lowest = minimum_at(surfaces, places, linearize_contact(surfaces, places, X_BA));
-  // A point within a closed solid is an overlap whichever way its own surface faces there.
-  if (deepest_ == kInfinity && lowest.gap > 0 && seen(sample).gap < 0) lowest.gap = -lowest.gap;
-  return lowest;
+  const GapMinimum standing = gap_at(start, X_BA);
+  const double touching = std::min(cutoff, 0.0);
+  // Of a sample that does not touch itself, the cell may. Lines lie lower on the way to their ends, which are looked for
+  // by themselves.
+  if (!lowest || cover_->lines || standing.gap < touching || now.lower >= touching) return standing;
+  return downhill_from(start, X_BA, how).value_or(standing);
+}
+
+/// The minimum that steps downhill come to, or the lowest place on the way; nothing beyond an edge, which is a rim's.
+std::optional<GapMinimum> ContactSearch::downhill_from(const ContactPlaces& start,
+                                                       const RigidTransform& X_BA,
+                                                       const Settling& how) {
+  const SurfacePair surfaces = this->surfaces();
+  ContactPlaces places = start;
+  ContactLinearization at;
+  const Settled outcome =
+      settle_downhill(surfaces, X_BA, how, sampled_on_A_, places, at, looked_at_);
+  if (edge_distance(surfaces, places) < std::min(0.0, edge_distance(surfaces, start)))
+    return std::nullopt;
+  if (outcome != Settled::kThere) return gap_at(places, X_BA);
+  GapMinimum minimum = minimum_at(surfaces, places, at);
+  minimum.refined = true;
+  return minimum;
 }
 
 void ContactSearch::add_minimum(int sample,
@@ -222,7 +269,7 @@ void ContactSearch::add_minimum(int sample,
   // The ends of a line may lie lower than any minimum.
   const std::optional<GapMinimum> minimum =
       // NOLINTNEXTLINE(bugprone-narrowing-conversions) as above
-      refine(sample, X_BA, cover_->lines ? kInfinity : cutoff);
+      refine(sample, X_BA, cover_->lines ? kInfinity : cutoff, lowest);
   if (!minimum) return;
   // A sample stands for a minimum of its own only where it is the lowest and faces what is known.
   if (!minimum->refined && !(lowest && seen(sample).faces)) return;
@@ -343,6 +390,8 @@ void ContactSearch::find(const RigidTransform& X_BA,
     if (nearly_faces_known_part(sample) && leads_elsewhere(sample, X_BA, cutoff))
       add_minimum(sample, X_BA, cutoff, /*lowest=*/false, minima);
   }
+  if (const int missed = deepest_unexplained(cutoff, minima); missed >= 0)
+    add_minimum(missed, X_BA, cutoff, /*lowest=*/true, minima);
   if (cutoff <= 0) add_rims(X_BA, cutoff, minima);
   keep_isolated(minima, merge);
 }

@@ -57,6 +57,8 @@ struct ContactCover {
 /// One for each pair.
 using ContactCovers = std::vector<std::shared_ptr<const ContactCover>>;
 
+struct Settling;
+
 /// A search is warm: it begins where it last was, and belongs to one thread.
 class ContactSearch {
  public:
@@ -182,6 +184,7 @@ class ContactSearch {
   [[nodiscard]] double height_over(int sample, int neighbour) const;
   [[nodiscard]] bool is_lowest_of_neighbours(int sample) const;
   [[nodiscard]] bool is_lowest(int sample, const RigidTransform& X_from_to);
+  [[nodiscard]] int deepest_unexplained(double cutoff, const std::vector<GapMinimum>& minima) const;
   [[nodiscard]] bool nearly_faces_known_part(int sample) const;
   [[nodiscard]] bool leads_elsewhere(int sample, const RigidTransform& X_BA, double cutoff) const;
   void add_rims(const RigidTransform& X_BA, double cutoff, std::vector<GapMinimum>& minima);
@@ -196,10 +199,15 @@ class ContactSearch {
                    bool lowest,
                    std::vector<GapMinimum>& minima);
   [[nodiscard]] RigidTransform from_to(const RigidTransform& X_BA) const;
+  [[nodiscard]] GapMinimum gap_at(ContactPlaces places, const RigidTransform& X_BA) const;
   /// Nothing where the minimum near the sample lies above the cutoff.
   [[nodiscard]] std::optional<GapMinimum> refine(int sample,
                                                  const RigidTransform& X_BA,
-                                                 double cutoff) const;
+                                                 double cutoff,
+                                                 bool lowest);
+  [[nodiscard]] std::optional<GapMinimum> downhill_from(const ContactPlaces& start,
+                                                        const RigidTransform& X_BA,
+                                                        const Settling& how);
   [[nodiscard]] SurfacePair surfaces() const { return {*cover_->surface_B, *cover_->surface_A}; }
   [[nodiscard]] const SurfaceCover& sampled() const {
     return sampled_on_A_ ? cover_->on_A : cover_->on_B;

@@ -39,6 +39,18 @@ Settled settle_places(const SurfacePair& surfaces,
                       ContactPlaces& places,
                       ContactLinearization& at);
 
+/// To a minimum by steps that lower it: of the point of one surface, that of A or of B, over the point of the other that
+/// is closest to it. For what Newton's steps run away from, as the curvature changes within them. Where it does not
+/// settle, as within a blade where two points are closest, the places are the lowest that it came to. `points` grows by
+/// what it looks at.
+Settled settle_downhill(const SurfacePair& surfaces,
+                        const RigidTransform& X_BA,
+                        const Settling& how,
+                        bool point_of_A,
+                        ContactPlaces& places,
+                        ContactLinearization& at,
+                        long& points);
+
 /// Are the normals opposite, but for round-off? Those of a tilted line are not.
 [[nodiscard]] inline bool are_opposite(const ContactLinearization& at) {
   constexpr double kRoundOff = 1e-10;  // sine between them
