@@ -63,5 +63,20 @@ TEST(RegionOutline, AHoleThatTouchesTheEdgeIsOneInAnyOrder) {
   }
 }
 
+// A triangle at the rim that faces the other way cuts the outline into chains with ends.
+TEST(RegionOutline, APieceOfTheRimIsNoHole) {
+  for (const double small_hole : {0.1, 12.0}) {
+    TriangleMesh mesh = square_with_hole(false, 0);
+    const RegionOutline expected = trace_outline(mesh, small_hole);
+    const int apex = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.emplace_back(-0.5, 3.5, 1);
+    mesh.triangles.push_back({4, 3, apex});  // (0, 4), (0, 3)
+    const RegionOutline outline = trace_outline(mesh, small_hole);
+    EXPECT_EQ(outline.wide_holes.count, expected.wide_holes.count);
+    EXPECT_EQ(outline.holes, expected.holes);
+    EXPECT_EQ(outline.edges.size(), expected.edges.size() + 1);
+  }
+}
+
 }  // namespace
 }  // namespace condyle

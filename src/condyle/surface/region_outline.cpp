@@ -114,14 +114,16 @@ RegionOutline trace_outline(const TriangleMesh& region, double small_hole) {
   RegionOutline outline;
   for (std::size_t k = 0; k < loops.size(); ++k) {
     const std::vector<int>& loop = loops[k];
-    if (lengths[k] < std::min(small_hole, longest)) {
+    // Where more than two triangles share an edge the outline falls into chains with ends, which are no holes.
+    const bool closed = loop.front() == loop.back();
+    if (closed && lengths[k] < std::min(small_hole, longest)) {
       for (std::size_t i = 2; i + 1 < loop.size(); ++i)
         outline.hole_fans.push_back({loop[0], loop[i], loop[i - 1]});
       ++outline.holes;
       continue;
     }
     for (std::size_t i = 1; i < loop.size(); ++i) outline.edges.push_back({loop[i - 1], loop[i]});
-    if (lengths[k] < longest) add_hole(region, loop, lengths[k], outline.wide_holes);
+    if (closed && lengths[k] < longest) add_hole(region, loop, lengths[k], outline.wide_holes);
   }
   return outline;
 }
