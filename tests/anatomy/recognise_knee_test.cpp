@@ -163,6 +163,9 @@ TEST(RecogniseKnee, TakesAGivenUnitAndSideAsTheyAre) {
   EXPECT_EQ(knee.side, Side::kLeft);
   EXPECT_LT(knee.side_confidence, 0.05);
   EXPECT_FALSE(knee.doubts.empty());
+  EXPECT_TRUE(side_in_words(knee).starts_with("left, as --side says; right by its shape, "))
+      << side_in_words(knee);
+  EXPECT_TRUE(side_in_words(recognise_knee(phantom())).starts_with("right, "));
 }
 
 TEST(CrossSection, OfACylinderIsADisc) {

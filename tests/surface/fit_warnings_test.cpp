@@ -1,5 +1,6 @@
 /// What the report of a fit warns of: meshes that face inwards, folds, regions too thin to trust.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -156,7 +157,26 @@ TEST_F(FitWarnings, NameAPatchThatMissesItsMesh) {
   EXPECT_FALSE(holds(notes_of(phantom_femur(), medial()), "poor fit"));
   PatchDescription coarse = medial();
   coarse.smoothing = 30;
-  EXPECT_TRUE(holds(notes_of(phantom_femur(), coarse), "warning: poor fit: "));
+  const std::vector<std::string> notes = notes_of(phantom_femur(), coarse);
+  EXPECT_TRUE(holds(notes, "warning: poor fit: "));
+  EXPECT_TRUE(holds(notes, "more control points or less smoothing"));
+}
+
+TEST_F(FitWarnings, NameASpike) {
+  TriangleMesh mesh = phantom_femur();
+  const Vector3d distal(0, -21, -23);
+  const auto nearest = std::min_element(mesh.vertices.begin(), mesh.vertices.end(),
+                                        [&](const Vector3d& a, const Vector3d& b) {
+                                          return (a - distal).norm() < (b - distal).norm();
+                                        });
+  const Vector3d tip = *nearest - Vector3d(0, 15, 0);
+  // All corners of triangles there, as files of triangles have them.
+  for (Vector3d& p : mesh.vertices)
+    if (&p != &*nearest && (p - *nearest).norm() == 0) p = tip;
+  *nearest = tip;
+  EXPECT_TRUE(holds(notes_of(mesh, medial()),
+                    fmt::format("is there a spike in the mesh at [{:.1f}, {:.1f}, {:.1f}] mm?",
+                                tip.x(), tip.y(), tip.z())));
 }
 
 // An open sheet has no inside; the condyle tells which way is out.

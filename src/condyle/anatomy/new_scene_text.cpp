@@ -74,8 +74,7 @@ class SceneText {
                            knee_.files.tibia.filename().string(), right() ? "right" : "left")));
     say("Made by condyle new from the meshes below. Ligaments, loads: template \"" + from.title +
         "\".");
-    say(fmt::format("Side: {}, {:.1f} % sure ({}).", right() ? "right" : "left",
-                    100 * knee_.shape.side_confidence, knee_.shape.side_evidence));
+    say(fmt::format("Side: {} ({}).", side_in_words(knee_.shape), knee_.shape.side_evidence));
     if (!knee_.doubts.empty()) say("To look at:");
     for (const std::string& doubt : knee_.doubts) say("- " + doubt);
     line("\n[units]\nlength = \"mm\"\nangle = \"deg\"\nforce = \"N\"");

@@ -165,6 +165,14 @@ std::string unit_in_words(double to_mm, bool said) {
 
 }  // namespace
 
+std::string side_in_words(const RecognisedKnee& knee) {
+  const double sure = 100 * knee.side_confidence;
+  const Side other = knee.side == Side::kRight ? Side::kLeft : Side::kRight;
+  return sure < 50 ? fmt::format("{}, as --side says; {} by its shape, {:.1f} % sure",
+                                 name_of(knee.side), name_of(other), 100 - sure)
+                   : fmt::format("{}, {:.1f} % sure", name_of(knee.side), sure);
+}
+
 RecognisedKnee recognise_knee(const KneeMeshes& meshes, const RecogniseOptions& options) {
   check_meshes(meshes);
   TriangleMesh femur_mesh = meshes.femur, tibia_mesh = meshes.tibia;

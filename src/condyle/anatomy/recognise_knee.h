@@ -40,4 +40,7 @@ struct RecognisedKnee {
 [[nodiscard]] RecognisedKnee recognise_knee(const KneeMeshes& meshes,
                                             const RecogniseOptions& options = {});
 
+/// "right, 99.8 % sure", or "left, as --side says; right by its shape, 99.8 % sure"
+[[nodiscard]] std::string side_in_words(const RecognisedKnee& knee);
+
 }  // namespace condyle

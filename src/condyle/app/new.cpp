@@ -74,8 +74,7 @@ void check_outputs(const NewCommand& command, const NewKneeFiles& files) {
 
 void print_shape(const NewKnee& knee) {
   tell("unit       {}\n", unit_name(knee.shape.to_mm));
-  tell("side       {}, {:.1f} % sure: {}\n", knee.shape.side == Side::kRight ? "right" : "left",
-       100 * knee.shape.side_confidence, knee.shape.side_evidence);
+  tell("side       {}: {}\n", side_in_words(knee.shape), knee.shape.side_evidence);
   tell("femur      {:.1f} mm wide; {}\n", knee.shape.femur.width, knee.shape.femur.rule);
   tell("tibia      {:.1f} mm wide; {}\n", knee.shape.tibia.width, knee.shape.tibia.rule);
 }

@@ -61,7 +61,24 @@ ArticularRegion find_region(const Scene& scene,
   return tibial_region(mesh, bone_frame(scene.joint->tibia, source), half, options);
 }
 
-FitReport report_of(const std::string& name, const ArticularRegion& region, const PatchFit& fit) {
+/// Where one vertex lies much farther off the patch than most, it is the mesh that is to be mended.
+std::string remedy(const FitFigures& figures,
+                   const ArticularRegion& region,
+                   const Eigen::Vector3d& moved) {
+  constexpr double kSpike = 6;  // of the distance that 95 % keep
+  if (figures.core_farthest < 0 || figures.core_max < kSpike * figures.p95)
+    return "more control points or less smoothing";
+  const Eigen::Vector3d at =
+      region.mesh.vertices[static_cast<std::size_t>(figures.core_farthest)] + moved;
+  return fmt::format("is there a spike in the mesh at [{:.1f}, {:.1f}, {:.1f}] mm?", at.x(), at.y(),
+                     at.z());
+}
+
+/// `moved`: from the frame of the region to that of the file [mm].
+FitReport report_of(const std::string& name,
+                    const ArticularRegion& region,
+                    const PatchFit& fit,
+                    const Eigen::Vector3d& moved) {
   const FitFigures figures = measure_fit(region, fit);
   FitReport report;
   report.surface = name;
@@ -90,8 +107,8 @@ FitReport report_of(const std::string& name, const ArticularRegion& region, cons
   if (figures.core_rms > kPoor)
     report.notes.push_back(fmt::format(
         "warning: poor fit: {:.2f} mm rms and up to {:.2f} mm off the mesh away from its "
-        "edge, expected at most {:g} mm rms: more control points or less smoothing",
-        figures.core_rms, figures.core_max, kPoor));
+        "edge, expected at most {:g} mm rms: {}",
+        figures.core_rms, figures.core_max, kPoor, remedy(figures, region, moved)));
   report.sheet_below = region.sheet_below;
   if (region.sheet_below > 0)
     report.notes.push_back(
@@ -159,7 +176,7 @@ FittedSurface fit_one(const Scene& scene, const PatchSource& source, int index) 
     options.degree = surface.patch.degree;
     PatchFit fit = naming_keys([&] { return fit_patch(region, options); },
                                [&] { return fit_keys(surface.patch, scene); });
-    FitReport report = report_of(surface.name, region, fit);
+    FitReport report = report_of(surface.name, region, fit, source.middle);
     for (const std::vector<std::string>& notes : {source.notes, region.notes, fit.notes})
       report.notes.insert(report.notes.end(), notes.begin(), notes.end());
     if (fit.holes.count > 0)

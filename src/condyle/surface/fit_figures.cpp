@@ -129,7 +129,10 @@ FitFigures measure_fit(const ArticularRegion& region, const PatchFit& fit, doubl
     if (fit.edge_distance[i] <= core_margin) continue;
     core.add(d, areas[i]);
     normals.add(std::acos(std::clamp(at.n.dot(region.normals[i]), -1.0, 1.0)), areas[i]);
-    figures.core_max = std::max(figures.core_max, d);
+    if (d > figures.core_max || figures.core_farthest < 0) {
+      figures.core_max = d;
+      figures.core_farthest = static_cast<int>(i);
+    }
     const auto [least, greatest] = principal_curvatures(at);
     auto& range = figures.curvature_range;
     range = found_core ? std::array{std::min(range[0], least), std::max(range[1], greatest)}

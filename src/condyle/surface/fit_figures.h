@@ -14,6 +14,7 @@ namespace condyle {
 struct FitFigures {
   double rms = 0, p95 = 0, max = 0;
   double core_rms = 0, core_max = 0;
+  int core_farthest = -1;                          ///< the vertex of core_max
   double core_normal_rms = 0;                      ///< angle between patch and mesh normals [rad]
   std::array<double, 2> curvature_range = {0, 0};  ///< principal curvatures in the core [1/mm]
   double back_rms = 0, back_p95 = 0,
