@@ -128,7 +128,7 @@ TEST_F(NewKneeOfThePhantom, IsThePhantomWithALoosePieceBehindIt) {
   EXPECT_LT(farthest(knee, {}), 0.5);
   EXPECT_TRUE(std::any_of(knee.doubts.begin(), knee.doubts.end(), [](const std::string& doubt) {
     return doubt.find(
-               "a piece that is no part of the bone, 16 by 16 by 16 mm about [-60.0, 20.0, 0.0] "
+               "a piece apart from the bone, 16 by 16 by 16 mm about [-60.0, 20.0, 0.0] "
                "mm") != std::string::npos;
   }));
 }

@@ -46,7 +46,6 @@ struct Loaded {
   KneeMeshes meshes;
   std::vector<Vector3d> tibial_centers;  // of each file with tibial cartilage
   std::vector<std::pair<std::filesystem::path, WeldedSeams>> seams;  // of files that had some
-  std::vector<std::pair<std::filesystem::path, MainParts>> parts;    // of bones that had others
 };
 
 TriangleMesh cleaned(const std::filesystem::path& file, Loaded& loaded) {
@@ -63,22 +62,14 @@ TriangleMesh cleaned(const std::filesystem::path& file, Loaded& loaded) {
   }
 }
 
-/// Without what lies about it, which tells nothing of its frame.
-TriangleMesh bone(const std::filesystem::path& file, Loaded& loaded) {
-  MainParts parts = main_parts(cleaned(file, loaded));
-  TriangleMesh mesh = std::move(parts.mesh);
-  if (parts.left_out > 0) loaded.parts.emplace_back(file, std::move(parts));
-  return mesh;
-}
-
 std::string describe(const MainParts& parts, double to_mm) {
   const bool one = parts.left_out == 1;
   const Vector3d size = to_mm * parts.size, at = to_mm * parts.middle;
   return fmt::format(
-      "{} no part of the bone, {}{:.0f} by {:.0f} by {:.0f} mm about [{:.1f}, {:.1f}, {:.1f}] mm: "
-      "its frame is told without",
-      one ? "a piece that is" : fmt::format("{} pieces that are", parts.left_out),
-      one ? "" : "the largest ", size.x(), size.y(), size.z(), at.x(), at.y(), at.z());
+      "{} apart from the bone, {}{:.0f} by {:.0f} by {:.0f} mm about [{:.1f}, {:.1f}, {:.1f}] mm: "
+      "its frame is told without {}",
+      one ? "a piece" : fmt::format("{} pieces", parts.left_out), one ? "" : "the largest ",
+      size.x(), size.y(), size.z(), at.x(), at.y(), at.z(), one ? "it" : "them");
 }
 
 void scale(TriangleMesh& mesh, double factor) {
@@ -93,8 +84,8 @@ Vector3d centroid(const TriangleMesh& mesh) {
 
 Loaded load(const NewKneeFiles& files) {
   Loaded loaded;
-  loaded.meshes.femur = bone(files.femur, loaded);
-  loaded.meshes.tibia = bone(files.tibia, loaded);
+  loaded.meshes.femur = cleaned(files.femur, loaded);
+  loaded.meshes.tibia = cleaned(files.tibia, loaded);
   if (files.cartilage.empty()) return loaded;
   loaded.meshes.femoral_cartilage = cleaned(files.cartilage[0], loaded);
   TriangleMesh tibial;
@@ -107,11 +98,19 @@ Loaded load(const NewKneeFiles& files) {
   return loaded;
 }
 
+/// By the bones without what lies about them, which tells nothing of their frames.
 RecognisedKnee recognise(const NewKneeFiles& files,
-                         const KneeMeshes& meshes,
+                         KneeMeshes meshes,
                          const RecogniseOptions& options) {
+  MainParts femur = main_parts(meshes.femur), tibia = main_parts(meshes.tibia);
+  meshes.femur = std::move(femur.mesh);
+  meshes.tibia = std::move(tibia.mesh);
   try {
-    return recognise_knee(meshes, options);
+    RecognisedKnee knee = recognise_knee(meshes, options);
+    for (const auto& [file, parts] : {std::pair(files.femur, femur), {files.tibia, tibia}})
+      if (parts.left_out > 0)
+        knee.doubts.push_back(file.string() + ": " + describe(parts, knee.to_mm));
+    return knee;
   } catch (const InputError& error) {
     throw InputError(
         fmt::format("{} and {}: {}", files.femur.string(), files.tibia.string(), error.what()));
@@ -280,8 +279,6 @@ NewKnee knee_from_meshes(const NewKneeFiles& files, const RecogniseOptions& opti
   knee.doubts = knee.shape.doubts;
   for (const auto& [file, seams] : loaded.seams)
     knee.doubts.push_back(file.string() + ": " + describe(seams, knee.shape.to_mm));
-  for (const auto& [file, parts] : loaded.parts)
-    knee.doubts.push_back(file.string() + ": " + describe(parts, knee.shape.to_mm));
   scale(loaded.meshes.femur, knee.shape.to_mm);
   scale(loaded.meshes.tibia, knee.shape.to_mm);
   for (std::optional<TriangleMesh>* cartilage :
