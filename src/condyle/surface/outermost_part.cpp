@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 
 #include "condyle/mesh/mesh_measures.h"
 #include "condyle/mesh/orient_mesh.h"
@@ -12,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLeastArea = 0.1;             // of the largest part
+constexpr double kLeastArea = 0.1;             // of all parts: a soup of triangles has thousands
 constexpr double kLowest = 0.1, kHighest = 6;  // of a sheet over another [mm]
 constexpr double kAlong = 0.7;                 // cosine of the way there and the normal
 constexpr double kCovered = 0.4;               // of the vertices
@@ -29,9 +30,10 @@ std::vector<Part> large_parts(const TriangleMesh& mesh, const std::vector<int>& 
   std::vector<double> areas(static_cast<std::size_t>(count), 0);
   for (std::size_t t = 0; t < component.size(); ++t)
     areas[component[t]] += triangle_area(mesh, mesh.triangles[t]).norm();
+  const double least = kLeastArea * std::accumulate(areas.begin(), areas.end(), 0.0);
   std::vector<Part> parts;
   for (int k = 0; k < count; ++k) {
-    if (areas[k] < kLeastArea * areas[0]) continue;
+    if (k > 0 && areas[k] < least) continue;
     std::vector<bool> of_part(component.size());
     for (std::size_t t = 0; t < of_part.size(); ++t) of_part[t] = component[t] == k;
     parts.push_back({sub_mesh(mesh, of_part).mesh, k});

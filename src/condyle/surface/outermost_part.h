@@ -15,7 +15,7 @@ struct OutermostPart {
   double below = 0;
 };
 
-/// The linked part of the largest area of the triangles that are kept, of those of a tenth of that or more that no other
+/// The linked part of the largest area of the triangles that are kept, of those of a tenth of all or more that no other
 /// one covers: whose vertices have another one up to 6 mm off along their normals, two in five of them or more.
 [[nodiscard]] OutermostPart outermost_part(const TriangleMesh& mesh, const std::vector<bool>& keep);
 
