@@ -79,6 +79,31 @@ TEST(Events, AnOpeningFromWhichTheWayLeadsBackIsALimitPoint) {
   }
 }
 
+// What happens on the branch that it snapped to has its own value.
+TEST(Events, AfterASnapAtACornerAreToldWhereTheyAre) {
+  constexpr double kStop = 1, kCeiling = 4.6;
+  ASSERT_LT(test::Truss::load(kCeiling), test::Truss::load(kStop));
+  for (const std::vector<double>& loads :
+       {std::vector<double>{12, 8, 4, 0.5}, std::vector<double>{12, 8, 0.5}}) {
+    Model model = test::Truss::with_floor();
+    model.pairs[0].on_B = make_plane({0, 0, kStop - 1}, {0, 0, 1});
+    ContactPair ceiling = model.pairs[0];
+    ceiling.name = "ceiling";
+    ceiling.on_B = make_plane({0, 0, kCeiling + 1}, {0, 0, -1});
+    model.pairs.push_back(ceiling);
+    model.start.p.z() = kStop;
+    EquilibriumSolver solver(std::move(model));
+    const SweepResult result = run(solver, load_scale(0), loads);
+    ASSERT_EQ(result.events.size(), 3u);
+    EXPECT_EQ(result.events[0].kind, EventKind::kOpening);
+    EXPECT_EQ(result.events[1].kind, EventKind::kLimitPoint);
+    EXPECT_EQ(result.events[2].kind, EventKind::kClosing);
+    EXPECT_EQ(result.events[2].contact, 1);
+    EXPECT_NEAR(result.events[0].value, test::Truss::load(kStop), 1e-6);
+    EXPECT_NEAR(result.events[2].value, test::Truss::load(kCeiling), 1e-6);
+  }
+}
+
 const std::vector<double> kFactors = {0, 2. / 3,  4. / 3,  2, 8. / 3, 10. / 3,
                                       4, 14. / 3, 16. / 3, 6, 20. / 3};
 
@@ -177,12 +202,12 @@ TEST(Events, APoseOnAnotherBranchIsNoEventButFoundAnew) {
   ASSERT_TRUE(walker.step(half, Patience::kAll, below));
   ASSERT_LT(below.result.X_BA.p.z(), -Truss::h);
   std::vector<Event> events;
-  const std::optional<SolvedPose> there = locate_events(walker, start, below, events);
+  const std::optional<SolvedPose> there = locate_events(walker, start, below, events).instead;
   ASSERT_TRUE(there);
   EXPECT_NEAR(there->result.X_BA.p.z(), above.result.X_BA.p.z(), 1e-9);
   EXPECT_TRUE(events.empty());
   // Beyond the limit load there is no way on: the limit point is told, and the pose stays.
-  EXPECT_FALSE(locate_events(walker, start, snapped, events));
+  EXPECT_FALSE(locate_events(walker, start, snapped, events).instead);
   ASSERT_EQ(events.size(), 1u);
   EXPECT_NEAR(events[0].value, Truss::limit_load(), 2e-9);
 }

@@ -2,6 +2,7 @@
 
 #include "condyle/surface/region_outline.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,19 +64,30 @@ TEST(RegionOutline, AHoleThatTouchesTheEdgeIsOneInAnyOrder) {
   }
 }
 
-// A triangle at the rim that faces the other way cuts the outline into chains with ends.
+// A triangle at the rim that faces the other way cuts the outline into chains with ends, of which none is a hole; the
+// hole is still one.
 TEST(RegionOutline, APieceOfTheRimIsNoHole) {
-  for (const double small_hole : {0.1, 12.0}) {
-    TriangleMesh mesh = square_with_hole(false, 0);
-    const RegionOutline expected = trace_outline(mesh, small_hole);
-    const int apex = static_cast<int>(mesh.vertices.size());
-    mesh.vertices.emplace_back(-0.5, 3.5, 1);
-    mesh.triangles.push_back({4, 3, apex});  // (0, 4), (0, 3)
-    const RegionOutline outline = trace_outline(mesh, small_hole);
-    EXPECT_EQ(outline.wide_holes.count, expected.wide_holes.count);
-    EXPECT_EQ(outline.holes, expected.holes);
-    EXPECT_EQ(outline.edges.size(), expected.edges.size() + 1);
-  }
+  for (const double small_hole : {0.1, 12.0})
+    for (int side = 0; side < 4; ++side)
+      for (unsigned seed = 0; seed < 10; ++seed) {
+        SCOPED_TRACE(fmt::format("{}, {}, {}", small_hole, side, seed));
+        TriangleMesh mesh = square_with_hole(false, seed);
+        const RegionOutline expected = trace_outline(mesh, small_hole);
+        const std::array<Eigen::Vector3d, 4> from = {{{0, 4, 0}, {4, 0, 0}, {8, 3, 0}, {4, 8, 0}}},
+                                             to = {{{0, 3, 0}, {5, 0, 0}, {8, 4, 0}, {3, 8, 0}}};
+        const auto number = [&](const Eigen::Vector3d& p) {
+          return static_cast<int>(std::find(mesh.vertices.begin(), mesh.vertices.end(), p) -
+                                  mesh.vertices.begin());
+        };
+        const auto k = static_cast<std::size_t>(side);
+        const int a = number(from[k]), b = number(to[k]);
+        mesh.triangles.push_back({a, b, static_cast<int>(mesh.vertices.size())});
+        mesh.vertices.emplace_back(4, 4, 9);
+        const RegionOutline outline = trace_outline(mesh, small_hole);
+        EXPECT_EQ(outline.wide_holes.count, expected.wide_holes.count);
+        EXPECT_EQ(outline.holes, expected.holes);
+        EXPECT_EQ(outline.edges.size(), expected.edges.size() + 1);
+      }
 }
 
 }  // namespace

@@ -283,33 +283,15 @@ void ContactSearch::add_minimum(int sample,
 void ContactSearch::add_rims(const RigidTransform& X_BA,
                              double cutoff,
                              std::vector<GapMinimum>& minima) {
-  for (const int sample : near_)
-    if (seen(sample).lower <= cutoff) add_rims_at(sample, X_BA, cutoff, minima);
-}
-
-/// Where the lowest sample stands for a minimum, at an edge, the gap is that of the edge.
-void ContactSearch::add_lowest_rim(const RigidTransform& X_BA,
-                                   double cutoff,
-                                   std::vector<GapMinimum>& minima) {
-  const auto lower = [](const GapMinimum& a, const GapMinimum& b) { return a.gap < b.gap; };
-  const auto lowest = std::min_element(minima.begin(), minima.end(), lower);
-  if (lowest == minima.end() || lowest->refined) return;
-  int nearest = -1;
-  for (const int sample : near_)
-    if (seen(sample).measured && (nearest < 0 || seen(sample).gap < seen(nearest).gap))
-      nearest = sample;
-  if (nearest >= 0) add_rims_at(nearest, X_BA, cutoff, minima);
-}
-
-void ContactSearch::add_rims_at(int sample,
-                                const RigidTransform& X_BA,
-                                double cutoff,
-                                std::vector<GapMinimum>& minima) {
   const double reach = kRimReach * spacing_;
-  const bool of_own = sampled().surface().edge_distance(sampled().place(sample)) < reach;
-  const bool of_facing = other().surface().edge_distance(closest(sample).place) < reach;
-  if (of_own) add_rim(sample, sampled_on_A_, X_BA, cutoff, minima);
-  if (of_facing) add_rim(sample, !sampled_on_A_, X_BA, cutoff, minima);
+  const Surface &own = sampled().surface(), &facing = other().surface();
+  for (const int sample : near_) {
+    if (seen(sample).lower > cutoff) continue;
+    const bool of_own = own.edge_distance(sampled().place(sample)) < reach;
+    const bool of_facing = facing.edge_distance(closest(sample).place) < reach;
+    if (of_own) add_rim(sample, sampled_on_A_, X_BA, cutoff, minima);
+    if (of_facing) add_rim(sample, !sampled_on_A_, X_BA, cutoff, minima);
+  }
 }
 
 /// The edge near a sample, of the one surface or of the other.
@@ -410,10 +392,7 @@ void ContactSearch::find(const RigidTransform& X_BA,
   }
   if (const int missed = deepest_unexplained(cutoff, minima); missed >= 0)
     add_minimum(missed, X_BA, cutoff, /*lowest=*/true, minima);
-  if (cutoff <= 0)
-    add_rims(X_BA, cutoff, minima);
-  else
-    add_lowest_rim(X_BA, cutoff, minima);
+  if (cutoff <= 0) add_rims(X_BA, cutoff, minima);
   keep_isolated(minima, merge);
 }
 

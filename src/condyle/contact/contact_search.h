@@ -188,11 +188,6 @@ class ContactSearch {
   [[nodiscard]] bool nearly_faces_known_part(int sample) const;
   [[nodiscard]] bool leads_elsewhere(int sample, const RigidTransform& X_BA, double cutoff) const;
   void add_rims(const RigidTransform& X_BA, double cutoff, std::vector<GapMinimum>& minima);
-  void add_lowest_rim(const RigidTransform& X_BA, double cutoff, std::vector<GapMinimum>& minima);
-  void add_rims_at(int sample,
-                   const RigidTransform& X_BA,
-                   double cutoff,
-                   std::vector<GapMinimum>& minima);
   void add_rim(int sample,
                bool of_A,
                const RigidTransform& X_BA,

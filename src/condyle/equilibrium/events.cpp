@@ -243,6 +243,99 @@ class EventSearch {
   Work spent_, wasted_;  ///< on trials; on those without equilibrium
 };
 
+/// What happened between two poses, told in order.
+class EventLocator {
+ public:
+  EventLocator(Walker& walker,
+               const SolvedPose& left,
+               const SolvedPose& right,
+               std::vector<Event>& events,
+               const EventOptions& options)
+      : search_(walker, options),
+        options_(options),
+        left_(left),
+        right_(right),
+        events_(events),
+        told_(events.size()),
+        L_(walker.model().length),
+        straight_(kStraight * std::abs(right.value - left.value)) {}
+
+  EventsFound locate() {
+    if (!tell_changes() || snapped_ || !same_contacts(left_.result, right_.result)) return found_;
+    if (tell_snap()) return found_;
+    for (std::size_t c = 0; c < left_.result.contacts.size() && !found_.instead; ++c) tell_jump(c);
+    return found_;
+  }
+
+ private:
+  /// Points of contact that open and close, one after the other; false where nothing more is to be told.
+  bool tell_changes() {
+    SolvedPose from = left_;
+    for (int k = 0; k < options_.most_events && !same_contacts(from.result, right_.result); ++k) {
+      SolvedPose before = from, after = right_;
+      if (!search_.bisect_change(before, after)) break;  // where it lies is not known
+      const bool jumps = search_.jumps(before, after);
+      if (jumps && goes_on(before, after)) return false;
+      if (jumps) append_limit(before, after, events_);
+      snapped_ = snapped_ || jumps;
+      const double value = search_.exact_value(before, after, straight_);
+      append_changes(before.result, after.result, value, events_);
+      from = after;
+      if (jumps || !search_.snaps_at_corner(before, after, right_)) continue;
+      events_.push_back({value, EventKind::kLimitPoint, -1});
+      snapped_ = true;
+      const std::optional<SolvedPose> beyond = search_.pose_at(after.value, right_);
+      if (!beyond || !search_.jumps(after, *beyond)) break;
+      append_changes(after.result, beyond->result, value, events_);
+      from = *beyond;
+    }
+    append_changes(from.result, right_.result, right_.value, events_);
+    return true;
+  }
+
+  /// The body elsewhere with the same contacts; those that jump with it are not told of again.
+  bool tell_snap() {
+    if (!search_.moved_unexpectedly(left_, right_)) return false;
+    SolvedPose before = left_, after = right_;
+    if (!search_.bisect_snap(before, after)) return false;
+    if (!goes_on(before, after)) append_limit(before, after, events_);
+    return true;
+  }
+
+  void tell_jump(std::size_t contact) {
+    if (motion(left_.result, right_.result, contact) < options_.far * L_) return;
+    SolvedPose before = left_, after = right_;
+    if (!search_.bisect_jump(before, after, contact, options_.jump * L_)) return;
+    if (goes_on(before, after)) return;
+    events_.push_back({search_.exact_value(before, after, straight_), EventKind::kJump,
+                       static_cast<int>(contact)});
+  }
+
+  /// Does the way from the left pose go on? It then arrives in a pose that takes the place of the right one, and what was
+  /// told is not so; or beyond an edge, in one that counts for less: what differs is told at the right one's value.
+  bool goes_on(const SolvedPose& before, const SolvedPose& after) {
+    std::optional<SolvedPose> there = search_.arrival(before, after, right_);
+    if (!there) return false;
+    events_.resize(told_);
+    if (there->result.converged()) {
+      found_.instead = std::move(there);
+    } else {
+      found_.elsewhere = true;
+      append_changes(left_.result, right_.result, right_.value, events_);
+    }
+    return true;
+  }
+
+  EventSearch search_;
+  EventOptions options_;
+  const SolvedPose &left_, &right_;
+  std::vector<Event>& events_;
+  std::size_t told_;  ///< before these
+  double L_, straight_;
+  bool snapped_ = false;
+  EventsFound found_;
+};
+
 }  // namespace
 
 double tolerance_of_events(const Swept& swept, const std::vector<double>& values) {
@@ -254,66 +347,12 @@ double tolerance_of_events(const Swept& swept, const std::vector<double>& values
   return std::max(kTolerance * least, kRounding * largest);
 }
 
-std::optional<SolvedPose> locate_events(Walker& walker,
-                                        const SolvedPose& left,
-                                        const SolvedPose& right,
-                                        std::vector<Event>& events,
-                                        const EventOptions& options) {
-  EventSearch search(walker, options);
-  const std::size_t told = events.size();
-  std::optional<SolvedPose> there;
-  // The way from `left` goes on. Beyond an edge it ends in no pose that counts more than `right`: what differs is told
-  // there, and no limit point.
-  const auto goes_on = [&](const SolvedPose& before, const SolvedPose& after) {
-    there = search.arrival(before, after, right);
-    if (!there) return false;
-    events.resize(told);
-    if (there->result.converged()) return true;
-    append_changes(left.result, right.result, right.value, events);
-    there.reset();
-    return true;
-  };
-  const double L = walker.model().length, straight = kStraight * std::abs(right.value - left.value);
-  SolvedPose from = left;
-  for (int k = 0; k < options.most_events && !same_contacts(from.result, right.result); ++k) {
-    SolvedPose before = from, after = right;
-    if (!search.bisect_change(before, after)) {  // where it lies is not known
-      append_changes(from.result, right.result, right.value, events);
-      return std::nullopt;
-    }
-    if (search.jumps(before, after)) {
-      if (goes_on(before, after)) return there;
-      append_limit(before, after, events);
-    }
-    const double value = search.exact_value(before, after, straight);
-    append_changes(before.result, after.result, value, events);
-    if (search.snaps_at_corner(before, after, right)) {
-      events.push_back({value, EventKind::kLimitPoint, -1});
-      append_changes(after.result, right.result, value, events);
-      return std::nullopt;
-    }
-    from = after;
-  }
-  append_changes(from.result, right.result, right.value, events);
-  if (!same_contacts(left.result, right.result)) return std::nullopt;
-  if (search.moved_unexpectedly(left, right)) {
-    SolvedPose before = left, after = right;
-    // Contacts that jump with the body are not told of again.
-    if (search.bisect_snap(before, after)) {
-      if (goes_on(before, after)) return there;
-      append_limit(before, after, events);
-      return std::nullopt;
-    }
-  }
-  for (std::size_t c = 0; c < left.result.contacts.size(); ++c) {
-    if (motion(left.result, right.result, c) < options.far * L) continue;
-    SolvedPose before = left, after = right;
-    if (!search.bisect_jump(before, after, c, options.jump * L)) continue;
-    if (goes_on(before, after)) return there;
-    events.push_back(
-        {search.exact_value(before, after, straight), EventKind::kJump, static_cast<int>(c)});
-  }
-  return std::nullopt;
+EventsFound locate_events(Walker& walker,
+                          const SolvedPose& left,
+                          const SolvedPose& right,
+                          std::vector<Event>& events,
+                          const EventOptions& options) {
+  return EventLocator(walker, left, right, events, options).locate();
 }
 
 }  // namespace condyle

@@ -37,15 +37,21 @@ struct EventOptions {
 /// That of a sweep: factors of a load are as large or small as its vector asks for.
 [[nodiscard]] double tolerance_of_events(const Swept& swept, const std::vector<double>& values);
 
+struct EventsFound {
+  std::optional<SolvedPose> instead;  ///< the pose in which the way from the left one arrives
+  bool elsewhere = false;  ///< that way arrives beyond an edge: the right pose is on another branch
+};
+
 /// Appends the events between two poses of one sweep. The walker does not stay where it stood.
 ///
 /// Where the way from `left` goes on to the very value of `right` and does not end there, `right` is on another
 /// branch: Newton's steps may lead from one to another where they are long. Then the pose in which the way from
-/// `left` arrives is given back, unless that one is unstable and `right` is stable, and no event is told.
-[[nodiscard]] std::optional<SolvedPose> locate_events(Walker& walker,
-                                                      const SolvedPose& left,
-                                                      const SolvedPose& right,
-                                                      std::vector<Event>& events,
-                                                      const EventOptions& options = {});
+/// `left` arrives is given back, unless that one is unstable and `right` is stable, and no event is told; of one that
+/// lies beyond an edge, what differs is told at the value of `right`.
+[[nodiscard]] EventsFound locate_events(Walker& walker,
+                                        const SolvedPose& left,
+                                        const SolvedPose& right,
+                                        std::vector<Event>& events,
+                                        const EventOptions& options = {});
 
 }  // namespace condyle

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "condyle/equilibrium/path_follower.h"
 
 namespace condyle {
@@ -90,9 +92,14 @@ bool PathFollower::change_contacts(const Bracket& part) {
 
 bool PathFollower::been_at(const PathPoint& point) {
   constexpr double kSame = 1e-7;  // [L]
+  const auto same_pairs = [&](const PathPoint& turn) {
+    const std::vector<ClosedContact>&then = turn.state.contacts, &now = point.state.contacts;
+    return std::is_permutation(
+        then.begin(), then.end(), now.begin(), now.end(),
+        [](const ClosedContact& a, const ClosedContact& b) { return a.pair == b.pair; });
+  };
   for (const PathPoint& turn : turns_)
-    if (system_.distance(turn, point) < kSame * model_.length &&
-        turn.state.contacts.size() == point.state.contacts.size()) {
+    if (system_.distance(turn, point) < kSame * model_.length && same_pairs(turn)) {
       stop("the path closes on itself and does not come to its end");
       return true;
     }

@@ -165,10 +165,13 @@ void SweepWalk::find_events(Stop& stop) {
   EventOptions options;
   options.tolerance = event_tolerance_;
   options.arrival = stop.converged() && stop.taken == nullptr;
-  if (auto there = locate_events(walker_, last.at, stop.at, stop.events, options)) {
-    put_in_place(std::move(*there), stop);
+  EventsFound found = locate_events(walker_, last.at, stop.at, stop.events, options);
+  if (found.instead) {
+    put_in_place(std::move(*found.instead), stop);
     options.arrival = false;
     (void)locate_events(walker_, last.at, stop.at, stop.events, options);
+  } else if (found.elsewhere) {
+    stop.from_elsewhere = true;
   }
   stand_at_last_converged();
   stop.at.result.event_seconds =

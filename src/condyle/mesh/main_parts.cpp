@@ -38,8 +38,8 @@ MainParts main_parts(const TriangleMesh& mesh) {
     parts.middle = boxes[k].center();
     parts.size = boxes[k].sizes();
   }
-  if (parts.left_out == 0 || kept < kLeastOfAll * std::accumulate(areas.begin(), areas.end(), 0.0))
-    return {mesh};
+  const double all = std::accumulate(areas.begin(), areas.end(), 0.0);
+  if (parts.left_out == 0 || !(kept >= kLeastOfAll * all)) return {mesh};
   std::vector<bool> keep(component.size());
   for (std::size_t t = 0; t < keep.size(); ++t)
     keep[t] = is_main(static_cast<std::size_t>(component[t]));

@@ -73,12 +73,14 @@ OutermostPart outermost_part(const TriangleMesh& mesh, const std::vector<bool>& 
   const auto height = [&](std::size_t upper, std::size_t lower) {
     return upper == lower ? 0 : height_over(parts[upper].mesh, parts[lower].mesh);
   };
-  for (std::size_t round = 1; round < parts.size(); ++round)
-    for (std::size_t k = 0; k < parts.size(); ++k)
-      if (height(k, chosen) > 0 && height(chosen, k) == 0) {
-        chosen = k;
-        break;
-      }
+  const auto covers = [&](std::size_t k) {
+    return height(k, chosen) > 0 && height(chosen, k) == 0;
+  };
+  for (std::size_t round = 1, last = 0; round < parts.size(); ++round, last = chosen) {
+    for (std::size_t k = 0; k < parts.size() && chosen == last; ++k)
+      if (covers(k)) chosen = k;
+    if (chosen == last) break;
+  }
   for (std::size_t k = 0; k < parts.size(); ++k)
     result.below = std::max(result.below, height(chosen, k));
   for (std::size_t t = 0, k = 0; t < keep.size(); ++t)

@@ -17,18 +17,28 @@ using Eigen::Vector3d;
 
 constexpr double kMaskStep = 1;  // [mm of parameter]
 
-/// Closed chains of boundary vertices. Where two touch at a vertex each is one of its own, wherever the walk along them
-/// began: what comes back to a vertex is a loop.
-std::vector<std::vector<int>> boundary_loops(const TriangleMesh& region) {
+/// Chains of boundary vertices. Where two touch at a vertex each is one of its own, wherever the walk along them
+/// began: what comes back to a vertex is a loop. Those with ends, as where more than two triangles share an edge or
+/// triangles face each other, come first, and whole.
+std::vector<std::vector<int>> boundary_chains(const TriangleMesh& region) {
   std::multimap<int, int> next;
-  for (const MeshEdge& e : mesh_edges(region))
-    if (e.count == 1) next.emplace(e.forward[0] ? e.a : e.b, e.forward[0] ? e.b : e.a);
+  std::map<int, int> ends;  // edges that lead away from a vertex, less those that lead to it
+  for (const MeshEdge& e : mesh_edges(region)) {
+    if (e.count != 1) continue;
+    const int from = e.forward[0] ? e.a : e.b, to = e.forward[0] ? e.b : e.a;
+    next.emplace(from, to);
+    ++ends[from];
+    --ends[to];
+  }
+  std::vector<int> begins;
+  for (const auto& [vertex, more] : ends) begins.insert(begins.end(), std::max(more, 0), vertex);
   std::vector<std::vector<int>> loops;
   while (!next.empty()) {
-    std::vector<int> walk = {next.begin()->first};
+    std::vector<int> walk = {begins.empty() ? next.begin()->first : begins.back()};
+    if (!begins.empty()) begins.pop_back();
     std::unordered_map<int, std::size_t> place = {
         {walk.front(), 0}};  // in the walk, of each vertex
-    for (auto step = next.begin(); step != next.end(); step = next.find(walk.back())) {
+    for (auto step = next.find(walk.front()); step != next.end(); step = next.find(walk.back())) {
       const int to = step->second;
       next.erase(step);
       const auto [met, fresh] = place.try_emplace(to, walk.size());
@@ -39,8 +49,7 @@ std::vector<std::vector<int>> boundary_loops(const TriangleMesh& region) {
       for (auto vertex = begin + 1; vertex + 1 < walk.end(); ++vertex) place.erase(*vertex);
       walk.erase(begin + 1, walk.end());
     }
-    if (walk.size() > 1)
-      loops.push_back(std::move(walk));  // an end of triangles that face each other
+    if (walk.size() > 1) loops.push_back(std::move(walk));
   }
   return loops;
 }
@@ -107,23 +116,28 @@ double bridged_perimeter(const TriangleMesh& region) {
 }
 
 RegionOutline trace_outline(const TriangleMesh& region, double small_hole) {
-  std::vector<std::vector<int>> loops = boundary_loops(region);
-  std::vector<double> lengths;
-  for (const auto& loop : loops) lengths.push_back(perimeter(region, loop));
-  const double longest = lengths.empty() ? 0 : *std::max_element(lengths.begin(), lengths.end());
+  const std::vector<std::vector<int>> chains = boundary_chains(region);
+  const auto closed = [](const std::vector<int>& chain) { return chain.front() == chain.back(); };
+  double longest = 0, with_ends = 0;
+  for (const std::vector<int>& chain : chains) {
+    const double length = perimeter(region, chain);
+    (closed(chain) ? longest : with_ends) =
+        closed(chain) ? std::max(longest, length) : with_ends + length;
+  }
+  const double rim = std::max(longest, with_ends);
   RegionOutline outline;
-  for (std::size_t k = 0; k < loops.size(); ++k) {
-    const std::vector<int>& loop = loops[k];
-    // Where more than two triangles share an edge the outline falls into chains with ends, which are no holes.
-    const bool closed = loop.front() == loop.back();
-    if (closed && lengths[k] < std::min(small_hole, longest)) {
-      for (std::size_t i = 2; i + 1 < loop.size(); ++i)
-        outline.hole_fans.push_back({loop[0], loop[i], loop[i - 1]});
+  for (const std::vector<int>& chain : chains) {
+    const double length = perimeter(region, chain);
+    const bool hole = closed(chain) && length < rim;
+    if (hole && length < small_hole) {
+      for (std::size_t i = 2; i + 1 < chain.size(); ++i)
+        outline.hole_fans.push_back({chain[0], chain[i], chain[i - 1]});
       ++outline.holes;
       continue;
     }
-    for (std::size_t i = 1; i < loop.size(); ++i) outline.edges.push_back({loop[i - 1], loop[i]});
-    if (closed && lengths[k] < longest) add_hole(region, loop, lengths[k], outline.wide_holes);
+    for (std::size_t i = 1; i < chain.size(); ++i)
+      outline.edges.push_back({chain[i - 1], chain[i]});
+    if (hole) add_hole(region, chain, length, outline.wide_holes);
   }
   return outline;
 }
