@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <new>
 #include <optional>
 #include <string>
@@ -16,6 +17,8 @@
 #include <vector>
 
 #include "condyle/results/hdf5_wire.h"
+#include "condyle/results/line_file.h"
+#include "support/scratch_folder.h"
 
 namespace condyle {
 namespace {
@@ -59,6 +62,33 @@ TEST(Hdf5Process, RefusesAsThatDidAndIsAskedOn) {
   }
   EXPECT_THROW((void)process.ask({Kind::kHas, 0, "no memory", ""}), std::bad_alloc);
   EXPECT_EQ(process.ask({Kind::kHas, 5, "", ""}).number, 5u);
+}
+
+/// How many of this process's open files are this one.
+std::uint64_t times_open(const std::filesystem::path& file) {
+  std::uint64_t count = 0;
+  std::error_code gone;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd"))
+    count += std::filesystem::read_symlink(entry.path(), gone) == file ? 1 : 0;
+  return count;
+}
+
+// A child that outlives its process, which a signal ended, would keep others from its output.
+TEST(Hdf5Process, HoldsNoLockOfTheProcessThatMadeIt) {
+  const std::filesystem::path file = test::fresh_folder("hdf5 process") / "run.h5.journal";
+  {
+    const LineFile journal(file);
+    ASSERT_EQ(times_open(file), 1U);
+    Hdf5Process process("run.h5", [&] {
+      const std::uint64_t there = times_open(file);
+      return [there](const Hdf5Question&) {
+        return Hdf5Answer{.number = there, .texts = {}, .values = {}, .shape = {}};
+      };
+    });
+    EXPECT_EQ(process.ask({Kind::kHas, 0, "", ""}).number, 0U);
+    EXPECT_EQ(times_open(file), 1U);
+  }
+  std::filesystem::remove_all(file.parent_path());
 }
 
 // Of copies that share its stream one could take the answer to another one's question.

@@ -9,7 +9,7 @@
 
 namespace condyle::fuzz {
 
-MemoryFile::MemoryFile(Bytes bytes) : descriptor_(memfd_create("door", MFD_CLOEXEC)) {
+MemoryFile::MemoryFile(Bytes bytes) : descriptor_(memfd_create("door", 0)) {
   const bool written = descriptor_ >= 0 && ::write(descriptor_, bytes.data(), bytes.size()) ==
                                                static_cast<ssize_t>(bytes.size());
   if (!written) throw std::runtime_error("no file in memory");

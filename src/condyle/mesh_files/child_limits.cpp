@@ -1,12 +1,15 @@
 #include "condyle/mesh_files/child_limits.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
+#include <vector>
 
 namespace condyle {
 namespace {
@@ -31,9 +34,23 @@ void limit(decltype(RLIMIT_CPU) resource, double value) {
   setrlimit(resource, &both);
 }
 
+/// As executing another program would: those with O_CLOEXEC.
+void close_files(int channel) {
+  std::vector<int> open;
+  if (DIR* folder = opendir("/proc/self/fd")) {
+    while (const dirent* entry = readdir(folder)) open.push_back(std::atoi(entry->d_name));
+    closedir(folder);
+  }
+  for (const int file : open) {
+    const int flags = file == channel ? -1 : fcntl(file, F_GETFD);
+    if (flags >= 0 && (flags & FD_CLOEXEC) != 0) close(file);
+  }
+}
+
 }  // namespace
 
-void confine(const ChildLimits& limits) {
+void confine(const ChildLimits& limits, int channel) {
+  close_files(channel);
   for (const int signal :
        {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGTERM, SIGINT, SIGXCPU, SIGALRM})
     std::signal(signal, SIG_DFL);

@@ -11,7 +11,9 @@ struct ChildLimits {
 };
 
 /// For the child, first of all. A signal ends it at once and leaves nothing behind: no core, no words on the
-/// terminal. Memory is not limited where sanitizers take all of the address space.
-void confine(const ChildLimits& limits);
+/// terminal. Memory is not limited where sanitizers take all of the address space. Of open files it keeps the `channel` to
+/// the process that made it, and what another program would inherit: the lock on an output ends with the process that took
+/// it, though a child may live for a moment longer.
+void confine(const ChildLimits& limits, int channel);
 
 }  // namespace condyle

@@ -49,7 +49,7 @@ void send(int pipe, const void* data, std::size_t size) {
 }
 
 [[noreturn]] void answer(int pipe, const std::filesystem::path& file, const ChildLimits& limits) {
-  confine(limits);
+  confine(limits, pipe);
   Answer head{.mark = kMark};
   try {
     const ImportedMesh mesh = import_with_assimp(file.string());

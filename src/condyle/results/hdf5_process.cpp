@@ -67,7 +67,7 @@ bool take(std::FILE* stream, Hdf5Question& question) {
 [[noreturn]] void serve(int socket,
                         const ChildLimits& limits,
                         const std::function<Hdf5Process::Answering()>& open) {
-  confine(limits);
+  confine(limits, socket);
   std::FILE *in = fdopen(socket, "r"), *out = fdopen(dup(socket), "w");
   try {
     Hdf5Process::Answering answer;
