@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "condyle/input_error.h"
@@ -148,7 +149,9 @@ void load_source(const Scene& scene, const MeshReader& read, PatchSource& source
       check_is_no_femur(source.mesh, bone_frame(scene.joint->tibia, source));
     }
     if (!needs_axis(scene, source)) return;
-    const TriangleMesh bone = main_parts(mesh).mesh;
+    std::optional<MainParts> parts;
+    if (source.mesh.report.components > 1) parts = main_parts(mesh);
+    const TriangleMesh& bone = parts ? parts->mesh : mesh;
     source.axis =
         fit_condylar_axis(bone, vertex_normals(bone), bone_frame(scene.joint->femur, source));
     check_is_femur(*source.axis);

@@ -19,26 +19,23 @@ constexpr double kAlong = 0.7;                 // cosine of the way there and th
 constexpr double kCovered = 0.4;               // of the vertices
 constexpr std::size_t kVertices = 400;         // that are looked at, about
 
-/// A linked part.
-struct Part {
-  TriangleMesh mesh;
-  int number;
-};
-
-std::vector<Part> large_parts(const TriangleMesh& mesh, const std::vector<int>& component) {
+/// The numbers of the linked parts that may be sheets; the largest comes first.
+std::vector<int> large_parts(const TriangleMesh& mesh, const std::vector<int>& component) {
   const int count = 1 + *std::max_element(component.begin(), component.end());
   std::vector<double> areas(static_cast<std::size_t>(count), 0);
   for (std::size_t t = 0; t < component.size(); ++t)
     areas[component[t]] += triangle_area(mesh, mesh.triangles[t]).norm();
   const double least = kLeastArea * std::accumulate(areas.begin(), areas.end(), 0.0);
-  std::vector<Part> parts;
-  for (int k = 0; k < count; ++k) {
-    if (k > 0 && areas[k] < least) continue;
-    std::vector<bool> of_part(component.size());
-    for (std::size_t t = 0; t < of_part.size(); ++t) of_part[t] = component[t] == k;
-    parts.push_back({sub_mesh(mesh, of_part).mesh, k});
-  }
-  return parts;
+  std::vector<int> numbers;
+  for (int k = 0; k < count; ++k)
+    if (k == 0 || areas[k] >= least) numbers.push_back(k);
+  return numbers;
+}
+
+TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<int>& component, int number) {
+  std::vector<bool> keep(component.size());
+  for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = component[t] == number;
+  return sub_mesh(mesh, keep).mesh;
 }
 
 /// How far a sheet lies over another one in the middle of what it covers of that; 0 where it does not [mm].
@@ -61,6 +58,27 @@ double height_over(const TriangleMesh& sheet, const TriangleMesh& lower) {
   return *middle;
 }
 
+/// The heights of each sheet over each other one [mm].
+Eigen::MatrixXd heights_of(const std::vector<TriangleMesh>& sheets) {
+  const auto count = static_cast<Eigen::Index>(sheets.size());
+  Eigen::MatrixXd heights = Eigen::MatrixXd::Zero(count, count);
+  for (Eigen::Index upper = 0; upper < count; ++upper)
+    for (Eigen::Index lower = 0; lower < count; ++lower)
+      if (upper != lower) heights(upper, lower) = height_over(sheets[upper], sheets[lower]);
+  return heights;
+}
+
+/// From the first sheet to one that covers it, and on.
+Eigen::Index outermost(const Eigen::MatrixXd& heights) {
+  Eigen::Index chosen = 0;
+  for (Eigen::Index round = 1, last = 0; round < heights.rows(); ++round, last = chosen) {
+    for (Eigen::Index k = 0; k < heights.rows() && chosen == last; ++k)
+      if (heights(k, last) > 0 && heights(last, k) == 0) chosen = k;
+    if (chosen == last) break;
+  }
+  return chosen;
+}
+
 }  // namespace
 
 OutermostPart outermost_part(const TriangleMesh& mesh, const std::vector<bool>& keep) {
@@ -68,23 +86,18 @@ OutermostPart outermost_part(const TriangleMesh& mesh, const std::vector<bool>& 
   const SubMesh all = sub_mesh(mesh, keep);
   if (all.mesh.triangles.empty()) return result;
   const std::vector<int> component = find_components(all.mesh, TriangleLinks(all.mesh));
-  const std::vector<Part> parts = large_parts(all.mesh, component);
-  std::size_t chosen = 0;
-  const auto height = [&](std::size_t upper, std::size_t lower) {
-    return upper == lower ? 0 : height_over(parts[upper].mesh, parts[lower].mesh);
-  };
-  const auto covers = [&](std::size_t k) {
-    return height(k, chosen) > 0 && height(chosen, k) == 0;
-  };
-  for (std::size_t round = 1, last = 0; round < parts.size(); ++round, last = chosen) {
-    for (std::size_t k = 0; k < parts.size() && chosen == last; ++k)
-      if (covers(k)) chosen = k;
-    if (chosen == last) break;
+  const std::vector<int> numbers = large_parts(all.mesh, component);
+  int number = numbers.front();
+  if (numbers.size() > 1) {
+    std::vector<TriangleMesh> sheets;
+    for (const int k : numbers) sheets.push_back(part_of(all.mesh, component, k));
+    const Eigen::MatrixXd heights = heights_of(sheets);
+    const Eigen::Index chosen = outermost(heights);
+    number = numbers[static_cast<std::size_t>(chosen)];
+    result.below = heights.row(chosen).maxCoeff();
   }
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    result.below = std::max(result.below, height(chosen, k));
   for (std::size_t t = 0, k = 0; t < keep.size(); ++t)
-    if (keep[t]) result.keep[t] = component[k++] == parts[chosen].number;
+    if (keep[t]) result.keep[t] = component[k++] == number;
   return result;
 }
 
