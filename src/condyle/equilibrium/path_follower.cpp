@@ -138,9 +138,9 @@ bool PathFollower::try_step() {
     const bool at_corner = near && system_.distance(point_, *next) < 2 * length;
     if (at_corner) {
       (void)look_ahead(*next, length, ahead);
-    } else if (system_.product(next_tangent, tangent_) <= 0.8 ||
-               std::abs(next->value - point_.value) >= kMostOfStep * largest_step_ ||
-               !look_ahead(*next, length, ahead)) {
+    } else if (!(system_.product(next_tangent, tangent_) > 0.8 &&
+                 std::abs(next->value - point_.value) < kMostOfStep * largest_step_ &&
+                 look_ahead(*next, length, ahead))) {
       // A path that turns much within a step was perhaps left for another, and beyond a corner its value may run away.
       continue;
     }
