@@ -54,8 +54,8 @@ last_or_0() {
 
 larger() { echo $(($1 > $2 ? $1 : $2)); }
 
-# one_run DOOR SECONDS RUNS: adds what it did to the numbers of the row.
-found=0
+# one_run DOOR SECONDS RUNS: adds what it did to the numbers of the row. One that is interrupted is no find, and the last.
+found=0 interrupted=no
 one_run() {
   local door=$1 status=0 more=()
   mkdir -p "$kept/$door"
@@ -64,9 +64,11 @@ one_run() {
   "$build/condyle_fuzz" "--door=$door" -timeout=10 -rss_limit_mb=2048 -detect_leaks=1 -entropic=0 -close_fd_mask=1 -print_funcs=0 \
     -print_final_stats=1 "-max_total_time=$(larger 1 "$2")" "-runs=$3" "-artifact_prefix=$kept/$door-" \
     "$kept/$door" "tests/fuzz/$door" "${more[@]}" >"$log" 2>&1 || status=$?
-  if [ "$status" -ne 0 ]; then
+  if [ "$status" -eq 72 ]; then  # libFuzzer's, after SIGINT and SIGTERM
+    interrupted=yes
+  elif [ "$status" -ne 0 ]; then
     finds=1 found=1
-    grep -aE 'ERROR|what\(\)|SUMMARY' "$log" | head -3 >&2
+    grep -aE 'ERROR|what\(\)|SUMMARY' "$log" | head -3 >&2 || true
     sed -nE "s|.*Test unit written to (.*)|repeat: $build/condyle_fuzz --door=$door \1|p" "$log" >&2
   fi
   executions=$((executions + $(last_or_0 '^stat::number_of_executed_units: *([0-9]+)$')))
@@ -82,6 +84,7 @@ fuzz() {
     one_run "$door" $((60 * minutes)) "$runs"
   else
     for ((round = 0; round < rounds && finds == 0 && (runs < 0 || executions < runs); ++round)); do
+      [ $interrupted = no ] || break
       rm -rf "${kept:?}/$door"
       one_run "$door" $((60 * minutes / rounds)) $((runs < 0 ? -1 : runs - executions))
     done
@@ -95,7 +98,7 @@ if [ "${words[0]:-all}" != all ]; then
 else
   for folder in tests/fuzz/*/; do
     door=$(basename "$folder")
-    [ "$door" = whole_results ] || fuzz "$door"
+    [ "$door" = whole_results ] || [ $interrupted = yes ] || fuzz "$door"
   done
 fi
 [ "$found" -eq 0 ] || exit 2
