@@ -262,7 +262,7 @@ class OsimReader {
   /// Of the child that is neither its coordinates nor its axis; empty where there is none.
   [[nodiscard]] static std::string function_kind(const xml_node& axis) {
     for (const xml_node child : axis.children()) {
-      const std::string kind = child.name();
+      std::string kind = child.name();
       if (!kind.empty() && kind != "coordinates" && kind != "axis") return kind;
     }
     return "";

@@ -97,7 +97,8 @@ std::string direction_letter(const Anatomy& anatomy, const Eigen::Vector3d& dire
   for (int i = 1; i < 3; ++i) {
     if (std::abs(direction.dot(axes[i])) > std::abs(direction.dot(axes[best]))) best = i;
   }
-  const auto letter = static_cast<std::size_t>(2 * best + (direction.dot(axes[best]) < 0 ? 1 : 0));
+  const std::size_t letter =
+      2 * static_cast<std::size_t>(best) + (direction.dot(axes[best]) < 0 ? 1 : 0);
   return anatomy.known ? kAnatomical[letter] : kAxes[letter];
 }
 

@@ -131,7 +131,7 @@ void check_key_depth(const std::string& text, const std::string& file) {
   int line = 1, dots = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const std::size_t end = end_of_words(text, i);
-    line += static_cast<int>(std::count(text.begin() + i, text.begin() + end, '\n'));
+    line += static_cast<int>(std::ranges::count(std::string_view(text).substr(i, end - i), '\n'));
     i = end;
     if (text[i] == '\n') ++line;
     if (std::string_view("\n,=[]{}").find(text[i]) != std::string_view::npos) dots = 0;

@@ -125,7 +125,7 @@ double read_angle(const Section& section, const std::string& key, const Scene& s
 }
 
 Eigen::Vector3d read_rotation(const Section& section, const std::string& key, const Scene& scene) {
-  const Eigen::Vector3d rotation = scene.angle_to_rad * section.vector(key, "a rotation vector");
+  Eigen::Vector3d rotation = scene.angle_to_rad * section.vector(key, "a rotation vector");
   if (!is_usable_angle(rotation.norm()))
     section.fail(key, "a rotation vector of at most one turn (suspect [units] angle)");
   return rotation;

@@ -60,6 +60,7 @@ class Ledger {
     std::optional<std::size_t> pose;
     Check check;
     std::string element;
+    // NOLINTNEXTLINE(modernize-use-nullptr): the zero of a comparison is no pointer.
     auto operator<=>(const FaultKey&) const = default;
   };
   std::optional<std::size_t> pose_;

@@ -87,8 +87,9 @@ double mask_distance(const PatchData& patch, double u, double v) {
   const double t = std::clamp((v - box.v0) / (box.v1 - box.v0), 0.0, 1.0) * patch.mask_nv;
   const int i = parts_of(std::floor(s), 0, patch.mask_nu - 1),
             j = parts_of(std::floor(t), 0, patch.mask_nv - 1);
-  const auto corner = [&](int a, int b) {
-    const auto row = static_cast<std::size_t>(i + a), column = static_cast<std::size_t>(j + b);
+  const auto corner = [&](std::size_t a, std::size_t b) {
+    const std::size_t row = static_cast<std::size_t>(i) + a,
+                      column = static_cast<std::size_t>(j) + b;
     return patch.mask[row * (static_cast<std::size_t>(patch.mask_nv) + 1) + column];
   };
   const double x = s - i, y = t - j;
