@@ -55,7 +55,7 @@ last_or_0() {
 larger() { echo $(($1 > $2 ? $1 : $2)); }
 
 # one_run DOOR SECONDS RUNS: adds what it did to the numbers of the row. One that is interrupted is no find, and the last.
-found=0 interrupted=no
+found=0 interrupted=0
 one_run() {
   local door=$1 status=0 more=()
   mkdir -p "$kept/$door"
@@ -65,7 +65,7 @@ one_run() {
     -print_final_stats=1 "-max_total_time=$(larger 1 "$2")" "-runs=$3" "-artifact_prefix=$kept/$door-" \
     "$kept/$door" "tests/fuzz/$door" "${more[@]}" >"$log" 2>&1 || status=$?
   if [ "$status" -eq 72 ]; then  # libFuzzer's, after SIGINT and SIGTERM
-    interrupted=yes
+    interrupted=1
   elif [ "$status" -ne 0 ]; then
     finds=1 found=1
     grep -aE 'ERROR|what\(\)|SUMMARY' "$log" | head -3 >&2 || true
@@ -83,8 +83,7 @@ fuzz() {
   if [ "$rounds" -eq 0 ]; then
     one_run "$door" $((60 * minutes)) "$runs"
   else
-    for ((round = 0; round < rounds && finds == 0 && (runs < 0 || executions < runs); ++round)); do
-      [ $interrupted = no ] || break
+    for ((round = 0; round < rounds && finds == 0 && interrupted == 0 && (runs < 0 || executions < runs); ++round)); do
       rm -rf "${kept:?}/$door"
       one_run "$door" $((60 * minutes / rounds)) $((runs < 0 ? -1 : runs - executions))
     done
@@ -98,7 +97,7 @@ if [ "${words[0]:-all}" != all ]; then
 else
   for folder in tests/fuzz/*/; do
     door=$(basename "$folder")
-    [ "$door" = whole_results ] || [ $interrupted = yes ] || fuzz "$door"
+    [ "$door" = whole_results ] || [ "$interrupted" -eq 1 ] || fuzz "$door"
   done
 fi
 [ "$found" -eq 0 ] || exit 2
